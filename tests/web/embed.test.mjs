@@ -95,7 +95,7 @@ test('a page can control the element and receives its events', options, () => em
             document.addEventListener(type, event => heard.push([type, event.detail]));
     </script>`, async page => {
         await page.waitForFunction(() => globalThis.heard.some(([type]) => type === 'petri-error'));
-        assert.match(await page.textContent(within('#message')), /cannot read nothing\.fl: the server returned 404/);
+        assert.match(await page.textContent(within('#message')), /cannot read nothing\.fl: the server returned status 404/);
         const done = await page.evaluate(async script => {
             const dish = document.createElement('petri-dish');
             dish.setAttribute('files', 'm.fl');

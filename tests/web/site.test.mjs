@@ -87,7 +87,7 @@ test('the differences from Flitter are documented, and the example runs', ways, 
 test('each physics node has its attributes with units, and a dish that runs', ways, () => visit('physics.html', async page => {
     const { nodes } = JSON.parse(readFileSync(join(folder, '../web-tables.json'), 'utf8')), all = read('nodes.html');
     // Symbols in formulas, and units.
-    assert.match(all, /in your units of mass·length\/time²/);
+    assert.match(all, /the unit of F is mass·length\/time²/);
     const units = plain(read('physics.html').split('<h2 id="units-and-axes">')[1].split('<h2 ')[0]);
     for (const quantity of ['time', 'length', 'mass', 'charge', 'velocity', 'force'])
         assert.ok(units.includes(`\n${quantity}\n`), quantity);
