@@ -72,7 +72,7 @@ void sha256_end(Sha256 *hash, char digits[SHA256_DIGITS]) {
     char size[8];
     for (int i = 0; i < 8; i++)
         size[i] = (char)(bits >> (56 - 8 * i));
-    sha256_add(hash, padding, 1 + (119 - hash->length % 64) % 64); // pads to 8 bytes before the end of a block
+    sha256_add(hash, padding, 1 + (119 - hash->length % 64) % 64); // leaves 8 bytes of the last block for the size
     sha256_add(hash, size, sizeof size);
     for (int i = 0; i < SHA256_DIGITS; i++)
         digits[i] = "0123456789abcdef"[hash->state[i / 8] >> (28 - 4 * (i % 8)) & 15];

@@ -32,7 +32,7 @@ typedef struct SceneLight {
 
 // The properties that determine the triangles of a model.
 typedef struct SceneModel {
-    uint64_t source; // for a `!model`: hash of the file's name and version, or of its lists; for other kinds: 0
+    uint64_t source; // for a `!model`: hash of its file's name and version, or of its vectors; for other kinds: 0
     double snap;
     uint32_t segments;
     uint8_t kind; // NodeKind

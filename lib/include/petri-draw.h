@@ -171,8 +171,8 @@ PETRI_API PetriStatus petri_painter_present(PetriPainter *painter, PetriPicture 
 PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
 
 // A display list (petri_picture_display_list) describes a picture as an array of numbers, for hosts that draw it
-// themselves. It starts with the width and height of the picture, which also define its units. Commands follow. Each
-// command is a kind from the list below, then its operands. In the list, the operands follow the colon, in order.
+// themselves. It starts with the width and height of the picture, in the units of all other lengths. Commands follow.
+// Each command is a kind from the list below, then its operands. In the list, the operands follow the colon, in order.
 //
 // A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. A string is its length,
 // then that many code points. A path is its length, then that many numbers: path elements (`PETRI_PATH_*`) with their

@@ -127,7 +127,8 @@ KERNEL uint64_t items_before(const Singles *s, size_t lane) {
 
 #if LANES == 1
 
-// S · normal(seed)[index], where index increases by one for each component of each particle, over all steps of a frame.
+// The force is strength · normal(seed)[index]. `index` increases by one for each component of each particle. It
+// continues to count from step to step within a frame.
 KERNEL void single_random(const Singles *s) {
     uint64_t item = items_before(s, 0);
     for (size_t k = 0; k < s->n; k++)

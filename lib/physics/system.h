@@ -42,7 +42,7 @@ typedef enum PhysForceKind {
         PHYS_FORCE_KINDS,
 } PhysForceKind;
 
-// One force applier or barrier. If the comment on a field begins with kinds of forces, other kinds ignore the field.
+// One force applier or barrier. Some fields are used only by the kinds of forces that their comments name first.
 // phys_add_force copies the vectors.
 typedef struct PhysForce {
     PhysForceKind kind;

@@ -29,7 +29,7 @@ struct Expr {
     // Dependencies of the value, for the simplifier (fold.c)
     bool dynamic;      // the value may change from frame to frame
     bool uses_closure; // the value depends on the running closure itself or on its captures
-    // FOR: the nodes that the loop creates become children of a node, so they can be stored in batches.
+    // Used only for loops: true if the nodes of the loop become children of a node. They can then be batched.
     bool can_batch;
     uint32_t lowest_slot; // lowest slot that the expression reads; UINT32_MAX: none
     Origin origin;

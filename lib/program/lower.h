@@ -10,7 +10,8 @@ typedef struct LowerOptions {
     Arena *arena;   // memory of the code
     Arena *values;  // memory of values that the code refers to; they may live longer than the code
     Arena *scratch; // temporary data
-    // Number of the program's next state lookup, increased for each lookup; NULL: lookups are not numbered.
+    // Points to a counter of the program's state lookups. Each lookup gets its value as a number and increases it.
+    // NULL: lookups are not numbered.
     uint32_t *lookup_count;
     bool lines; // record the source line of each instruction
 } LowerOptions;
