@@ -35,8 +35,12 @@
 //       │   mirror_store:             so entries get copies first                   │      the same particles
 //       │   out of memory, or keys or numbers do not match                          │
 //       └───────────────────────────────────────────────────────────────────────────┘
-//         mirror_reuse: owner modified, run restarted, other particles, or update aborted;
-//         a mistake in the tree, which must be reported in each frame; system absent from a frame
+//         mirror_reuse: other particles, or the update was aborted
+//         mirror_remove: the run was restarted
+//         mirror_leave: the system is absent from a frame
+//         update_system: the tree has a mistake, which must be reported in each frame
+//
+//   If the owner was modified, or the number of dimensions has changed, mirror_open goes from CURRENT to OPEN directly.
 //
 //   STALE    The tree must be read from scratch, with positions and velocities from the state, which is authoritative.
 //   OPEN     A description was begun and not finished: some entries reference the previous description.

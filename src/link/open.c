@@ -84,8 +84,8 @@ static bool check_output(const char *file) {
     return good;
 }
 
-// Reports whether the state has the hash of the link. Without --output, also prints the hash to standard output like
-// petri run. Returns the exit status.
+// Reports whether the hash of the state equals the hash in the link. Without --output, also prints the state's hash to
+// standard output, like `petri run --print hash`. Returns the exit status.
 static int compare_state(const LinkSession *link_session, const Options *options) {
     const Linked *linked = &link_session->linked;
     SCOPED_BYTE_BUFFER text = {0};

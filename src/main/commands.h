@@ -1,5 +1,6 @@
-// commands.h: the commands of this program. petri-pictures has all commands, petri only those
-// that never draw, and petri-lsp only `lsp`.
+// commands.h: the table of commands, which differs between programs. petri-pictures has all commands. petri and
+// petri-ranks have only those that need neither the drawing libraries nor the prompt nor json-c; petri executes
+// petri-pictures or petri-lsp for the others. petri-lsp has only `lsp`.
 #ifndef PETRI_SRC_COMMANDS_H
 #define PETRI_SRC_COMMANDS_H
 

@@ -54,7 +54,7 @@ static void compare_states(const char *node, const char *attribute, const char *
 typedef struct Row {
     const char *node;
     const char *attribute;
-    const char *fallback; // "": the attribute is omitted
+    const char *fallback; // the default, which must act like omitting the attribute; "": there is none to test
     const char *other;    // a value that gives a different state
 } Row;
 
