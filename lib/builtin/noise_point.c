@@ -2,8 +2,8 @@
 //
 // A point is in a cell of the skewed lattice. Each cell is divided into regions: A at the base corner, B at the far
 // corner, C and D between. Which vertices influence the point depends on its region. Each region has a fixed set of
-// core vertices. The position of the point in the region determines a few extra vertices outside the cell. The noise is
-// the sum of the contributions of all these vertices, in the order of the spec.
+// core vertices. The position of the point in the region determines a few extra vertices: other corners of the cell, or
+// vertices outside it. The noise is the sum of the contributions of all these vertices, in the order of the spec.
 #include "builtin/noise_point.h"
 
 #include "base/number.h"

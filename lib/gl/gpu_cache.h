@@ -52,7 +52,7 @@ SceneTarget *gpu_cache_target(Gl *gl, int width, int height, int samples, GlForm
 // record `first`.
 void gpu_cache_bind_instances(const GpuCache *store, const SceneShape *shape, uint32_t first);
 
-// The vertex shader's attributes of an instance.
+// One record of the instance buffer: the attributes that the vertex shader reads for an instance.
 typedef struct SceneRecord {
     float matrix[16];
     float cofactors[9];

@@ -41,7 +41,7 @@ void integrate_all_one(IntegratePass *pass, size_t first, size_t end) {
 
 #else
 
-// Returns the lanes whose particles must be reflected by some barrier, because x ≥ 0 does not hold (x as in barrier.c).
+// Returns the lanes whose particles some barrier must reflect: x of barrier.c, the height above it, is negative or NaN.
 KERNEL Mask lanes_behind_barrier(const IntegratePass *pass, size_t n, const Block *block) {
     Mask clear = block->live;
     const Force *const *barriers = phys_barriers(pass);

@@ -29,8 +29,9 @@ bool rpc_answer(Json *id, Json *result);
 bool rpc_send_error(Json *id, int code, const char *text);
 bool rpc_notify(const char *method, Json *params);
 
-// JSON. json_put* take ownership of the value and return the object. json_get, json_path and json_text return borrowed
-// values, or NULL if there is no such member or `object` is NULL.
+// JSON. json_put takes ownership of `value`; json_put_text copies the text. All json_put* return the object. json_get,
+// json_path and json_text return borrowed values, or NULL if there is no such member or `object` is NULL. json_text
+// also returns NULL if the member is not a string.
 Json *json_get(const Json *object, const char *key);
 Json *json_path(const Json *object, const char *keys); // keys separated by dots
 const char *json_text(const Json *object, const char *key);

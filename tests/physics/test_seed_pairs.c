@@ -1,4 +1,5 @@
-// test_seed_pairs.c: forces between particles in scripts, with results calculated by hand from the seed's formulas.
+// test_seed_pairs.c: forces between particles in scripts, with results calculated by hand from the formulas of the seed
+// document (SEED.md).
 #include "cases.h"
 
 // Two particles of mass 1 in one dimension, with the given attributes.

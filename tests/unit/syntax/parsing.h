@@ -31,7 +31,8 @@ static inline bool accepts(World *world, const char *text) {
     return accepts_str(world, str_from(text));
 }
 
-// Appends a tree on one line as `(kind name child child)`. Literals are written as printed; missing children are `_`.
+// Appends a tree on one line as `(kind name child child)`. Literals are written as petri prints their values; missing
+// children are `_`.
 static inline void add_shape(World *world, Text *out, const Ast *ast) {
     if (!ast) {
         text_add_c(out, "_");
