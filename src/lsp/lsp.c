@@ -311,8 +311,8 @@ static bool handle_message(Server *server, const Json *message) {
 }
 
 static void check_changed_documents(Server *server) {
-    for (int pass = 0; pass < 2;
-         pass++) // the second pass makes full checks of documents that exceeded the small work limit in the first pass
+    // The second pass makes full checks of documents that exceeded the small work limit in the first pass.
+    for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < server->document_count && !rpc_has_input(&server->input); i++)
             if (server->documents[i]->unchecked)
                 diagnostics_publish(server, server->documents[i]);
