@@ -32,7 +32,7 @@ for file in ../away/secret.txt link.txt folder/secret.txt /etc/passwd sub/../../
     petri run home/read.fl --frames 1 --print tree
     check "a script does not read $file" grep -qx '!n' out
     check "the warning has a position and the reason: $file" grep -q 'read.fl:1:6: warning: .*scripts are not allowed to read there' err
-    folder=$(sed -n "s/.*allow it with '--allow-read \([^']*\)'.*/\1/p" err | sed 's:/proc/.*:/proc:')
+    folder=$(sed -n "s/.*to allow it, use '--allow-read \([^']*\)'.*/\1/p" err | sed 's:/proc/.*:/proc:')
     petri run home/read.fl --frames 1 --print tree --allow-read "$folder"
     check "the folder in the hint allows reading: --allow-read $folder" grep -q '^!n a=' out
     petri run home/read.fl --frames 1 --print tree --allow-read all
@@ -96,7 +96,7 @@ if [ "$status" -eq 0 ]; then # this build has Cairo
         record "$file"
         check "a script does not write $file" status_is 1
         check "the error has a position and the option that allows it: $file" \
-            [ "$(grep -c "record.fl:2:1[0-9]: error: !record: cannot write .*allow it with '--allow-write $work[/a-z]*'" err)" -eq 1 ]
+            [ "$(grep -c "record.fl:2:1[0-9]: error: !record: cannot write .*to allow it, use '--allow-write $work[/a-z]*'" err)" -eq 1 ]
         ls -l away >after
         check "nothing is written outside the folder: $file" eval 'cmp -s before after && [ ! -e new.png ]'
     done
