@@ -106,20 +106,25 @@ bool byte_buffer_read(ByteBuffer *text, int fd, size_t max_bytes) {
     return true;
 }
 
-const char *byte_buffer_read_regular(ByteBuffer *text, int fd, size_t max_bytes) {
+// Returns NULL if the file can be read as a whole, else the reason.
+static const char *check_file(int fd, size_t max_bytes) {
     struct stat about;
-    const char *problem = NULL;
-    size_t before = text->length;
     if (fd < 0 || fstat(fd, &about) != 0)
+        return strerror(errno);
+    if (S_ISDIR(about.st_mode))
+        return strerror(EISDIR);
+    if (!S_ISREG(about.st_mode))
+        return "it is not a regular file";
+    return (uintmax_t)about.st_size > max_bytes ? "it is too large" : NULL;
+}
+
+const char *byte_buffer_read_regular(ByteBuffer *text, int fd, size_t max_bytes) {
+    size_t before = text->length, end = max_bytes > SIZE_MAX - before ? SIZE_MAX : before + max_bytes;
+    const char *problem = check_file(fd, max_bytes);
+    if (!problem && !byte_buffer_read(text, fd, end))
         problem = strerror(errno);
-    else if (!S_ISREG(about.st_mode))
-        problem = S_ISDIR(about.st_mode) ? strerror(EISDIR) : "it is not a regular file";
-    else if ((uintmax_t)about.st_size > max_bytes)
+    else if (!problem && text->length > end) // the file has grown since check_file
         problem = "it is too large";
-    else if (!byte_buffer_read(text, fd, max_bytes == SIZE_MAX ? SIZE_MAX : before + max_bytes))
-        problem = strerror(errno);
-    else if (text->length - before > max_bytes)
-        problem = "it is too large"; // the file has grown since fstat
     if (fd >= 0)
         close(fd);
     return problem;
