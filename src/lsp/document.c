@@ -63,13 +63,13 @@ Document *document_new(const char *uri, Str text, int64_t version) {
     return document;
 }
 
-void document_free_diagnostics(DocumentDiagnostic *diagnostics, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        free(diagnostics[i].text);
-        free(diagnostics[i].hint);
-        free(diagnostics[i].code);
+void diagnostic_list_free(DiagnosticList *list) {
+    for (size_t i = 0; i < list->count; i++) {
+        free(list->items[i].text);
+        free(list->items[i].hint);
+        free(list->items[i].code);
     }
-    free(diagnostics);
+    free(list->items);
 }
 
 static void forget_links(Document *document) {
@@ -81,7 +81,7 @@ static void forget_links(Document *document) {
 }
 
 void document_free(Document *document) {
-    document_free_diagnostics(document->diagnostics, document->diagnostic_count);
+    diagnostic_list_free(&document->diagnostics);
     forget_links(document);
     texts_free(&document->used);
     free(document->uri);

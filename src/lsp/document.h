@@ -15,6 +15,11 @@ typedef struct DocumentDiagnostic {
     char *code; // NULL: none
 } DocumentDiagnostic;
 
+typedef struct DiagnosticList {
+    DocumentDiagnostic *items;
+    size_t count;
+} DiagnosticList;
+
 // A file that a script imports or includes.
 typedef struct Link {
     size_t token;  // index of the string's token
@@ -42,8 +47,7 @@ typedef struct Document {
     size_t name_count;
     Link *links;
     size_t link_count;
-    DocumentDiagnostic *diagnostics;
-    size_t diagnostic_count;
+    DiagnosticList diagnostics;
     TextList used;   // files that the last check read
     Json *published; // diagnostics of the last check: maps the URI of each file to a list
     Json *values;    // maps the names of constants to their values; NULL: not evaluated yet
@@ -56,7 +60,7 @@ void document_set_text(Document *document, Str text);
 void document_change(Document *document, const Json *change, bool utf8);
 // Updates tokens and names if they are outdated.
 void document_read(Document *document, PetriSession *session);
-void document_free_diagnostics(DocumentDiagnostic *diagnostics, size_t count);
+void diagnostic_list_free(DiagnosticList *list);
 
 // Positions. A position after the end of the text is moved to the end.
 size_t document_offset(const Document *document, const Json *position, bool utf8);

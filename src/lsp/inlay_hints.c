@@ -226,9 +226,9 @@ Json *answer_actions(const RequestContext *request, const char **problem) {
     if (document->unchecked && !document->exceeded)
         diagnostics_publish(request->server, document);
     // While a full check is pending, the positions of the last diagnostics may be wrong.
-    for (size_t i = 0; !document->unchecked && i < document->diagnostic_count; i++)
-        if (document->diagnostics[i].start <= to && document->diagnostics[i].end >= from)
-            add_action(request, list, &document->diagnostics[i]);
+    for (size_t i = 0; !document->unchecked && i < document->diagnostics.count; i++)
+        if (document->diagnostics.items[i].start <= to && document->diagnostics.items[i].end >= from)
+            add_action(request, list, &document->diagnostics.items[i]);
     return list;
 }
 

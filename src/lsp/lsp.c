@@ -3,7 +3,6 @@
 // The server has one thread. It reads and answers messages, and checks changed documents when no message is waiting.
 #include "lsp/lsp.h"
 
-#include "base/file.h"
 #include "base/source.h"
 #include "lsp/server.h"
 
@@ -12,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MAX_READ = 4 << 20, MAX_FILE_BYTES = 16 << 20 };
+enum { MAX_READ = 4 << 20 };
 
 Document *server_document(const Server *server, const char *uri) {
     for (size_t i = 0; uri && i < server->document_count; i++)
@@ -30,23 +29,11 @@ static Document *find_open_document(const Server *server, const char *canonical)
 
 // Allows reading below the current folder and the folders of --allow-read, as a session does.
 static void init_access(Server *server) {
-    const TextList *names = &server->options->read_folders;
-    Str *folders = memory_calloc((names->count + 1) * sizeof *folders);
-    uint32_t count = 0;
-    for (size_t i = 0; i <= names->count; i++) {
-        char resolved[PATH_MAX];
-        if (file_resolve(i == 0 ? "." : names->items[i - 1], resolved))
-            folders[count++] = str_from(memory_strdup(resolved));
-    }
+    arena_init(&server->arena, "file access", SIZE_MAX);
     server->access.no_files = server->options->no_files;
-    server->access.folders[FILE_ACCESS_READ] = folders;
-    server->access.counts[FILE_ACCESS_READ] = count;
-}
-
-static void free_access(Server *server) {
-    for (uint32_t i = 0; i < server->access.counts[FILE_ACCESS_READ]; i++)
-        free((char *)server->access.folders[FILE_ACCESS_READ][i].bytes);
-    free((Str *)server->access.folders[FILE_ACCESS_READ]);
+    file_access_add(&server->arena, &server->access, FILE_ACCESS_READ, (const char *const[]){".", NULL});
+    file_access_add(&server->arena, &server->access, FILE_ACCESS_READ,
+                    (const char *const *)server->options->read_folders.items);
 }
 
 Document *server_file(Server *server, const char *path, const Document *main, bool *read) {
@@ -61,8 +48,8 @@ Document *server_file(Server *server, const char *path, const Document *main, bo
     SCOPED_TEXT own = memory_strndup(folder.bytes, folder.len > 1 ? folder.len - 1 : folder.len);
     FileAccess access = server->access;
     access.script_folder = main->is_file ? str_from(own) : (Str){0};
-    *read =
-        !byte_buffer_read_regular(&text, file_access_open(&access, canonical, O_RDONLY | O_NONBLOCK), MAX_FILE_BYTES);
+    *read = !byte_buffer_read_regular(&text, file_access_open(&access, canonical, O_RDONLY | O_NONBLOCK),
+                                      SERVER_MAX_FILE_BYTES);
     if (!*read)
         return NULL;
     SCOPED_TEXT uri = uri_of(canonical);
@@ -343,7 +330,7 @@ int lsp_serve(const CommandContext *host, Options *options) {
         document_free(server.documents[i]);
     free(server.documents);
     texts_free(&server.roots);
-    free_access(&server);
+    arena_free(&server.arena);
     byte_buffer_free(&server.input);
     petri_close(&server.session);
     petri_close(&server.quick);

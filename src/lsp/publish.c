@@ -26,9 +26,9 @@ static Json *diagnostic_json(const Server *server, const Document *document, con
 }
 
 static void store_diagnostic(Document *document, const PetriDiagnostic *diagnostic, size_t start, size_t end) {
-    document->diagnostics =
-        memory_realloc(document->diagnostics, (document->diagnostic_count + 1) * sizeof *document->diagnostics);
-    document->diagnostics[document->diagnostic_count++] = (DocumentDiagnostic){
+    DiagnosticList *list = &document->diagnostics;
+    list->items = memory_realloc(list->items, (list->count + 1) * sizeof *list->items);
+    list->items[list->count++] = (DocumentDiagnostic){
         .level = diagnostic->level,
         .start = start,
         .end = end,
@@ -106,8 +106,7 @@ static void publish_changes(Server *server, const Json *now, Json *before) {
 
 // Checks a document and stores its diagnostics in server->found and in the document.
 static PetriStatus check_document(Server *server, Document *document, PetriSession *session) {
-    document->diagnostics = NULL;
-    document->diagnostic_count = 0;
+    document->diagnostics = (DiagnosticList){.count = 0};
     texts_free(&document->used);
     document->used = (TextList){0};
     server->checking = true;
@@ -122,18 +121,17 @@ static PetriStatus check_document(Server *server, Document *document, PetriSessi
 
 void diagnostics_publish(Server *server, Document *document) {
     bool full = document->exceeded;
-    Document last = *document;
+    DiagnosticList last = document->diagnostics;
     PetriStatus status = check_document(server, document, full ? server->session : server->quick);
-    bool complete = status != PETRI_INTERRUPTED && (status != PETRI_LIMIT_EXCEEDED || full);
-    DocumentDiagnostic *dropped = complete ? last.diagnostics : document->diagnostics;
-    document_free_diagnostics(dropped, complete ? last.diagnostic_count : document->diagnostic_count);
-    if (!complete) { // keeps the diagnostics of the last complete check
-        document->diagnostics = last.diagnostics;
-        document->diagnostic_count = last.diagnostic_count;
+    if (status == PETRI_INTERRUPTED || (status == PETRI_LIMIT_EXCEEDED && !full)) {
+        // The check is incomplete, so the diagnostics of the last complete check are kept.
+        diagnostic_list_free(&document->diagnostics);
+        document->diagnostics = last;
         document->exceeded = true;
         json_object_put(server->found);
         return;
     }
+    diagnostic_list_free(&last);
     document->unchecked = false;
     Json *before = document->published;
     document->published = server->found;

@@ -6,11 +6,14 @@
 #include "cli/options.h"
 #include "lsp/document.h"
 
+enum { SERVER_MAX_FILE_BYTES = 16 << 20 }; // maximum size of a file that is not open in the editor
+
 typedef struct Server {
     const CommandContext *host;
     Options *options;
     PetriSession *session; // session in which documents are tokenised and checked
     PetriSession *quick;   // session for first checks, with a small work limit
+    Arena arena;           // holds the folders of `access`
     FileAccess access;     // files that scripts may read, apart from their own folders
     ByteBuffer input;      // received bytes of messages that have not been handled
     size_t read;           // number of bytes that the sessions have tokenised

@@ -96,9 +96,8 @@ static void find_targets(Workspace *workspace) {
 
 // Adds a script if it may contain imports or includes.
 static void add_candidate(Workspace *workspace, const char *path) {
-    static const size_t max_bytes = (size_t)16 << 20;
     SCOPED_BYTE_BUFFER text = {0};
-    if (find_document(workspace, path) != SIZE_MAX || byte_buffer_read_file(&text, path, max_bytes) ||
+    if (find_document(workspace, path) != SIZE_MAX || byte_buffer_read_file(&text, path, SERVER_MAX_FILE_BYTES) ||
         text.length == 0 || (!strstr(text.data, "import") && !strstr(text.data, "%include")))
         return;
     SCOPED_TEXT uri = uri_of(path);
