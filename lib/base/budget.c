@@ -22,6 +22,18 @@ BudgetOutcome budget_check(Budget *budget) {
     return BUDGET_OK;
 }
 
+bool budget_charge_time(Budget *budget, double time) {
+    double work = time / BUDGET_UNIT_TIME;
+    if (work > (double)(budget->work_limit - budget->work))
+        return false;
+    budget->work += (uint64_t)work;
+    return true;
+}
+
+size_t budget_memory_left(const Budget *budget) {
+    return budget->memory < budget->memory_limit ? budget->memory_limit - budget->memory : 0;
+}
+
 bool budget_reserve(Budget *budget, size_t bytes) {
     if (!budget)
         return true;

@@ -32,6 +32,8 @@ enum { BUDGET_BYTES = 128, BUDGET_NUMBERS = BUDGET_BYTES / sizeof(double) };
 // promptly, and large enough that the cost of charging is negligible.
 enum { BUDGET_CHUNK = 1 << 14 };
 
+enum { BUDGET_UNIT_TIME = 10 }; // nanoseconds of a unit of work
+
 typedef enum BudgetOutcome { BUDGET_OK, BUDGET_EXCEEDED, BUDGET_INTERRUPTED } BudgetOutcome;
 
 // Starts to count the work of an operation, such as loading a script: resets `work` and memory_refused. Memory stays
@@ -49,6 +51,11 @@ static inline BudgetOutcome budget_charge(Budget *budget, uint64_t units) {
     return budget->work <= budget->next_check ? BUDGET_OK : budget_check(budget);
 }
 
+// Charges an estimated time in nanoseconds. Returns false, with nothing charged, if the limit would be exceeded.
+bool budget_charge_time(Budget *budget, double time);
+
+// Returns how many bytes may still be reserved.
+size_t budget_memory_left(const Budget *budget);
 // Charges memory. Returns false, with nothing charged, if the limit would be exceeded.
 bool budget_reserve(Budget *budget, size_t bytes);
 // Releases memory that budget_reserve has charged.

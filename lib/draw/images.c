@@ -88,10 +88,8 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
 static cairo_surface_t *decode_image(Str bytes, const Budget *budget, const char **problem) {
     if (str_starts_with(bytes, STR("\x89PNG\r\n\x1a\n")))
         return read_png(bytes, problem);
-    if (str_starts_with(bytes, STR("\xff\xd8\xff"))) {
-        bool spent = budget->memory > budget->memory_limit;
-        return draw_read_jpeg(bytes, spent ? 0 : budget->memory_limit - budget->memory, problem);
-    }
+    if (str_starts_with(bytes, STR("\xff\xd8\xff")))
+        return draw_read_jpeg(bytes, budget_memory_left(budget), problem);
     *problem = "it is neither PNG nor JPEG";
     return NULL;
 }

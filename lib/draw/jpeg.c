@@ -84,13 +84,13 @@ cairo_surface_t *draw_read_jpeg(Str bytes, size_t memory, const char **problem) 
         jpeg_mem_src(&jpeg, (const unsigned char *)bytes.bytes, bytes.len);
         jpeg_read_header(&jpeg, TRUE);
         jpeg.out_color_space = JCS_RGB;
-        if (jpeg.image_width > MAX_SIDE || jpeg.image_height > MAX_SIDE ||
-            (uint64_t)jpeg.image_width * jpeg.image_height > MAX_PIXELS) {
+        uint64_t pixels = (uint64_t)jpeg.image_width * jpeg.image_height;
+        if (jpeg.image_width > MAX_SIDE || jpeg.image_height > MAX_SIDE || pixels > MAX_PIXELS) {
             *problem = "the picture is too large";
-        } else if ((uint64_t)jpeg.image_width * jpeg.image_height * sizeof(uint32_t) > memory) {
+        } else if (pixels * sizeof(uint32_t) > memory) {
             *problem = EXCEEDS_MEMORY;
         } else {
-            size_t left = memory - (size_t)jpeg.image_width * jpeg.image_height * sizeof(uint32_t);
+            size_t left = memory - (size_t)pixels * sizeof(uint32_t);
             jpeg.mem->max_memory_to_use = left < LONG_MAX ? (long)left : LONG_MAX;
             jpeg_start_decompress(&jpeg);
             surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)jpeg.output_width, (int)jpeg.output_height);

@@ -17,12 +17,8 @@ void draw_release(Canvas *canvas, size_t bytes) {
 const char draw_omitted[] = "parts of the picture are left out";
 
 bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome) {
-    static const double UNIT = 10; // nanoseconds per unit (budget.h)
-    Budget *budget = &canvas->painter->budget;
-    if (work / UNIT <= (double)(budget->work_limit - budget->work)) {
-        budget->work += (uint64_t)(work / UNIT);
+    if (budget_charge_time(&canvas->painter->budget, work))
         return true;
-    }
     draw_report_canvas_at(canvas, place, DIAG_WARNING, "drawing-limit", "drawing exceeded the work limit (--work): %s",
                           outcome);
     return false;

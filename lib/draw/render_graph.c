@@ -237,16 +237,15 @@ static bool needs_gpu(const DrawNode *node, Texture *const *inputs, uint32_t cou
 
 // Charges the work of an effect. If that would exceed the limit, reports it and returns false.
 static bool charge_effect(Walk *walk, const GlEffect *effect) {
-    static const double unit = 10; // nanoseconds per unit (budget.h)
     Budget *budget = &walk->painter->budget;
-    double work = gl_effect_cost(effect) / unit;
-    if (work <= (double)(budget->work_limit - budget->work)) {
-        budget->work += (uint64_t)work;
+    double cost = gl_effect_cost(effect);
+    if (budget_charge_time(budget, cost))
         return true;
-    }
+    // draw_limit gives drawing three quarters of the limit.
+    double needed = 4 * ceil(((double)budget->work + cost / BUDGET_UNIT_TIME) / 3 + 1);
     draw_report(walk->faults, &effect->node->origin, DIAG_WARNING, "drawing-limit",
                 "!%s: drawing exceeded the work limit: the effect is left out; --work %.0f would allow it",
-                schema_kinds[effect->node->kind].name, 4 * ceil(((double)budget->work + work) / 3 + 1));
+                schema_kinds[effect->node->kind].name, needed);
     return false;
 }
 

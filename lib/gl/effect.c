@@ -85,8 +85,8 @@ void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str pro
 // but the work limit must not depend on the machine.
 static double pixel_cost(const DrawNode *node, double detail) {
     const AttrValue *radius = draw_attr(node, ATTR_RADIUS);
-    if (draw_attr(node, ATTR_FRAGMENT) || draw_attr(node, ATTR_VERTEX))
-        return 50 * fmax(1, fmin(draw_number(node, ATTR_PASSES), GL_MAX_PASSES));
+    if (gl_has_shader(node))
+        return 50.0 * gl_shader_passes(node);
     double reach = !radius ? 10 : detail * (fabs(radius->as.numbers[0]) + fabs(radius->as.numbers[1])) / 2;
     switch (node->kind) {
     case KIND_BLUR:
@@ -120,7 +120,7 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
     int reduction = gl_downsample(effect->node);
     // A script's own program may leave out pixels. The target is then cleared first, because it can contain an earlier
     // picture.
-    bool good = true, clears = draw_attr(effect->node, ATTR_FRAGMENT) || draw_attr(effect->node, ATTR_VERTEX);
+    bool good = true, clears = gl_has_shader(effect->node);
     for (uint32_t i = 0; i < count && good; i++) {
         int down = passes[i].reduced ? reduction : 1;
         int width = effect->width / down > 0 ? effect->width / down : 1;
@@ -189,7 +189,7 @@ GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     NodeKind node = (NodeKind)effect->node->kind;
     const GlImage none = {0};
     const Pass merging = {STR("void main() { color = merged_here(); }\n"), false};
-    if (draw_attr(effect->node, ATTR_FRAGMENT) || draw_attr(effect->node, ATTR_VERTEX))
+    if (gl_has_shader(effect->node))
         return gl_shader(gl, arena, effect, faults);
     Effect kind = find_effect(node);
     Str common;

@@ -17,8 +17,10 @@ struct CachedModel {
     bool refused; // true if the mesh would have exceeded the memory or work limit
 };
 
-static GpuCache *new_cache(void) {
-    GpuCache *store = heap_calloc(1, sizeof *store);
+GpuCache *gpu_cache(Gl *gl) {
+    if (gl->cache)
+        return gl->cache;
+    GpuCache *store = gl->cache = heap_calloc(1, sizeof *store);
     if (!store)
         return NULL;
     glGenBuffers(1, &store->instances);
@@ -30,18 +32,9 @@ static GpuCache *new_cache(void) {
     return store;
 }
 
-GpuCache *gpu_cache(Gl *gl) {
-    GpuCache *store = gl->cache;
-    if (!store)
-        store = gl->cache = new_cache();
-    if (store)
-        store->budget = gl->budget;
-    return store;
-}
-
-static void free_model(Budget *budget, bool lost, CachedModel *model_entry) {
-    budget_release(budget, model_entry->charged);
-    if (!lost) {
+static void free_model(const Gl *gl, CachedModel *model_entry) {
+    budget_release(gl->budget, model_entry->charged);
+    if (!gl->lost) {
         glDeleteVertexArrays(1, &model_entry->shape.array);
         glDeleteBuffers(1, &model_entry->shape.corners);
         glDeleteBuffers(1, &model_entry->shape.indices);
@@ -65,7 +58,7 @@ void gpu_cache_close(Gl *gl) {
         return;
     for (CachedModel *model_entry = store->models, *next; model_entry; model_entry = next) {
         next = model_entry->next;
-        free_model(store->budget, gl->lost, model_entry);
+        free_model(gl, model_entry);
     }
     for (int i = 0; i < SCENE_TARGETS; i++)
         free_target(gl, &store->targets[i]);
@@ -78,12 +71,13 @@ void gpu_cache_close(Gl *gl) {
     gl->cache = NULL;
 }
 
-static void evict_old_models(GpuCache *store) {
+static void evict_old_models(const Gl *gl) {
+    GpuCache *store = gl->cache;
     for (CachedModel **at = &store->models; *at;) {
         CachedModel *model_entry = *at;
         if (model_entry->used + MAX_IDLE_SCENES < store->now) {
             *at = model_entry->next;
-            free_model(store->budget, false, model_entry);
+            free_model(gl, model_entry);
         } else {
             at = &model_entry->next;
         }
@@ -131,9 +125,9 @@ static void build_mesh(void *context) {
 }
 
 // Stores the mesh of an entry on the GPU.
-static void store_mesh(GpuCache *store, CachedModel *model_entry, const Mesh *mesh) {
+static void store_mesh(const Gl *gl, CachedModel *model_entry, const Mesh *mesh) {
     size_t bytes = mesh->vertex_count * sizeof(MeshVertex) + mesh->index_count * sizeof(uint32_t);
-    model_entry->refused = !budget_reserve(store->budget, bytes);
+    model_entry->refused = !budget_reserve(gl->budget, bytes);
     if (model_entry->refused)
         return;
     model_entry->charged = bytes;
@@ -143,26 +137,27 @@ static void store_mesh(GpuCache *store, CachedModel *model_entry, const Mesh *me
 }
 
 // Builds the mesh of an entry. If that exceeds a limit, marks the entry as refused.
-static void make_shape(GpuCache *store, CachedModel *model_entry, const Scene *scene) {
+static void make_shape(const Gl *gl, CachedModel *model_entry, const Scene *scene) {
     MeshBuild build = {.scene = scene, .model = &model_entry->model};
     arena_init(&build.arena, "mesh", SIZE_MAX);
-    build.arena.budget = store->budget;
+    build.arena.budget = gl->budget;
     Arena *arenas[] = {&build.arena, scene->arena, scene->faults->arena};
     ArenaOutcome end = arena_protect(arenas, 3, build_mesh, &build);
     if (end == ARENA_OK && build.done)
-        store_mesh(store, model_entry, &build.mesh);
+        store_mesh(gl, model_entry, &build.mesh);
     arena_free(&build.arena);
     if (end == ARENA_OUT_OF_MEMORY)
         arena_exhausted(scene->arena);
     model_entry->refused = model_entry->refused || end != ARENA_OK;
     if (end == ARENA_WORK_LIMIT) {
-        store->budget->work = store->budget->work_limit; // it is work_limit + 1 after the limit was exceeded
+        gl->budget->work = gl->budget->work_limit; // it is work_limit + 1 after the limit was exceeded
         scene_report(scene, "drawing-limit", model_entry->model.node,
                      "drawing exceeded the work limit (--work): the model is left out");
     }
 }
 
-const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const SceneModel *model) {
+const SceneShape *gpu_cache_shape(const Gl *gl, const Scene *scene, const SceneModel *model) {
+    GpuCache *store = gl->cache;
     for (CachedModel *model_entry = store->models; model_entry; model_entry = model_entry->next)
         if (scene_same_model(&model_entry->model, model)) {
             bool is_tried = model_entry->used == store->now;
@@ -177,8 +172,8 @@ const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const Sce
         arena_exhausted(scene->arena);
     *model_entry = (CachedModel){.next = store->models, .model = *model, .used = store->now};
     store->models = model_entry; // from now on, the cache owns the entry
-    evict_old_models(store);
-    make_shape(store, model_entry, scene);
+    evict_old_models(gl);
+    make_shape(gl, model_entry, scene);
     return &model_entry->shape;
 }
 

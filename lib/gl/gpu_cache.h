@@ -32,7 +32,6 @@ enum { SCENE_TARGETS = 8 };
 typedef struct CachedModel CachedModel;
 
 struct GpuCache {
-    Budget *budget; // the budget of the Gl; charged for the meshes
     CachedModel *models;
     uint64_t now; // number of scenes drawn so far
     SceneTarget targets[SCENE_TARGETS];
@@ -45,7 +44,7 @@ struct GpuCache {
 GpuCache *gpu_cache(Gl *gl);
 // Returns the triangles of a model. The triangles are created when they are first needed, and kept as long as scenes
 // use them.
-const SceneShape *gpu_cache_shape(GpuCache *store, const Scene *scene, const SceneModel *model);
+const SceneShape *gpu_cache_shape(const Gl *gl, const Scene *scene, const SceneModel *model);
 // Returns a target with these properties, from the cache or new. Returns NULL if out of memory.
 SceneTarget *gpu_cache_target(Gl *gl, int width, int height, int samples, GlFormat format, bool extra);
 // Binds the vertex array of the shape. The attributes of its instances are read from the instance buffer, starting at

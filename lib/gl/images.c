@@ -44,7 +44,7 @@ static void free_spare(Gl *gl) {
     size_t spare = 0;
     for (int i = 0; i < gl->spare_count; i++)
         spare += size_of(gl->spare[i]);
-    while (gl->budget && gl->spare_count > 0 && spare > gl->budget->memory_limit - gl->budget->memory) {
+    while (gl->budget && gl->spare_count > 0 && spare > budget_memory_left(gl->budget)) {
         spare -= size_of(gl->spare[0]);
         drop_oldest(gl);
     }

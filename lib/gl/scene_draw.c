@@ -271,7 +271,7 @@ static void draw_shape(const Drawing *drawing, const SceneDraw *draw, GLuint pro
     SceneModel model = scene->models[draw->model];
     model.segments = draw->segments;
     model.disc = draw->disc;
-    const SceneShape *shape = gpu_cache_shape(drawing->store, scene, &model);
+    const SceneShape *shape = gpu_cache_shape(drawing->gl, scene, &model);
     if (draw->textures > 0)
         set_textures(drawing, program, &scene->textures[draw->textures]);
     gpu_cache_bind_instances(drawing->store, shape, draw->first);
@@ -399,7 +399,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     drawing.projection = matrix_projection(&drawing.eye);
     SceneBox *boxes = arena_alloc_array(scene->arena, scene->model_count, sizeof *boxes);
     for (uint32_t i = 0; i < scene->model_count && !gl_is_refused(gl); i++)
-        boxes[i] = gpu_cache_shape(drawing.store, scene, &scene->models[i])->box;
+        boxes[i] = gpu_cache_shape(gl, scene, &scene->models[i])->box;
     if (gl_is_refused(gl))
         return none; // make_view reports the refusal
     drawing.order = draw_order(scene, &drawing.eye, &drawing.view, &drawing.projection, width, boxes);

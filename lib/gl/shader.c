@@ -5,6 +5,8 @@
 #include "gl/internal.h"
 #include "gl/shader_errors.h"
 
+enum { MAX_PASSES = 64 };
+
 // Replaces ${HEADER} or a line `#version 330` by gl_header. Adds #line directives, so that compiler messages contain
 // the line numbers of the original text. Returns false if the text contains other templates.
 static bool expand_template(Text *out, Str text) {
@@ -41,6 +43,11 @@ static bool is_reduced(const DrawNode *node, uint32_t pass) {
     return false;
 }
 
+uint32_t gl_shader_passes(const DrawNode *node) {
+    double wanted = draw_number(node, ATTR_PASSES);
+    return wanted >= 2 ? wanted < MAX_PASSES ? (uint32_t)wanted : MAX_PASSES : 1;
+}
+
 GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
     const DrawNode *node = effect->node;
     const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
@@ -62,9 +69,8 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
         gl_report_shader_error(faults, node, &fault);
         return (GlImage){0};
     }
-    double wanted = draw_number(node, ATTR_PASSES);
-    uint32_t count = wanted >= 2 ? wanted < GL_MAX_PASSES ? (uint32_t)wanted : GL_MAX_PASSES : 1;
-    GlPass passes[GL_MAX_PASSES];
+    uint32_t count = gl_shader_passes(node);
+    GlPass passes[MAX_PASSES];
     for (uint32_t i = 0; i < count; i++)
         passes[i] = (GlPass){program, is_reduced(node, i)};
     GlImage out;

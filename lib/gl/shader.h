@@ -6,8 +6,12 @@
 
 #include <string.h>
 
-enum { GL_MAX_PASSES = 64 }; // maximum number of passes of a shader
-
+// Returns true if the node has a shader of the script.
+static inline bool gl_has_shader(const DrawNode *node) {
+    return draw_attr(node, ATTR_FRAGMENT) || draw_attr(node, ATTR_VERTEX);
+}
+// Returns how many times the node's shader runs.
+uint32_t gl_shader_passes(const DrawNode *node);
 // Runs the shaders in the attributes `fragment` and `vertex`.
 GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);
 
