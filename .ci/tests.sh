@@ -19,16 +19,20 @@ follow_tests() {
     done
 }
 
-# choose_tests [NAME...]: sets `chosen` to the tests and `folders` to the folders of scripts with these names or in these
-# suites; without names, to all.
+# choose_tests [--all | NAME...]: sets `chosen` to the tests and `folders` to the folders of scripts with these names or in
+# these suites; without names, to all that are not in the suite `thorough`; with --all, to all. Sets `omitted` to the suites
+# that do not run.
 choose_tests() {
     folders=
     for folder in tests/golden tests/conformance samples; do
         [ ! -d $folder ] || folders="$folders $folder"
     done
-    list=$(meson test -C build --no-rebuild --no-suite scripts --list 2>/dev/null | sed -n 's|^\([^ ]*\) / |\1 |p')
+    omitted='--no-suite scripts'
+    [ $# -gt 0 ] || omitted="$omitted --no-suite thorough"
+    # shellcheck disable=SC2086 # options are words
+    list=$(meson test -C build --no-rebuild $omitted --list 2>/dev/null | sed -n 's|^\([^ ]*\) / |\1 |p')
     chosen=$(echo "$list" | sed 's/.* //')
-    [ $# -gt 0 ] || return 0
+    [ $# -gt 0 ] && [ "$1" != --all ] || return 0
     present=$folders
     chosen='' folders=''
     for name; do
@@ -51,7 +55,7 @@ skipped_tests() {
         END { for (name in all) print "skipped: " name ": no reason given" }' "$1"
 }
 
-# run_tests [NAME...]: builds, runs the tests and prints the results.
+# run_tests [--all | NAME...]: builds, runs the tests and prints the results.
 run_tests() {
     build "$TEST_NEEDS" ''
     cd "$root"
@@ -61,8 +65,9 @@ run_tests() {
     choose_tests "$@"
     if [ $# -eq 0 ] || [ -n "$chosen" ]; then
         # Runs more tests in parallel than there are processors, because some tests mostly wait.
-        # shellcheck disable=SC2086 # names are words
-        following $log follow_tests meson test -C build --no-rebuild --no-suite scripts --print-errorlogs \
+        [ "${1:-}" != --all ] || shift
+        # shellcheck disable=SC2086 # options and names are words
+        following $log follow_tests meson test -C build --no-rebuild $omitted --print-errorlogs \
             --num-processes "$(($(nproc) + 2))" ${1:+$chosen} || code=1
         # Removes the lines of passed tests, also within a failed program. Keeps a test case that did not end.
         sed -e '/^\[ *RUN *\]/{' -e N -e '/\n\[ *OK *\]/d' -e '}' "$log" |

@@ -246,6 +246,7 @@ check "build does not install packages again" lacks calls "gcc"
 check "build configures again when a library was added" grep -q 'meson setup --reconfigure' "$work/calls"
 dev test
 check "test installs packages for tests" grep -q ' libcmocka-dev tmux procps .* fonts-dejavu-extra' "$work/calls"
+check "test leaves out the slow tests" has calls "--no-suite thorough"
 check "test exits with 0 if all tests pass" status_is 0
 check "the last line counts tests and scripts" [ "$(tail -n 1 "$work/out")" = "3 passed, 0 failed" ]
 mkdir -p "$project/samples" "$project/tests/golden"
@@ -254,7 +255,11 @@ check "the last line includes scripts" [ "$(tail -n 1 "$work/out")" = "13 passed
 check "test reports why a test was skipped" has out "skipped: other: there is no node"
 check "test reports a test that was skipped without a reason" has out "skipped: quick: no reason given"
 check "test names no log if all tests pass" lacks out "to repeat"
+dev test --all
+check "test --all leaves out no tests" lacks calls "--no-suite thorough"
+check "test --all runs all tests and scripts" [ "$(tail -n 1 "$work/out")" = "13 passed, 0 failed" ]
 dev test base golden
+check "test SUITE finds slow tests" lacks calls "--no-suite thorough"
 check "test SUITE runs the tests of the suite" grep -q '^meson test .*--print-errorlogs .* quick other$' "$work/calls"
 check "test FOLDER runs the scripts of the folder" has out "scripts in tests/golden"
 check "test FOLDER runs no other folder" lacks out "scripts in samples"

@@ -21,17 +21,15 @@ for source in "$1"/lib/*/*.c; do
     fi
 done
 
-for object in lib/*/*.p/*.o grammar/*.p/*.o; do
-    symbols=$(${NM:-nm} -u "$object")
-    for name in $symbols; do
-        for bad in $inexact; do
-            case $name in
-            "$bad" | "${bad}f" | "${bad}l" | "__${bad}_finite")
-                echo "$object: $name"
-                faults=1
-                ;;
-            esac
-        done
-    done
-done
+for bad in $inexact; do
+    printf '%s\n' "$bad" "${bad}f" "${bad}l" "__${bad}_finite"
+done >inexact.txt
+found=$("${NM:-nm}" -uA lib/*/*.p/*.o grammar/*.p/*.o | awk '
+    FNR == NR { inexact[$1]; next }
+    $NF in inexact { sub(/:.*/, "", $1); print $1 ": " $NF }' inexact.txt -)
+rm inexact.txt
+if [ "$found" ]; then
+    echo "$found"
+    faults=1
+fi
 exit $faults

@@ -3,50 +3,44 @@
 # petri.h, the reference of the interface), a line feed at the end, and no reminders of unfinished work.
 set -eu
 cd "$1"
-max_lines=700
-faults=0
-
-report_fault() {
-    echo "$1"
-    faults=1
-}
+sources=$(mktemp)
+trap 'rm -f "$sources"' EXIT
+status=0
 
 # Recorded outputs and scripts of tests are not checked.
-for file in $(find lib grammar src tests samples -name node_modules -prune -o -name '*.c' -o -name '*.h' -o -name '*.re' -o -name '*.y' \
-    -o -name '*.sh' -o -name meson.build -o -name '*.md'); do
-    [ -f "$file" ] || continue
-    [ -s "$file" ] || continue
-    if grep -n '[[:blank:]]$' "$file"; then
-        report_fault "$file: blanks at the end of a line"
-    fi
-    if [ -n "$(tail -c 1 "$file")" ]; then
-        report_fault "$file: no line feed at the end"
-    fi
-    if grep -n 'TO''DO\|FIX''ME' "$file"; then
-        report_fault "$file: a reminder of unfinished work"
-    fi
-    case $file in
-    *.c | *.h | *.re | *.y)
-        if grep -n "$(printf '\t')" "$file"; then
-            report_fault "$file: tabs"
-        fi
-        case $file in
-        lib/* | src/*)
-            if grep -n '== NULL' "$file"; then
-                report_fault "$file: write !p instead of p == NULL"
-            fi
-            ;;
-        esac
-        lines=$(wc -l <"$file")
-        case $file in
-        *_tables.h | lib/include/petri.h) ;;
-        *)
-            if [ "$lines" -gt $max_lines ]; then
-                report_fault "$file: $lines lines, at most $max_lines"
-            fi
-            ;;
-        esac
-        ;;
-    esac
-done
-exit $faults
+find lib grammar src tests samples -name node_modules -prune -o -type f -size +0 \( -name '*.[ch]' -o -name '*.re' -o -name '*.y' \
+    -o -name '*.sh' -o -name meson.build -o -name '*.md' \) -print0 >"$sources"
+# The pattern of the reminders is written in two parts, so that it does not match this line.
+xargs -0 awk -v max_lines=700 -v reminder='TO''DO|FIX''ME' '
+    function report_line(text) {
+        print FILENAME ":" FNR ": " text
+        faults++
+    }
+    function check_length() {
+        if (is_limited && lines > max_lines) {
+            print name ": " lines " lines, at most " max_lines
+            faults++
+        }
+    }
+    FNR == 1 {
+        check_length()
+        name = FILENAME
+        is_c = name ~ /\.(c|h|re|y)$/
+        is_ours = is_c && name ~ /^(lib|src)\//
+        is_limited = is_c && name !~ /_tables\.h$/ && name != "lib/include/petri.h"
+    }
+    { lines = FNR }
+    /[ \t]$/ { report_line("blanks at the end of the line") }
+    $0 ~ reminder { report_line("a reminder of unfinished work") }
+    is_c && /\t/ { report_line("tabs") }
+    is_ours && /== NULL/ { report_line("write !p instead of p == NULL") }
+    END {
+        check_length()
+        exit faults > 0
+    }' <"$sources" || status=1
+unfinished=$(xargs -0 grep -LPz '\n\z' <"$sources") || true
+if [ "$unfinished" ]; then
+    printf 'no line feed at the end of:\n%s\n' "$unfinished"
+    status=1
+fi
+exit $status

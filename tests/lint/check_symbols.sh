@@ -14,16 +14,16 @@ while read -r library folder prefixes; do
         echo "$library: no names in $folder"
         faults=1
     fi
-    for name in $names; do
-        known=no
-        for prefix in $prefixes; do
-            case $name in "$prefix"*) known=yes ;; esac
-        done
-        if [ $known = no ]; then
-            echo "$library: $name has none of the prefixes $prefixes"
-            faults=1
-        fi
-    done
+    echo "$names" | awk -v library="$library" -v list="$prefixes" '
+        BEGIN { count = split(list, prefixes, " ") }
+        {
+            for (i = 1; i <= count; i++)
+                if (index($0, prefixes[i]) == 1)
+                    next
+            print library ": " $0 " has none of the prefixes " list
+            faults++
+        }
+        END { exit faults > 0 }' || faults=1
 done <"$table"
 
 # Every library must be in the table.
