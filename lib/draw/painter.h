@@ -20,8 +20,10 @@ struct PetriPainter {
     RenderGraph *render_graph;
     Gl *gl;                 // opened when first needed; NULL: not open
     const char *gl_problem; // why `gl` cannot be opened (borrowed); NULL if `gl` is open or has not been needed yet
-    bool on_window;         // true if `gl` is the context of the host's window
-    uint32_t *window;       // pixel buffer for the window
+    PetriShaderTest *shader_test; // tests the shaders of scripts; NULL: they are not tested
+    void *shader_test_data;
+    bool on_window;   // true if `gl` is the context of the host's window
+    uint32_t *window; // pixel buffer for the window
     size_t window_capacity;
     uint64_t made;  // serial number of the last picture whose render graph was rendered
     Texture *shown; // the window's picture, as rendered in picture `made`; NULL: none
@@ -37,6 +39,8 @@ void draw_report_args(DiagSink *faults, const Origin *place, DiagLevel level, co
 // true. Returns false if the machine is out of memory.
 bool draw_report_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
                          DiagSink *faults);
+// Passes the painter's test of shaders to its Gl.
+void draw_test_shaders(PetriPainter *painter);
 // Sets the painter's limits for memory and work to those of the picture.
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture);
 // Reports that drawing was aborted because of a limit. Returns PETRI_INVALID, or PETRI_OUT_OF_MEMORY if there is no

@@ -215,8 +215,10 @@ static Gl *open_gpu(Walk *walk) {
     const char *problem = painter->gl_problem;
     if (!painter->gl && !problem)
         painter->gl = gl_open(&problem);
-    if (painter->gl)
+    if (painter->gl) {
         gl_charge(painter->gl, &painter->budget);
+        draw_test_shaders(painter);
+    }
     if (!painter->gl && !problem)
         arena_exhausted(&walk->frame->arena);
     if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {

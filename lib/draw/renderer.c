@@ -36,6 +36,40 @@ void petri_painter_close(PetriPainter **handle) {
     heap_free(painter);
 }
 
+// A GlShaderTest. `user_data` is the painter.
+static bool test_shader(void *user_data, const char *vertex, const char *fragment, GlShaderProblem *problem) {
+    const PetriPainter *painter = user_data;
+    PetriShaderProblem found = {0};
+    if (painter->shader_test(painter->shader_test_data, vertex, fragment, &found))
+        return true;
+    found.text[sizeof found.text - 1] = '\0';
+    *problem = (GlShaderProblem){.failed = found.failed, .in_vertex = found.in_vertex};
+    memcpy(problem->text, found.text, sizeof problem->text);
+    return false;
+}
+
+void petri_painter_test_shaders(PetriPainter *painter, PetriShaderTest *test, void *user_data) {
+    if (!painter)
+        return;
+    painter->shader_test = test;
+    painter->shader_test_data = user_data;
+    if (painter->gl)
+        draw_test_shaders(painter);
+}
+
+void draw_test_shaders(PetriPainter *painter) {
+    gl_test_shaders(painter->gl, painter->shader_test ? test_shader : NULL, painter);
+}
+
+bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem) {
+    GlShaderProblem found = {0};
+    if (!vertex || !fragment || !problem || gl_try_program(vertex, fragment, &found))
+        return true;
+    *problem = (PetriShaderProblem){.failed = found.failed, .in_vertex = found.in_vertex};
+    memcpy(problem->text, found.text, sizeof problem->text);
+    return false;
+}
+
 void draw_report_args(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format,
                       va_list args) {
     Text text = text_new(faults->arena);

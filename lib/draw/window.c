@@ -12,8 +12,10 @@ PetriStatus petri_painter_use_gl(PetriPainter *painter) {
         return PETRI_INVALID;
     painter->gl = gl_adopt(&problem);
     painter->on_window = painter->gl;
-    if (painter->gl)
+    if (painter->gl) {
         gl_charge(painter->gl, &painter->budget);
+        draw_test_shaders(painter);
+    }
     return painter->gl ? PETRI_OK : problem ? PETRI_UNSUPPORTED : PETRI_OUT_OF_MEMORY;
 }
 

@@ -115,12 +115,18 @@ int gl_downsample(const DrawNode *node) {
     return x >= 2 ? x < 64 ? (int)x : 64 : 1;
 }
 
+// Returns the processor time that drawing may still take.
+static double seconds_left(const Gl *gl) {
+    const Budget *budget = gl->budget;
+    return budget ? 1e-9 * BUDGET_UNIT_TIME * (double)(budget->work_limit - budget->work) : INFINITY;
+}
+
 bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out) {
     GlImage first = {0}, last = effect->last;
     int reduction = gl_downsample(effect->node);
     // A script's own program may leave out pixels. The target is then cleared first, because it can contain an earlier
     // picture.
-    bool good = true, clears = gl_has_shader(effect->node);
+    bool good = true, own = gl_has_shader(effect->node);
     for (uint32_t i = 0; i < count && good; i++) {
         int down = passes[i].reduced ? reduction : 1;
         int width = effect->width / down > 0 ? effect->width / down : 1;
@@ -130,19 +136,22 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
         if (good) {
             GlState state = {effect, first, last, target, (int)i, (int)count, down};
             gl_target(gl, target);
-            if (clears) {
+            if (own) {
                 glClearColor(0, 0, 0, 0);
                 glClear(GL_COLOR_BUFFER_BIT);
             }
             gl_set_uniforms(gl, passes[i].program, &state);
-            gl_draw_quad(gl, passes[i].program);
+            if (!own)
+                gl_draw_quad(gl, passes[i].program);
+            else if (!gl_draw_quad_within(gl, passes[i].program, width, height, seconds_left(gl)))
+                gl->too_slow = true, good = false;
         }
         if (i > 0 && last.texture != first.texture)
             gl_image_free(gl, last);
         last = target;
         first = i == 0 ? target : first;
     }
-    if (count > 1)
+    if (first.texture != last.texture)
         gl_image_free(gl, first);
     *out = last;
     return good;

@@ -77,6 +77,11 @@ void gl_charge(Gl *gl, Budget *budget) {
     gl->budget = budget;
 }
 
+void gl_test_shaders(Gl *gl, GlShaderTest *test, void *user_data) {
+    gl->shader_test = test;
+    gl->shader_test_data = user_data;
+}
+
 int gl_max_size(const Gl *gl) {
     return gl->max_size;
 }

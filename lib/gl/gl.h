@@ -23,6 +23,15 @@ Gl *gl_adopt(const char **problem);
 // Charges the GPU memory of pictures and scenes to this budget from now on. The budget must outlive the Gl. If the
 // budget refuses memory, allocations fail as if the GPU were out of memory, and `memory_refused` is set.
 void gl_charge(Gl *gl, Budget *budget);
+// As PetriShaderProblem and PetriShaderTest in petri-draw.h.
+typedef struct GlShaderProblem {
+    bool failed;
+    bool in_vertex;
+    char text[1024];
+} GlShaderProblem;
+typedef bool GlShaderTest(void *user_data, const char *vertex, const char *fragment, GlShaderProblem *problem);
+// Lets the Gl test the programs of scripts before it compiles them. NULL: no tests.
+void gl_test_shaders(Gl *gl, GlShaderTest *test, void *user_data);
 void gl_close(Gl *gl); // ignores NULL; must not be called between gl_enter and gl_leave
 // Returns false, with the reason in *problem, if the context cannot be used, for example because it was lost.
 bool gl_enter(Gl *gl, const char **problem);
@@ -61,6 +70,7 @@ void gl_target(Gl *gl, GlImage image);
 // An error of a shader program.
 typedef struct GlShaderError {
     Str text;       // the compiler's message
+    bool failed;    // true if the compiler crashed or exceeded a limit
     bool in_vertex; // true if the error is in the vertex shader, false if it is in the fragment shader or in linking
 } GlShaderError;
 
@@ -68,6 +78,11 @@ typedef struct GlShaderError {
 // compile. If the program does not compile or link, stores the error in *fault and returns 0; the text of the error is
 // in the arena. Shader sources must begin with the version line.
 unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
+// Like gl_program, for a program that a script contains: tests it first.
+unsigned gl_own_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
+// Compiles a program and draws a few pixels with it in a separate context. If it does not compile, fills *problem and
+// returns false. Without OpenGL, returns true.
+bool gl_try_program(const char *vertex, const char *fragment, GlShaderProblem *problem);
 // The version and precision lines of a shader. Scripts write ${HEADER} instead of these lines.
 extern const char gl_header[];
 // Vertex shader for a triangle strip that covers the target. Its output `vec2 coord` is 0;0 at the bottom left and 1;1
@@ -75,6 +90,9 @@ extern const char gl_header[];
 extern const char gl_quad[];
 // Draws over the whole target with a program. Its vertex shader must be gl_quad or have the same inputs as gl_quad.
 void gl_draw_quad(Gl *gl, unsigned program);
+// Like gl_draw_quad, for a target of width x height pixels and a program that may be slow. Draws one band of rows after
+// the other. Stops and returns false once drawing has taken `seconds` of processor time.
+bool gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds);
 
 // The following functions draw on the window of an adopted context. Boxes are in pixels from the window's bottom left.
 // They return false if the GPU is out of memory. Temporary data is allocated from the arena.

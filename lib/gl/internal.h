@@ -33,7 +33,10 @@ struct Gl {
     bool retains_fences; // true if fences must be retained; see delete_fences in context.c
     int fence_count;
     GLsync fences[GL_MAX_FENCES]; // fences after recent drawing, oldest first
-    Budget *budget;               // charged for images and scenes; NULL: nothing is charged
+    GlShaderTest *shader_test;    // NULL: the programs of scripts are not tested
+    void *shader_test_data;
+    bool too_slow;  // true if a script's program has exceeded its time; see gl_draw_quad_within
+    Budget *budget; // charged for images and scenes; NULL: nothing is charged
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;

@@ -2,7 +2,10 @@
 #include "base/heap.h"
 #include "gl/internal.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 const char gl_quad[] = "#version 300 es\n"
                        "in vec2 position;\n"
@@ -18,6 +21,7 @@ struct GlProgram {
     char *fragment;
     char *problem; // message of the compiler or linker; NULL: none
     bool in_vertex;
+    bool failed; // true if the compiler crashed or exceeded a limit in the test
     GLuint program;
 };
 
@@ -37,6 +41,21 @@ static void free_program(const Gl *gl, GlProgram *program) {
     heap_free(program->fragment);
     heap_free(program->problem);
     heap_free(program);
+}
+
+// Returns NULL if out of memory.
+static GlProgram *new_program(Str vertex, Str fragment) {
+    GlProgram *program = heap_calloc(1, sizeof *program);
+    if (!program)
+        return NULL;
+    program->vertex = copy_text(vertex);
+    program->fragment = copy_text(fragment);
+    if (program->vertex && program->fragment)
+        return program;
+    heap_free(program->vertex);
+    heap_free(program->fragment);
+    heap_free(program);
+    return NULL;
 }
 
 void gl_programs_close(Gl *gl) {
@@ -88,7 +107,18 @@ static GlProgram *find_program(Gl *gl, Str vertex, Str fragment) {
     return NULL;
 }
 
-unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
+// Lets the host test a program. Returns false if the program must not be compiled.
+static bool test_program(const Gl *gl, GlProgram *program) {
+    GlShaderProblem problem = {0};
+    if (!gl->shader_test || gl->shader_test(gl->shader_test_data, program->vertex, program->fragment, &problem))
+        return true;
+    program->failed = problem.failed;
+    program->in_vertex = problem.in_vertex;
+    program->problem = copy_text(str_from(problem.text));
+    return false;
+}
+
+static unsigned make_program(Gl *gl, Arena *arena, Str vertex, Str fragment, bool own, GlShaderError *fault) {
     enum { MAX_PROGRAMS = 200 }; // the cache is limited because a script can create a new shader in each frame
     GlProgram *program = find_program(gl, vertex, fragment);
     if (!program) {
@@ -97,23 +127,64 @@ unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderErro
             count++;
         if (count >= MAX_PROGRAMS)
             gl_programs_close(gl);
-        program = heap_calloc(1, sizeof *program);
+        program = new_program(vertex, fragment);
         if (!program)
             arena_exhausted(arena);
-        program->vertex = copy_text(vertex);
-        program->fragment = copy_text(fragment);
         program->next = gl->programs;
-        if (!program->vertex || !program->fragment) {
-            free_program(gl, program);
-            arena_exhausted(arena);
-        }
         gl->programs = program;
-        link_program(program);
+        if (!own || test_program(gl, program))
+            link_program(program);
     }
-    *fault = (GlShaderError){.in_vertex = program->in_vertex};
+    *fault = (GlShaderError){.in_vertex = program->in_vertex, .failed = program->failed};
     if (!program->program)
         fault->text = str_copy(arena, str_from(program->problem ? program->problem : "?"));
     return program->program;
+}
+
+unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
+    return make_program(gl, arena, vertex, fragment, false, fault);
+}
+
+unsigned gl_own_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
+    return make_program(gl, arena, vertex, fragment, true, fault);
+}
+
+// Draws a few pixels, because drivers also compile when a program first draws.
+static void draw_few_pixels(Gl *gl, unsigned program) {
+    enum { SIDE = 16 };
+    uint32_t pixels[SIDE * SIDE];
+    GlImage image = gl_image_new(gl, SIDE, SIDE, GL_FORMAT_SRGB8);
+    if (!image.texture)
+        return;
+    gl_target(gl, image);
+    gl_draw_quad(gl, program);
+    gl_read_bytes(gl, image, pixels);
+    gl_image_free(gl, image);
+}
+
+bool gl_try_program(const char *vertex, const char *fragment, GlShaderProblem *problem) {
+    const char *reason;
+    Gl *gl = gl_open(&reason);
+    if (!gl || !gl_enter(gl, &reason)) {
+        gl_close(gl);
+        return true;
+    }
+    GlProgram *program = new_program(str_from(vertex), str_from(fragment));
+    bool good = true;
+    if (program) {
+        link_program(program);
+        good = program->program != 0;
+        if (good) {
+            draw_few_pixels(gl, program->program);
+        } else {
+            problem->in_vertex = program->in_vertex;
+            snprintf(problem->text, sizeof problem->text, "%s", program->problem ? program->problem : "?");
+        }
+        free_program(gl, program);
+    }
+    gl_leave(gl);
+    gl_close(gl);
+    return good;
 }
 
 void gl_draw_quad(Gl *gl, unsigned program) {
@@ -124,4 +195,45 @@ void gl_draw_quad(Gl *gl, unsigned program) {
     glDisable(GL_CULL_FACE);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     gl_after_draw(gl);
+}
+
+static double seconds_of(clockid_t clock) {
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+// Draws with a program into a box of the target and waits for the result. Returns how long that took, in seconds.
+static double draw_box(Gl *gl, unsigned program, int y, int width, int height) {
+    double start = seconds_of(CLOCK_MONOTONIC);
+    glScissor(0, y, width, height);
+    gl_draw_quad(gl, program);
+    glFinish();
+    return seconds_of(CLOCK_MONOTONIC) - start;
+}
+
+bool gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds) {
+    // The first box is as large as the pictures of gl_try_program. It is drawn twice if the driver may have compiled.
+    enum { SIDE = 16 };
+    static const double COMPILES = 0.01, BAND_SECONDS = 0.05, UNEVEN = 8;
+    const double processor = seconds_of(CLOCK_PROCESS_CPUTIME_ID), start = seconds_of(CLOCK_MONOTONIC);
+    double taken = 0;
+    glEnable(GL_SCISSOR_TEST);
+    double box = draw_box(gl, program, 0, SIDE, SIDE);
+    if (box > COMPILES)
+        box = draw_box(gl, program, 0, SIDE, SIDE);
+    double row = box * width / (SIDE * SIDE); // seconds
+    // Pixels may differ in cost, so that the estimate decides only if it is far above the limit.
+    bool good = row * height < UNEVEN * seconds;
+    // Bands have an even number of rows, because pairs of rows share the derivatives of a shader.
+    double wanted = fmin(floor(BAND_SECONDS / fmax(row, 1e-9)), height + 1);
+    int rows = wanted < 2 ? 2 : (int)wanted / 2 * 2;
+    for (int y = 0; y < height && good; y += rows) {
+        draw_box(gl, program, y, width, rows < height - y ? rows : height - y);
+        // A GPU takes no processor time. Waiting for it counts a quarter.
+        taken = fmax(seconds_of(CLOCK_PROCESS_CPUTIME_ID) - processor, (seconds_of(CLOCK_MONOTONIC) - start) / 4);
+        good = taken <= seconds || y + rows >= height;
+    }
+    glDisable(GL_SCISSOR_TEST);
+    return good;
 }

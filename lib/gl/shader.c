@@ -64,7 +64,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
         gl_report(faults, node, "bad-shader", STR("no template is supported except '${HEADER}'"));
         return (GlImage){0};
     }
-    unsigned program = gl_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);
+    unsigned program = gl_own_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);
     if (!program) {
         gl_report_shader_error(faults, node, &fault);
         return (GlImage){0};
@@ -74,5 +74,18 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     for (uint32_t i = 0; i < count; i++)
         passes[i] = (GlPass){program, is_reduced(node, i)};
     GlImage out;
-    return gl_run_passes(gl, effect, passes, count, &out) ? out : (GlImage){0};
+    gl->too_slow = false;
+    if (gl_run_passes(gl, effect, passes, count, &out))
+        return out;
+    if (gl->too_slow) {
+        diag_report(faults,
+                    &(Diag){.level = DIAG_ERROR,
+                            .source = node->origin.source,
+                            .span = node->origin.span,
+                            .text = STR("!shader: the shader took longer to draw than the work limit allows (--work); "
+                                        "it is left out"),
+                            .code = "drawing-limit"});
+        gl_image_free(gl, out);
+    }
+    return (GlImage){0};
 }

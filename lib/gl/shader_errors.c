@@ -124,7 +124,10 @@ void gl_report_shader_error(DiagSink *faults, const DrawNode *node, const GlShad
     const Source *source = node->origin.source;
     CompilerMessage message = read_message(fault->text);
     uint32_t start = UINT32_MAX;
-    Diag diag = {.level = DIAG_WARNING, .source = source, .span = node->origin.span, .code = "bad-shader"};
+    Diag diag = {.level = fault->failed ? DIAG_ERROR : DIAG_WARNING,
+                 .source = source,
+                 .span = node->origin.span,
+                 .code = "bad-shader"};
     if (source && own && message.line > 0) {
         start = find_text(source->text, own->as.text, node->origin.span.start);
         start = start == UINT32_MAX ? find_text(source->text, own->as.text, 0) : start;

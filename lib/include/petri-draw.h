@@ -98,6 +98,26 @@ PETRI_API PetriPainter *petri_painter_open(void);
 // Frees a painter and sets the handle to NULL. NULL handles are ignored.
 PETRI_API void petri_painter_close(PetriPainter **painter);
 
+// Why a shader program cannot be used.
+typedef struct PetriShaderProblem {
+    bool failed;     // true if the driver crashed or exceeded a limit, false if it rejected the program
+    bool in_vertex;  // true if the message is about the vertex shader, false: the fragment shader or both
+    char text[1024]; // the driver's message, or what failed
+} PetriShaderProblem;
+
+// Tests a shader program of a script in another process, because drivers may crash on a hostile shader, or take
+// unlimited time or memory. Returns true if the program can be compiled; otherwise fills *problem.
+typedef bool PetriShaderTest(void *user_data, const char *vertex, const char *fragment, PetriShaderProblem *problem);
+
+// Lets a painter test the shader programs of scripts before it compiles them. The painter calls `test` once for each
+// program, on the thread that draws, and passes `user_data` to it. NULL: programs are not tested, the default.
+PETRI_API void petri_painter_test_shaders(PetriPainter *painter, PetriShaderTest *test, void *user_data);
+
+// Compiles a shader program and draws a few pixels with it, in a separate OpenGL context. For the process that a
+// PetriShaderTest starts. If the driver rejects the program, fills *problem and returns false. Returns true if there is
+// no OpenGL, because a painter compiles nothing then.
+PETRI_API bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem);
+
 // Renders all canvases and effects of a picture's frame. Does nothing if this is the picture that the painter rendered
 // last. Functions that draw or save a picture also render it. Call this function only for frames that are not drawn or
 // saved, but are needed as history. Returns PETRI_UNSUPPORTED without Cairo, and PETRI_INVALID, with a diagnostic, if

@@ -2,6 +2,7 @@
 #include "link/link_session.h"
 
 #include "cli/script.h"
+#include "cli/shader_test.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,7 @@ static void draw_last_frame(PetriSession *session) {
     PetriPictureOptions options = {0};
     petri_picture_options_init(&options, sizeof options);
     PetriPicture *picture = NULL;
-    PetriPainter *painter = petri_painter_open();
+    PetriPainter *painter = painter_open_tested(frames_signal);
     if (painter && petri_has_picture(session) && petri_picture(session, &options, &picture) == PETRI_OK) {
         uint32_t pixel;
         petri_picture_draw(picture, painter, &pixel, 1, 1, sizeof pixel);
@@ -56,7 +57,7 @@ static void render_if_needed(LinkSession *link_session) {
         petri_picture(session, &options, &picture) != PETRI_OK)
         return;
     if (!link_session->painter)
-        link_session->painter = petri_painter_open();
+        link_session->painter = painter_open_tested(frames_signal);
     petri_picture_render(picture, link_session->painter);
     petri_picture_report(session, picture);
     petri_picture_free(&picture);

@@ -2,6 +2,7 @@
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
+#include "cli/shader_test.h"
 #include "main/commands.h"
 
 #include <fcntl.h>
@@ -143,6 +144,10 @@ int main(int argc, char **argv) {
     // continues.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
+#ifdef PETRI_PICTURES
+    if (shader_test_is_wanted(argc, argv))
+        return shader_test_run();
+#endif
     char resolved[PATH_MAX];
     Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
                .host.invoked_as = argc > 0 ? argv[0] : "petri",

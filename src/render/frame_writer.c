@@ -9,6 +9,7 @@
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
+#include "cli/shader_test.h"
 #include "render/recording.h"
 #include "render/video.h"
 #include "run/frames.h"
@@ -93,7 +94,7 @@ static bool draw_for_film(FrameWriter *writer, PetriPicture *picture, PetriPaint
     pthread_mutex_unlock(&writer->lock);
     if (status == PETRI_OUT_OF_MEMORY)
         set_error_text(writer, "out of memory");
-    return status == PETRI_OK;
+    return status == PETRI_OK && !shader_test_interrupted();
 }
 
 static bool add_to_film(FrameWriter *writer, PetriPicture *picture, PetriPainter *painter) {
@@ -124,7 +125,7 @@ static bool add_to_film(FrameWriter *writer, PetriPicture *picture, PetriPainter
 static bool check_saved(FrameWriter *writer, PetriStatus status) {
     if (status == PETRI_OUT_OF_MEMORY)
         set_error_text(writer, "out of memory");
-    return status == PETRI_OK;
+    return status == PETRI_OK && !shader_test_interrupted();
 }
 
 static bool cannot_write(FrameWriter *writer, const char *file) {
@@ -241,7 +242,7 @@ static Job *pop_job(FrameWriter *writer, bool first) {
 
 static void *run_worker(void *context) {
     FrameWriter *writer = context;
-    PetriPainter *painter = petri_painter_open();
+    PetriPainter *painter = painter_open_tested(frames_signal);
     if (!painter)
         set_error_text(writer, "out of memory");
     pthread_mutex_lock(&writer->lock);

@@ -1,6 +1,7 @@
 // render.c: `petri render`, which writes an image of a frame, a series of images or a video.
 #include "cli/byte_buffer.h"
 #include "cli/script.h"
+#include "cli/shader_test.h"
 #include "cli/stdout_file.h"
 #include "render/frame_writer.h"
 #include "render/video.h"
@@ -185,6 +186,8 @@ static int end_render(Render *render, bool going) {
         render->drawn -= frame_writer_unfinished_count(render->writer);
         stopped = frames_signal(); // a signal may have arrived in the meantime
         keeps = keeps && render->drawn > 0;
+    } else if (shader_test_interrupted()) {
+        stopped = frames_signal();
     }
     frames_end(frames, going);
     if (error_text)
@@ -200,7 +203,8 @@ static int end_render(Render *render, bool going) {
         return STATUS_FAILED;
     }
     report_summary(render);
-    return STATUS_DONE;
+    // For example, a shader crashed the driver, or a limit left out a part of a picture.
+    return petri_diagnostic_count(frames->session, PETRI_ERROR) == 0 ? STATUS_DONE : STATUS_FAILED;
 }
 
 static int render_frames(Render *render) {

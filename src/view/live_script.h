@@ -23,6 +23,7 @@ typedef struct LiveScript {
     const Options *options;
     PetriSession *session;
     PetriPainter *painter;
+    int (*pending_signal)(void); // returns the number of a signal that ends the view, or 0; NULL: no function
     PetriPicture *picture; // picture of the last frame; NULL: nothing to draw
     Recording recording;
     FileWatch *watch;

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "cli/byte_buffer.h"
 #include "cli/progress.h"
+#include "cli/shader_test.h"
 #include "view/terminal_picture.h"
 
 #include <stdlib.h>
@@ -37,7 +38,7 @@ PetriStatus still_show(PetriSession *session, PetriPainter *painter, bool colour
     PetriStatus status = petri_picture(session, &options, &picture);
     if (status != PETRI_OK)
         return status;
-    PetriPainter *own = !painter ? petri_painter_open() : NULL;
+    PetriPainter *own = !painter ? painter_open_tested(NULL) : NULL;
     painter = !painter ? own : painter;
     TerminalPicture *renderer = terminal_picture_new(STDOUT_FILENO, colour);
     status =

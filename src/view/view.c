@@ -24,6 +24,10 @@ static void on_interrupt(int number) {
     interrupted = number;
 }
 
+static int pending_signal(void) {
+    return interrupted;
+}
+
 // The first signal closes the view in an orderly way. A second signal terminates the process.
 static void catch_interrupts(void) {
     signal_catch(SIGINT, on_interrupt, (int)SA_RESETHAND);
@@ -410,7 +414,7 @@ static int run_view(View *view) {
 }
 
 static int view_run(const CommandContext *context, Options *options) {
-    View view = {.host = context};
+    View view = {.host = context, .live.pending_signal = pending_signal};
     int status = live_script_open(&view.live, context, options);
     if (status == OPTIONS_READ && options->listen &&
         (!live_script_enable_history(&view.live) || !listener_open(&view.listener, options->listen)))

@@ -82,7 +82,7 @@ client.end()
 client = Client(petri)
 heavy = (project / "heavy.fl").as_uri()
 client.notify("textDocument/didOpen", {"textDocument": {
-    "uri": heavy, "languageId": "flitter", "version": 1, "text": "!n a=sum(i for i in ..40000000)\n!n b=sin(1)\n"}})
+    "uri": heavy, "languageId": "flitter", "version": 1, "text": "!n a=sum(i for i in ..20000000)\n!n b=sin(1)\n"}})
 time.sleep(1)  # the full check begins
 check("a request is answered while a heavy script is checked", "sin(x)" in str(client.at("hover", heavy, 1, 6)))
 check("the request interrupts the check", heavy in client.published, False)

@@ -1,0 +1,175 @@
+// shader_test.c: see shader_test.h.
+//
+// The tested process gets two texts on standard input, each with a terminating NUL, and writes the driver's message to
+// standard output. Its exit status tells the result (SHADER_GOOD ...).
+#define _GNU_SOURCE // pipe2
+#include "cli/shader_test.h"
+
+#include "base/arena.h"
+#include "base/file.h"
+#include "cli/byte_buffer.h"
+#include "cli/cli.h"
+#include "petri-draw.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { SHADER_GOOD = 0, SHADER_REJECTED = 10, SHADER_REJECTED_VERTEX = 11 };
+// Limits of a test. Common shaders take less than a second and 300 MB with llvmpipe.
+enum { MAX_SECONDS = 4, MAX_WAIT_SECONDS = 30, MAX_GIBIBYTES = 2, MAX_SOURCE = 1 << 24 };
+
+static int (*find_signal)(void);              // see painter_open_tested
+static atomic_bool interrupted;               // see shader_test_interrupted
+static char command_word[] = "--test-shader"; // not an option for users
+
+// Starts this program again, with pipes as its standard input and output. Returns the process id, or -1.
+static pid_t start_test(int input[2], int output[2]) {
+    static char name[] = "petri";
+    char *const arguments[] = {name, command_word, NULL};
+    extern char **environ;
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t none;
+    pid_t pid = -1;
+    sigemptyset(&none);
+    if (posix_spawn_file_actions_init(&actions) != 0)
+        return -1;
+    if (posix_spawnattr_init(&attributes) == 0) {
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+        posix_spawnattr_setsigmask(&attributes, &none);
+        if (posix_spawn_file_actions_adddup2(&actions, input[0], STDIN_FILENO) != 0 ||
+            posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO) != 0 ||
+            posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0) != 0 ||
+            posix_spawn(&pid, "/proc/self/exe", &actions, &attributes, arguments, environ) != 0)
+            pid = -1;
+        posix_spawnattr_destroy(&attributes);
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    return pid;
+}
+
+// Waits until the process writes or ends. Returns false if a signal came first.
+static bool wait_for_output(int fd) {
+    enum { MILLISECONDS = 50 };
+    struct pollfd output = {.fd = fd, .events = POLLIN};
+    while (poll(&output, 1, MILLISECONDS) <= 0)
+        if (find_signal && find_signal() != 0)
+            return false;
+    return true;
+}
+
+static void describe_failure(int status, PetriShaderProblem *problem) {
+    problem->failed = true;
+    int signal_number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (signal_number == SIGXCPU || signal_number == SIGKILL || signal_number == SIGALRM) {
+        snprintf(problem->text, sizeof problem->text, "the shader takes more than %d s to compile", MAX_SECONDS);
+    } else if (signal_number == SIGINT || signal_number == SIGTERM) {
+        interrupted = true;
+        snprintf(problem->text, sizeof problem->text, "interrupted while the shader was compiled");
+    } else {
+        snprintf(problem->text, sizeof problem->text,
+                 "OpenGL crashed, or needed more than %d GiB of memory, while it compiled the shader", MAX_GIBIBYTES);
+    }
+}
+
+// A PetriShaderTest. If no process can be started, the shader is not compiled.
+static bool test_shader(void *user_data, const char *vertex, const char *fragment, PetriShaderProblem *problem) {
+    (void)user_data;
+    int input[2], output[2], status = 0;
+    snprintf(problem->text, sizeof problem->text, "cannot start a process that compiles the shader");
+    problem->failed = true;
+    if (pipe2(input, O_CLOEXEC) != 0)
+        return false;
+    if (pipe2(output, O_CLOEXEC) != 0) {
+        close(input[0]);
+        close(input[1]);
+        return false;
+    }
+    pid_t pid = start_test(input, output);
+    close(input[0]);
+    close(output[1]);
+    if (pid > 0) {
+        // The process reads all of its input before it writes. If it ends early, writing fails, because SIGPIPE is
+        // ignored.
+        (void)(file_write(input[1], vertex, strlen(vertex) + 1) &&
+               file_write(input[1], fragment, strlen(fragment) + 1));
+    }
+    close(input[1]);
+    SCOPED_BYTE_BUFFER text = {0};
+    byte_buffer_add(&text, "", 0);
+    if (pid > 0 && !wait_for_output(output[0]))
+        kill(pid, SIGINT);
+    if (pid > 0)
+        byte_buffer_read(&text, output[0], sizeof problem->text - 1);
+    close(output[0]);
+    while (pid > 0 && waitpid(pid, &status, 0) < 0)
+        if (errno != EINTR)
+            return false;
+    if (pid < 0)
+        return false;
+    int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (code == SHADER_REJECTED || code == SHADER_REJECTED_VERTEX) {
+        problem->failed = false;
+        problem->in_vertex = code == SHADER_REJECTED_VERTEX;
+        snprintf(problem->text, sizeof problem->text, "%s", text.data);
+    } else if (code != SHADER_GOOD) {
+        describe_failure(status, problem);
+    }
+    return code == SHADER_GOOD;
+}
+
+PetriPainter *painter_open_tested(int (*pending_signal)(void)) {
+    PetriPainter *painter = petri_painter_open();
+    find_signal = pending_signal;
+    petri_painter_test_shaders(painter, test_shader, NULL);
+    return painter;
+}
+
+bool shader_test_interrupted(void) {
+    return interrupted;
+}
+
+bool shader_test_is_wanted(int argc, char **argv) {
+    return argc == 2 && strcmp(argv[1], command_word) == 0;
+}
+
+static void set_limits(void) {
+    struct rlimit seconds = {MAX_SECONDS, MAX_SECONDS + 1},
+                  bytes = {(rlim_t)MAX_GIBIBYTES << 30, (rlim_t)MAX_GIBIBYTES << 30};
+    struct rlimit none = {0, 0};
+    setrlimit(RLIMIT_CPU, &seconds);
+    setrlimit(RLIMIT_CORE, &none);
+#if !ARENA_POISONS // the address sanitizer reserves terabytes
+    setrlimit(RLIMIT_AS, &bytes);
+#else
+    (void)bytes;
+#endif
+    alarm(MAX_WAIT_SECONDS);          // ends a driver that waits forever
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // ends this process with the one that waits for it
+    signal(SIGINT, SIG_DFL);
+}
+
+int shader_test_run(void) {
+    set_limits();
+    SCOPED_BYTE_BUFFER input = {0};
+    byte_buffer_add(&input, "", 0);
+    if (!byte_buffer_read(&input, STDIN_FILENO, MAX_SOURCE))
+        return STATUS_FAILED;
+    size_t length = strlen(input.data);
+    PetriShaderProblem problem = {0};
+    if (length + 1 >= input.length || petri_shader_try(input.data, input.data + length + 1, &problem))
+        return length + 1 >= input.length ? STATUS_FAILED : SHADER_GOOD;
+    fputs(problem.text, stdout);
+    fflush(stdout);
+    return problem.in_vertex ? SHADER_REJECTED_VERTEX : SHADER_REJECTED;
+}

@@ -1,0 +1,20 @@
+// shader_test.h: tests the shaders of scripts in a separate process, so that a crash of the driver, or a shader
+// that takes too much time or memory to compile, becomes a diagnostic.
+#ifndef PETRI_SRC_SHADER_TEST_H
+#define PETRI_SRC_SHADER_TEST_H
+
+#include <stdbool.h>
+
+struct PetriPainter;
+
+// Like petri_painter_open, for a painter that tests shaders. A test ends early if `pending_signal` returns a number
+// other than 0; NULL: no function.
+struct PetriPainter *painter_open_tested(int (*pending_signal)(void));
+// Returns true if a signal has ended a test, so that a picture may lack a shader.
+bool shader_test_interrupted(void);
+// Returns true if this process was started to test a shader.
+bool shader_test_is_wanted(int argc, char **argv);
+// Tests the shader on standard input within limits. Returns the exit status.
+int shader_test_run(void);
+
+#endif

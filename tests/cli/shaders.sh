@@ -1,0 +1,62 @@
+# shaders.sh: tests that a script's shaders cannot crash petri or exceed its limits.
+
+# shader NAME [LINE...]: writes NAME.fl, which draws with a shader. The lines are its declarations.
+shader() {
+    {
+        printf '!window size=100;80\n    !shader fragment="""${HEADER}\nin vec2 coord; out vec4 color; uniform float time;\n'
+        printf '%s\n' "$2" "void main() { float x = coord.x; $3; color = vec4(x, 0, 0, 1); }" '"""'
+    } >"$1.fl"
+}
+# draw NAME [OPTION...]: renders a frame, within memory that suffices if shaders are limited.
+draw() {
+    shader_name=$1
+    shift
+    petri render "$shader_name.fl" -o "$shader_name.png" --frames 1 "$@"
+}
+
+shader good 'float twice(float x) { return 2.0 * x; }' 'x = twice(x)'
+draw good
+if [ -s good.png ] && ! grep -Eq "OpenGL|without" err; then
+    check "a shader draws" status_is 0
+    check "a shader draws without a message" empty err
+    shader bad '' 'x = y'
+    draw bad
+    check "a rejected shader is a warning" status_is 0
+    check "the warning has the position in the shader" has err "bad.fl:5:38: warning: !shader: \`y' undeclared"
+
+    shader large 'float a[2000000000];' 'a[int(x)] = x; x = a[int(x * time)]'
+    draw large
+    check "a shader that crashes the driver is an error" status_is 1
+    check "the error has a position" has err "large.fl:2:13: error: !shader: "
+    check "the picture is drawn without the shader" [ -s large.png ]
+
+    macros='#define A0(x) sin(x)'
+    for i in $(seq 30); do
+        macros="$macros
+#define A$i(x) A$((i - 1))(A$((i - 1))(x))"
+    done
+    shader macros "$macros" 'x = A30(x)'
+    draw macros
+    check "a shader that compiles too long is an error" status_is 1
+    check "the error names the limit" grep -Eq "error: !shader: (the shader takes more than 4 s to compile|OpenGL crashed)" err
+    rm -f macros.png
+    timeout --foreground --preserve-status -s INT 1 "$petri" render macros.fl -o macros.png --frames 1 >out 2>err </dev/null
+    status=$?
+    check "a signal ends petri while a shader is compiled" status_is 130
+    check "a signal leaves no picture" [ ! -e macros.png ]
+
+    shader loops '' 'for (int i = 0; i < 1000; i++) for (int j = 0; j < 1000; j++) x = sin(x + float(i * j) + time)'
+    draw loops --work 20000000
+    check "a shader that draws too long is an error" status_is 1
+    check "the error names the work limit" has err "error: !shader: the shader took longer to draw than the work limit allows (--work)"
+
+    {
+        cat good.fl
+        printf 'if frame == 1\n    !window size=100;80\n'
+        sed -n '2,$s/^/    /p' large.fl
+    } | sed '1,/^"""$/{ s/^/    /; 1i if frame < 1
+}' >series.fl
+    petri render series.fl -o series%d.png --frames 2
+    check "a series with a shader that crashes fails" status_is 1
+    check "the frames before it are complete" cmp -s series0.png good.png
+fi
