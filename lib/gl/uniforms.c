@@ -209,11 +209,14 @@ static void send_uniform(GLint at, GLenum type, uint32_t size, GLsizei count, bo
 static void set_numbers(GLint at, GLenum type, GLsizei count, const Numbers *numbers) {
     enum { MAX_NUMBERS = 256 };
     bool is_integer;
-    uint32_t size = size_of(type, &is_integer), all = size * (uint32_t)count;
+    uint32_t size = size_of(type, &is_integer);
+    if (size == 0 || count > MAX_NUMBERS) // a larger count could overflow `all`
+        return;
+    uint32_t all = size * (uint32_t)count;
     float x[MAX_NUMBERS];
     GLint n[MAX_NUMBERS];
     bool fits = numbers->count == all || numbers->count == 1 || numbers->count == size;
-    if (size == 0 || all > MAX_NUMBERS)
+    if (all > MAX_NUMBERS)
         return;
     for (uint32_t i = 0; i < all; i++) {
         double number = fits ? numbers->list[i % numbers->count] : 0;
@@ -244,7 +247,7 @@ void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state) {
     glUseProgram(program);
     glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
     for (GLint i = 0; i < count; i++) {
-        char name[64];
+        char name[1024]; // OpenGL ES 3 limits names to 1024 bytes
         GLint size = 0;
         GLenum type = 0;
         Numbers numbers = {.list = NULL};

@@ -70,9 +70,9 @@
     ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "centre of the model") \
     ATTR(kind, ROTATION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "turns", "rotation about z, then y, then x") \
     ATTR(kind, SIZE, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "scale along x, y and z") \
-    ATTR(kind, START, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "start of the axis; used only with end") \
+    ATTR(kind, START, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "start of the axis; ignored unless end is set") \
     ATTR(kind, END, TRIPLE, NOWHERE, NONE, "", "end of the axis; replaces position, rotation and size") \
-    ATTR(kind, RADIUS, AMOUNT, NOWHERE, IS(1), "", "radius around the axis; used only with end") \
+    ATTR(kind, RADIUS, AMOUNT, NOWHERE, IS(1), "", "radius around the axis; ignored unless end is set") \
     SURFACE_ROWS(kind) \
     MATERIAL_ROWS(kind)
 

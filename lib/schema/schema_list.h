@@ -626,11 +626,11 @@ ATTR(ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the smallest 
 
 NODE(FILTER_MATRIX, "color_matrix", FILTER, FILTER, "change the colours of nodes drawn after it")
 ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "four rows, for red, green, blue and alpha; each has five factors, for r;g;b;a;1; if set, all other attributes are ignored")
-ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "row of the matrix for red; if any row is set, scale, offset and the attributes after them are ignored")
+ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "row of the matrix for red; if a row is set, scale, offset, brightness, contrast and saturation are ignored")
 ATTR(FILTER_MATRIX, GREEN, FIVE, NOWHERE, DESCRIBED(0, "0;1;0;0;0"), "", "row of the matrix for green")
 ATTR(FILTER_MATRIX, BLUE, FIVE, NOWHERE, DESCRIBED(0, "0;0;1;0;0"), "", "row of the matrix for blue")
 ATTR(FILTER_MATRIX, ALPHA, FIVE, NOWHERE, DESCRIBED(0, "0;0;0;1;0"), "", "row of the matrix for alpha")
-ATTR(FILTER_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors for red, green and blue; if scale or offset is set, the attributes after them are ignored")
+ATTR(FILTER_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors for red, green and blue; if scale or offset is set, brightness, contrast and saturation are ignored")
 ATTR(FILTER_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "added to red, green and blue after scale")
 ATTR(FILTER_MATRIX, BRIGHTNESS, FINITE, NOWHERE, IS(0), "", "added to red, green and blue")
 ATTR(FILTER_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "factor for the difference of red, green and blue from 0.5")
@@ -641,7 +641,7 @@ NODE(DRAWN, "source", FILTER, NOTHING, "the unfiltered drawing, as input to anot
 NODE(FILTER_PAINT, "paint", FILTER, NOTHING, "an area filled with a colour or the current source, as input to another filter")
 PAINT_ROWS(FILTER_PAINT)
 
-NODE(FILTER_BLEND, "blend", FILTER, FILTER, "apply a mix of the two filters inside it to nodes drawn after it")
+NODE(FILTER_BLEND, "blend", FILTER, FILTER, "blend the results of the two filters inside it; applied to nodes drawn after it")
 ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "k1;k2;k3;k4: the result is k1*first*second + k2*second + k3*first + k4")
 ATTR(FILTER_BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the first filter; ignored if coefficients is set")
 ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "how the second filter is combined with the first; ignored if coefficients or ratio is set")

@@ -303,6 +303,12 @@ class Functions(unittest.TestCase):
             with self.assertRaisesRegex(RuntimeError, "cannot use the session"):
                 session.step()
 
+    def test_cannot_close_their_session(self):
+        session = petri.Session("!a b=use(frame)\n", functions={"use": lambda x: session.close()})
+        with self.assertRaisesRegex(RuntimeError, "cannot use the session"):
+            session.step()
+        self.assertEqual(repr(session)[:20], "<petri.Session after")
+
     def test_ctrl_c_before_the_function_is_raised(self):
         def interrupt(frame, event, _):
             if frame.f_code.co_name == "petri_python_called":
@@ -440,6 +446,8 @@ class Diagnostics(unittest.TestCase):
     def test_wrong_arguments_are_errors(self):
         with self.assertRaises(ValueError):
             petri.Session(DISH, options=petri.Options(fps=-1))
+        with self.assertRaisesRegex(ValueError, "read_folders contains a NUL"):
+            petri.Session(DISH, options=petri.Options(read_folders=["data\0x"]))
         with self.assertRaises(ValueError):
             petri.Session(DISH).state["no name"]
         with self.assertRaises((TypeError, ValueError)):

@@ -121,7 +121,10 @@ class Session:
                 setattr(options, name, value)
         keep = []
         for name in ("read_folders", "write_folders"):
-            texts = [ffi.new("char[]", os.fsencode(folder)) for folder in getattr(wanted, name)]
+            folders = [os.fsencode(folder) for folder in getattr(wanted, name)]
+            if any(b"\0" in folder for folder in folders):
+                raise ValueError(f"a path in {name} contains a NUL character")
+            texts = [ffi.new("char[]", folder) for folder in folders]
             folders = ffi.new("const char *[]", [*texts, ffi.NULL])
             keep += [texts, folders]
             setattr(options, name, folders)
@@ -147,10 +150,13 @@ class Session:
         if status or self._told or self._stop and self._stop[0]:
             self._finish(status, message)
 
-    def _finish(self, status: int, message: Optional[str] = None) -> None:
-        """Raises the error of a call, or the exception that a Python function raised during the call."""
+    def _check_not_calling(self) -> None:
         if self._functions and self._functions.calling:
             raise RuntimeError("a Python function cannot use the session that is calling it")
+
+    def _finish(self, status: int, message: Optional[str] = None) -> None:
+        """Raises the error of a call, or the exception that a Python function raised during the call."""
+        self._check_not_calling()
         if self._functions and self._functions.raised:
             error = self._functions.raised[0]
             self._functions.raised.clear()
@@ -264,6 +270,7 @@ class Session:
 
     def close(self) -> None:
         """Ends the session. Its memory is freed when no array refers to it any more."""
+        self._check_not_calling()
         with self._lock:
             self._c = self.state._session = ffi.NULL
 
