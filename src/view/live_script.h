@@ -24,7 +24,7 @@ typedef struct LiveScript {
     PetriSession *session;
     PetriPainter *painter;
     int (*pending_signal)(void); // returns the number of a signal that ends the view, or 0; NULL: no function
-    PetriPicture *picture; // picture of the last frame; NULL: nothing to draw
+    PetriPicture *picture;       // picture of the last frame; NULL: nothing to draw
     Recording recording;
     FileWatch *watch;
     int64_t frames; // number of frames since the view was opened, not counting those before the first picture
