@@ -1,5 +1,6 @@
 // scene_draw.c: renders a camera's view of a scene; see scene.h.
 #include "gl/gpu_cache.h"
+#include "gl/scene_cost.h"
 #include "gl/shader_sources.h"
 #include "gl/sphere_impostor.h"
 
@@ -386,6 +387,28 @@ static int bits_of(const Scene *scene, const SceneCamera *camera) {
     return bits == 8 || bits == 16 || bits == 32 ? (int)bits : scene->bits;
 }
 
+// Charges the estimated time of drawing. If that would exceed the limit, reports it and returns false.
+static bool charge_view(const Drawing *drawing, const SceneBox *boxes, int width, int height) {
+    enum { NEGLIGIBLE = 16 }; // a rough estimate suffices below this fraction of the remaining work
+    Budget *budget = drawing->gl->budget;
+    if (!budget)
+        return true;
+    double left = (double)(budget->work_limit - budget->work) * BUDGET_UNIT_TIME;
+    SceneView view = {drawing->scene, &drawing->order, boxes, &drawing->view, &drawing->projection, width, height};
+    double cost = scene_cost(&view, left / NEGLIGIBLE);
+    if (budget_charge_time(budget, cost))
+        return true;
+    // Drawing has three quarters of the limit (draw_limit).
+    double needed = 4 * ceil(((double)budget->work + cost / BUDGET_UNIT_TIME) / 3 + 1);
+    scene_report(
+        drawing->scene, "drawing-limit", drawing->camera->node,
+        str_to_c(drawing->scene->arena,
+                 str_format(drawing->scene->arena,
+                            "drawing would exceed the work limit: the scene is left out; --work %.0f would allow it",
+                            needed)));
+    return false;
+}
+
 GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures) {
     GlImage none = {0};
     int width = (int)fmax(1, floor(camera->width * scene->detail + 0.5));
@@ -406,6 +429,8 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     if (drawing.order.cut)
         scene_report(scene, "too-many-triangles", scene->node,
                      "a picture can show at most 50 million triangles; the others are left out");
+    if (!charge_view(&drawing, boxes, width, height))
+        return none;
     while (glGetError() != GL_NO_ERROR)
         ;
     send_records(&drawing);

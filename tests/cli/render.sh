@@ -256,6 +256,19 @@ END
         printf '!window size=30\n    !canvas3d\n        !light color=1\n        for i in ..20\n            !sphere segments=256 snap_edges=0.1+i/2000\n' >meshes.fl
         petri render meshes.fl -o meshes.png --frames 1 --memory 60M
         check "meshes are charged to the memory limit" has err "exceeds the memory limit (--memory)"
+        left_out="!canvas3d: drawing would exceed the work limit: the scene is left out; --work"
+        # many large instances; many lights; many groups with many lights
+        for scene in 'for i in ..20000\n            !cylinder segments=1024 position=i/2000 size=50\n' \
+            'for i in ..4000\n            !light color=1 start=i;0;0 end=0;i;10 radius=3\n        !box size=2000 transparency=0.5\n' \
+            'for i in ..900\n            !light color=1 start=i;0;0 end=0;i;10\n        for i in ..20000\n            !group\n                !box size=20 translucency=0.5\n'; do
+            printf "!window size=600;400\n    !canvas3d max_lights=4000 viewpoint=0;0;100\n        !light color=1\n        $scene" >scene.fl
+            petri render scene.fl -o scene.png --frames 1
+            check "a scene above the work limit is left out" has err "$left_out"
+        done
+        printf '!window size=60\n    !canvas3d viewpoint=0;0;50\n        !light color=1\n        for i in ..999\n            !box size=40 position=0;0;-i/100 transparency=0.5\n' >scene.fl
+        petri render scene.fl -o scene.png --frames 1 --work 1000000
+        petri render scene.fl -o scene.png --frames 1 --work "$(sed -n 's/.*--work \([0-9]*\) would allow it.*/\1/p' err)"
+        check "the message names a limit that suffices for the scene" empty err
     fi
     printf '!window size=20\n    !canvas\n        !image filename="scans.jpg" size=20\n' >scans.fl
     if scans 64 64 99 scans.jpg 2>/dev/null; then

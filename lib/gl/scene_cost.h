@@ -1,0 +1,22 @@
+// scene_cost.h: estimates how long a view of a scene takes to draw, so that it can be charged before it is drawn.
+#ifndef PETRI_GL_SCENE_COST_H
+#define PETRI_GL_SCENE_COST_H
+
+#include "gl/draw_order.h"
+
+// The view whose cost is estimated.
+typedef struct SceneView {
+    const Scene *scene;
+    const DrawOrder *order;
+    const SceneBox *boxes; // of the scene's models
+    const Matrix *view;
+    const Matrix *projection;
+    int width; // in pixels
+    int height;
+} SceneView;
+
+// Returns the time in nanoseconds. If a rough upper bound is at most `enough`, returns this bound; it is quick to
+// compute.
+double scene_cost(const SceneView *view, double enough);
+
+#endif
