@@ -1,8 +1,8 @@
 // maths.h: correctly rounded elementary functions.
 //
-// Each result is the double nearest to the exact value, ties to even, so it does not depend on the compiler, C
-// library, processor or instruction set. Special cases follow C17 Annex F, but the bits of a NaN, the exception flags
-// and errno are unspecified. The rounding mode must be to nearest.
+// Each result, except that of maths_hypot, is the double nearest to the exact value, ties to even, so it does not
+// depend on the compiler, C library, processor or instruction set. Special cases follow C17 Annex F, but the bits of a
+// NaN, the exception flags and errno are unspecified. The rounding mode must be to nearest.
 //
 // The methods are described in fast.h, exact.c (Ziv's method), fast_exp.h, fast_log.h, fast_sincos.h, fast_arc.h and
 // fixed.h.

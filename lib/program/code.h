@@ -134,7 +134,7 @@ struct Code {
     const uint32_t *lines; // source line of each instruction, from 1; NULL: not recorded
 };
 
-// Stores the operands that `instr` reads in `reads`, and returns their number. An instruction in the body of a loop
+// Stores in `reads` the operands that `instr` reads, and returns their number. An instruction in the body of a loop
 // with a BatchPlan has at most CODE_MAX_READ operands. `operands` is Code.operands of the code that contains `instr`.
 uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int32_t *reads);
 

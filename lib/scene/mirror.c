@@ -112,8 +112,8 @@ static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *ro
     return false;
 }
 
-// Returns true if nothing else has created a missing entry or changed an entry of a single number. Such writes do not
-// mark the owner as modified.
+// Some writes to the state do not mark the owner as modified: those that create an entry that was missing and, in one
+// dimension, those that change an entry. Returns true if there were none of these.
 static bool unreferenced_in_sync(const PhysicsTree *tree) {
     const Mirror *mirror = &tree->system->mirror;
     if (tree->dimensions > 1 && mirror->missing == 0)

@@ -85,7 +85,8 @@ for size in "$((side / 10)) 4" "$((side * 10 / 32)) 4" "$side 4" "$((side * 10 /
         printf "soft discs %7d, %2d ranks %12.0f %10.0f %13.0f %8.2f %9.1f %10.2f %14.0f\n",
             n, ranks, $1, $2, $3, ($2 > 0 ? $3 / (16 * $2) : 0), $4, $5, $6 }' "$work/row"
 done
-read -r own _ bytes messages reductions _ <"$work/row" # of 16 ranks, most of which have neighbours on all sides
+# The last row has 16 ranks, the first number at which some ranks have neighbours on all sides.
+read -r own _ bytes messages reductions _ <"$work/row"
 
 if [ -z "${STEP_NS:-}" ]; then
     each=$(steady 20 mpirun -n 2 "$petri" run "$soft" --fps 5 --threads 1)

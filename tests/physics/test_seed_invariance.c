@@ -52,7 +52,8 @@ static void test_frame_rates(void **state) {
     }
 }
 
-// If step lengths are powers of two and frames are multiples of them, no rounding occurs and the bits are the same.
+// If the step length is a power of two and a frame lasts a whole number of steps, times are not rounded, and the
+// results are bit-identical at all frame rates.
 static void test_exact_frame_rates(void **state) {
     (void)state;
     char *script = text_of("!physics state=:s dimensions=2 resolution=1/64\n"

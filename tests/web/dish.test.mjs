@@ -5,7 +5,8 @@ import { Dish } from '../../src/web/page/dish.mjs';
 
 const TICK = 15.625; // 1/64 s in ms, so that all sums are exact
 
-// A dish whose display ticks and whose engine answers when the test requests it.
+// Returns a simulated world with a dish. Its display ticks when the test calls tick(). Its engine answers at once or, while
+// `holds` is true, collects its answers in `held`.
 function made() {
     const world = { now: 0, waiting: [], asked: [], held: [], holds: false, frame: -1 };
     const globals = { requestAnimationFrame: callback => world.waiting.push(callback), performance: { now: () => world.now } };

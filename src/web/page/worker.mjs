@@ -79,7 +79,8 @@ const acts = {
         player.seek(player.frame);
         return shown();
     },
-    // Draws the automatic picture of the particles if the page cannot draw the script's picture.
+    // From now on, draws the automatic picture of the particles, until a script is loaded. The page sends this if it cannot
+    // draw the script's picture.
     automatic() {
         player.automatic = true;
         return shown();

@@ -45,7 +45,7 @@ fi
 run=lmp
 [ "$5" -eq 1 ] || run="mpirun --oversubscribe -np $5 lmp"
 export OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-# shellcheck disable=SC2086 # the command is words
+# shellcheck disable=SC2086 # the command is split into words
 if ! $run -in "$here/soft.lmp" -log none -var dim "$1" -var side "$2" -var steps "$3" -var style "$style" >out 2>&1 \
     </dev/null; then
     tail -n 5 out >&2

@@ -47,7 +47,7 @@ static void test_parameters_are_found(void **state) {
     }
 }
 
-// An undefined parameter name is not reported, and a definition does not change the default.
+// In `let n=n or 5`, the second `n` is not reported as unbound. A definition does not change the default.
 static void test_definition_keeps_default(void **state) {
     Desk *desk = *state;
     assert_text("value", code_of(desk, "let n=n or 5\nn\n"), "move r0 = 5\nmove r1 = 5\nreturn r1\n");
