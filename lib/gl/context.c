@@ -121,6 +121,7 @@ void gl_after_draw(Gl *gl) {
 bool gl_enter(Gl *gl, const char **problem) {
     *problem = "the OpenGL context cannot be used";
     pthread_mutex_lock(&one_thread);
+    gl->shader_seconds = 0;
     if (gl->adopted ? eglGetCurrentContext() == gl->context
                     : eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context)) {
         gl_after_draw(gl); // the host may have drawn since the last fence

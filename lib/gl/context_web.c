@@ -39,7 +39,7 @@ void gl_after_draw(Gl *gl) {
 }
 
 bool gl_enter(Gl *gl, const char **problem) {
-    (void)gl;
+    gl->shader_seconds = 0;
     *problem = "the WebGL context was lost";
     return gl_web_ready();
 }

@@ -115,10 +115,11 @@ int gl_downsample(const DrawNode *node) {
     return x >= 2 ? x < 64 ? (int)x : 64 : 1;
 }
 
-// Returns the processor time that drawing may still take.
+// Returns the processor time that the programs of scripts may still take in this picture.
 static double seconds_left(const Gl *gl) {
     const Budget *budget = gl->budget;
-    return budget ? 1e-9 * BUDGET_UNIT_TIME * (double)(budget->work_limit - budget->work) : INFINITY;
+    return budget ? 1e-9 * BUDGET_UNIT_TIME * (double)(budget->work_limit - budget->work) - gl->shader_seconds
+                  : INFINITY;
 }
 
 bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out) {
@@ -141,10 +142,12 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
                 glClear(GL_COLOR_BUFFER_BIT);
             }
             gl_set_uniforms(gl, passes[i].program, &state);
-            if (!own)
+            if (own) {
+                gl->shader_seconds += gl_draw_quad_within(gl, passes[i].program, width, height, seconds_left(gl));
+                good = gl->shader_seconds < INFINITY;
+            } else {
                 gl_draw_quad(gl, passes[i].program);
-            else if (!gl_draw_quad_within(gl, passes[i].program, width, height, seconds_left(gl)))
-                gl->too_slow = true, good = false;
+            }
         }
         if (i > 0 && last.texture != first.texture)
             gl_image_free(gl, last);

@@ -80,8 +80,9 @@ typedef struct GlShaderError {
 unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
 // Like gl_program, for a program that a script contains: tests it first.
 unsigned gl_own_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
-// Compiles a program and draws a few pixels with it in a separate context. If it does not compile, fills *problem and
-// returns false. Without OpenGL, returns true.
+// Compiles a program and draws GL_TRY_SIDE² pixels with it in a separate context. If it does not compile, or without
+// OpenGL, fills *problem and returns false.
+enum { GL_TRY_SIDE = 16 };
 bool gl_try_program(const char *vertex, const char *fragment, GlShaderProblem *problem);
 // The version and precision lines of a shader. Scripts write ${HEADER} instead of these lines.
 extern const char gl_header[];
@@ -91,8 +92,9 @@ extern const char gl_quad[];
 // Draws over the whole target with a program. Its vertex shader must be gl_quad or have the same inputs as gl_quad.
 void gl_draw_quad(Gl *gl, unsigned program);
 // Like gl_draw_quad, for a target of width x height pixels and a program that may be slow. Draws one band of rows after
-// the other. Stops and returns false once drawing has taken `seconds` of processor time.
-bool gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds);
+// the other. Returns the seconds of processor time that this took, estimated from above. Stops, and returns infinity,
+// once it has taken more than `seconds`.
+double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds);
 
 // The following functions draw on the window of an adopted context. Boxes are in pixels from the window's bottom left.
 // They return false if the GPU is out of memory. Temporary data is allocated from the arena.

@@ -35,8 +35,8 @@ struct Gl {
     GLsync fences[GL_MAX_FENCES]; // fences after recent drawing, oldest first
     GlShaderTest *shader_test;    // NULL: the programs of scripts are not tested
     void *shader_test_data;
-    bool too_slow;  // true if a script's program has exceeded its time; see gl_draw_quad_within
-    Budget *budget; // charged for images and scenes; NULL: nothing is charged
+    double shader_seconds; // time that the programs of scripts have taken since gl_enter; infinite: too much
+    Budget *budget;        // charged for images and scenes; NULL: nothing is charged
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;

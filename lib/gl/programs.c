@@ -151,9 +151,8 @@ unsigned gl_own_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShader
 
 // Draws a few pixels, because drivers also compile when a program first draws.
 static void draw_few_pixels(Gl *gl, unsigned program) {
-    enum { SIDE = 16 };
-    uint32_t pixels[SIDE * SIDE];
-    GlImage image = gl_image_new(gl, SIDE, SIDE, GL_FORMAT_SRGB8);
+    uint32_t pixels[GL_TRY_SIDE * GL_TRY_SIDE];
+    GlImage image = gl_image_new(gl, GL_TRY_SIDE, GL_TRY_SIDE, GL_FORMAT_SRGB8);
     if (!image.texture)
         return;
     gl_target(gl, image);
@@ -167,7 +166,9 @@ bool gl_try_program(const char *vertex, const char *fragment, GlShaderProblem *p
     Gl *gl = gl_open(&reason);
     if (!gl || !gl_enter(gl, &reason)) {
         gl_close(gl);
-        return true;
+        problem->failed = true;
+        snprintf(problem->text, sizeof problem->text, "%s", reason ? reason : "out of memory");
+        return false;
     }
     GlProgram *program = new_program(str_from(vertex), str_from(fragment));
     bool good = true;
@@ -212,28 +213,30 @@ static double draw_box(Gl *gl, unsigned program, int y, int width, int height) {
     return seconds_of(CLOCK_MONOTONIC) - start;
 }
 
-bool gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds) {
-    // The first box is as large as the pictures of gl_try_program. It is drawn twice if the driver may have compiled.
-    enum { SIDE = 16 };
-    static const double COMPILES = 0.01, BAND_SECONDS = 0.05, UNEVEN = 8;
+double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds) {
+    static const double COMPILES = 0.01, BAND_SECONDS = 0.05, UNEVEN = 8, THREADS = 2;
     const double processor = seconds_of(CLOCK_PROCESS_CPUTIME_ID), start = seconds_of(CLOCK_MONOTONIC);
-    double taken = 0;
+    const double pixels = fmin(width, GL_TRY_SIDE) * fmin(height, GL_TRY_SIDE);
     glEnable(GL_SCISSOR_TEST);
-    double box = draw_box(gl, program, 0, SIDE, SIDE);
-    if (box > COMPILES)
-        box = draw_box(gl, program, 0, SIDE, SIDE);
-    double row = box * width / (SIDE * SIDE); // seconds
+    // The first box is as large as the pictures of gl_try_program. It is drawn again if the driver may have compiled,
+    // or if the process may have been suspended.
+    double box = INFINITY;
+    for (int i = 0; i < 4 && (box > COMPILES || box / pixels * width * height > UNEVEN * seconds); i++)
+        box = fmin(box, draw_box(gl, program, 0, GL_TRY_SIDE, GL_TRY_SIDE));
+    double row = box / pixels * width, taken = 0; // in seconds
     // Pixels may differ in cost, so that the estimate decides only if it is far above the limit.
-    bool good = row * height < UNEVEN * seconds;
+    bool good = row * height <= UNEVEN * seconds;
     // Bands have an even number of rows, because pairs of rows share the derivatives of a shader.
     double wanted = fmin(floor(BAND_SECONDS / fmax(row, 1e-9)), height + 1);
     int rows = wanted < 2 ? 2 : (int)wanted / 2 * 2;
     for (int y = 0; y < height && good; y += rows) {
         draw_box(gl, program, y, width, rows < height - y ? rows : height - y);
-        // A GPU takes no processor time. Waiting for it counts a quarter.
-        taken = fmax(seconds_of(CLOCK_PROCESS_CPUTIME_ID) - processor, (seconds_of(CLOCK_MONOTONIC) - start) / 4);
-        good = taken <= seconds || y + rows >= height;
+        // A GPU takes no processor time; waiting for it counts a quarter. Other threads of this process take processor
+        // time for other work, so that it counts for a few threads only.
+        double wall = seconds_of(CLOCK_MONOTONIC) - start;
+        taken = fmax(fmin(seconds_of(CLOCK_PROCESS_CPUTIME_ID) - processor, THREADS * wall), wall / 4);
+        good = taken <= seconds;
     }
     glDisable(GL_SCISSOR_TEST);
-    return good;
+    return good ? taken : INFINITY;
 }

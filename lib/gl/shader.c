@@ -5,6 +5,8 @@
 #include "gl/internal.h"
 #include "gl/shader_errors.h"
 
+#include <math.h>
+
 enum { MAX_PASSES = 64 };
 
 // Replaces ${HEADER} or a line `#version 330` by gl_header. Adds #line directives, so that compiler messages contain
@@ -74,10 +76,9 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     for (uint32_t i = 0; i < count; i++)
         passes[i] = (GlPass){program, is_reduced(node, i)};
     GlImage out;
-    gl->too_slow = false;
     if (gl_run_passes(gl, effect, passes, count, &out))
         return out;
-    if (gl->too_slow) {
+    if (isinf(gl->shader_seconds)) {
         diag_report(faults,
                     &(Diag){.level = DIAG_ERROR,
                             .source = node->origin.source,

@@ -113,9 +113,10 @@ typedef bool PetriShaderTest(void *user_data, const char *vertex, const char *fr
 // program, on the thread that draws, and passes `user_data` to it. NULL: programs are not tested, the default.
 PETRI_API void petri_painter_test_shaders(PetriPainter *painter, PetriShaderTest *test, void *user_data);
 
-// Compiles a shader program and draws a few pixels with it, in a separate OpenGL context. For the process that a
-// PetriShaderTest starts. If the driver rejects the program, fills *problem and returns false. Returns true if there is
-// no OpenGL, because a painter compiles nothing then.
+enum { PETRI_SHADER_TRY_PIXELS = 256 }; // number of pixels that petri_shader_try draws
+
+// Compiles a shader program and draws some pixels with it, in a separate OpenGL context. For the process that a
+// PetriShaderTest starts. If the driver rejects the program, or there is no OpenGL, fills *problem and returns false.
 PETRI_API bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem);
 
 // Renders all canvases and effects of a picture's frame. Does nothing if this is the picture that the painter rendered

@@ -22,13 +22,13 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { SHADER_GOOD = 0, SHADER_REJECTED = 10, SHADER_REJECTED_VERTEX = 11 };
 // Limits of a test. Common shaders take less than a second and 300 MB with llvmpipe.
 enum { MAX_SECONDS = 4, MAX_WAIT_SECONDS = 30, MAX_GIBIBYTES = 2, MAX_SOURCE = 1 << 24 };
 
-static int (*find_signal)(void);              // see painter_open_tested
 static atomic_bool interrupted;               // see shader_test_interrupted
 static char command_word[] = "--test-shader"; // not an option for users
 
@@ -58,24 +58,43 @@ static pid_t start_test(int input[2], int output[2]) {
     return pid;
 }
 
+static bool has_signal(const ShaderTester *tester) {
+    return tester->pending_signal && tester->pending_signal() != 0;
+}
+
 // Waits until the process writes or ends. Returns false if a signal came first.
-static bool wait_for_output(int fd) {
+static bool wait_for_output(const ShaderTester *tester, int fd) {
     enum { MILLISECONDS = 50 };
     struct pollfd output = {.fd = fd, .events = POLLIN};
     while (poll(&output, 1, MILLISECONDS) <= 0)
-        if (find_signal && find_signal() != 0)
+        if (has_signal(tester))
             return false;
     return true;
 }
 
-static void describe_failure(int status, PetriShaderProblem *problem) {
+// Returns true if a signal has ended the test. The terminal sends Ctrl-C to the tested process too, perhaps before this
+// process has handled the signal.
+static bool was_interrupted(const ShaderTester *tester, int status) {
+    enum { TRIES = 20, NANOSECONDS = 10000000 };
+    int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    bool from_terminal = number == SIGINT || number == SIGTERM || number == SIGHUP || number == SIGQUIT;
+    for (int i = 0; from_terminal && i < TRIES && !has_signal(tester); i++)
+        nanosleep(&(struct timespec){.tv_nsec = NANOSECONDS}, NULL);
+    return from_terminal || has_signal(tester);
+}
+
+static void describe_failure(const ShaderTester *tester, int status, PetriShaderProblem *problem) {
+    int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     problem->failed = true;
-    int signal_number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (signal_number == SIGXCPU || signal_number == SIGKILL || signal_number == SIGALRM) {
-        snprintf(problem->text, sizeof problem->text, "the shader takes more than %d s to compile", MAX_SECONDS);
-    } else if (signal_number == SIGINT || signal_number == SIGTERM) {
+    if (was_interrupted(tester, status)) {
         interrupted = true;
-        snprintf(problem->text, sizeof problem->text, "interrupted while the shader was compiled");
+        while (tester->never_returns && has_signal(tester))
+            pause();
+        snprintf(problem->text, sizeof problem->text, "interrupted while the shader was tested");
+    } else if (number == SIGXCPU || number == SIGKILL || number == SIGALRM) {
+        snprintf(problem->text, sizeof problem->text,
+                 "the shader takes more than %d s to compile and to draw %d pixels", MAX_SECONDS,
+                 PETRI_SHADER_TRY_PIXELS);
     } else {
         snprintf(problem->text, sizeof problem->text,
                  "OpenGL crashed, or needed more than %d GiB of memory, while it compiled the shader", MAX_GIBIBYTES);
@@ -84,7 +103,7 @@ static void describe_failure(int status, PetriShaderProblem *problem) {
 
 // A PetriShaderTest. If no process can be started, the shader is not compiled.
 static bool test_shader(void *user_data, const char *vertex, const char *fragment, PetriShaderProblem *problem) {
-    (void)user_data;
+    const ShaderTester *tester = user_data;
     int input[2], output[2], status = 0;
     snprintf(problem->text, sizeof problem->text, "cannot start a process that compiles the shader");
     problem->failed = true;
@@ -98,16 +117,13 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
     pid_t pid = start_test(input, output);
     close(input[0]);
     close(output[1]);
-    if (pid > 0) {
-        // The process reads all of its input before it writes. If it ends early, writing fails, because SIGPIPE is
-        // ignored.
-        (void)(file_write(input[1], vertex, strlen(vertex) + 1) &&
-               file_write(input[1], fragment, strlen(fragment) + 1));
-    }
+    // The process reads all of its input before it writes. If it ends early, writing fails, because SIGPIPE is ignored.
+    bool sent = pid > 0 && file_write(input[1], vertex, strlen(vertex) + 1) &&
+                file_write(input[1], fragment, strlen(fragment) + 1);
     close(input[1]);
     SCOPED_BYTE_BUFFER text = {0};
     byte_buffer_add(&text, "", 0);
-    if (pid > 0 && !wait_for_output(output[0]))
+    if (pid > 0 && !wait_for_output(tester, output[0]))
         kill(pid, SIGINT);
     if (pid > 0)
         byte_buffer_read(&text, output[0], sizeof problem->text - 1);
@@ -117,21 +133,20 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
             return false;
     if (pid < 0)
         return false;
-    int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    int code = WIFEXITED(status) && sent ? WEXITSTATUS(status) : -1;
     if (code == SHADER_REJECTED || code == SHADER_REJECTED_VERTEX) {
         problem->failed = false;
         problem->in_vertex = code == SHADER_REJECTED_VERTEX;
         snprintf(problem->text, sizeof problem->text, "%s", text.data);
     } else if (code != SHADER_GOOD) {
-        describe_failure(status, problem);
+        describe_failure(tester, status, problem);
     }
     return code == SHADER_GOOD;
 }
 
-PetriPainter *painter_open_tested(int (*pending_signal)(void)) {
+PetriPainter *painter_open_tested(ShaderTester *tester) {
     PetriPainter *painter = petri_painter_open();
-    find_signal = pending_signal;
-    petri_painter_test_shaders(painter, test_shader, NULL);
+    petri_painter_test_shaders(painter, test_shader, tester);
     return painter;
 }
 
@@ -156,20 +171,25 @@ static void set_limits(void) {
 #endif
     alarm(MAX_WAIT_SECONDS);          // ends a driver that waits forever
     prctl(PR_SET_PDEATHSIG, SIGKILL); // ends this process with the one that waits for it
-    signal(SIGINT, SIG_DFL);
+    static const int ending[] = {SIGINT, SIGTERM, SIGHUP, SIGALRM, SIGXCPU}; // may have been ignored before exec
+    for (size_t i = 0; i < sizeof ending / sizeof *ending; i++)
+        signal(ending[i], SIG_DFL);
 }
 
 int shader_test_run(void) {
     set_limits();
     SCOPED_BYTE_BUFFER input = {0};
     byte_buffer_add(&input, "", 0);
-    if (!byte_buffer_read(&input, STDIN_FILENO, MAX_SOURCE))
+    if (!byte_buffer_read(&input, STDIN_FILENO, MAX_SOURCE) || input.length > MAX_SOURCE)
         return STATUS_FAILED;
     size_t length = strlen(input.data);
+    if (length + 1 >= input.length)
+        return STATUS_FAILED;
     PetriShaderProblem problem = {0};
-    if (length + 1 >= input.length || petri_shader_try(input.data, input.data + length + 1, &problem))
-        return length + 1 >= input.length ? STATUS_FAILED : SHADER_GOOD;
+    int status = SHADER_GOOD;
+    if (!petri_shader_try(input.data, input.data + length + 1, &problem))
+        status = problem.failed ? STATUS_FAILED : problem.in_vertex ? SHADER_REJECTED_VERTEX : SHADER_REJECTED;
     fputs(problem.text, stdout);
     fflush(stdout);
-    return problem.in_vertex ? SHADER_REJECTED_VERTEX : SHADER_REJECTED;
+    _exit(status); // without the exit handlers of the driver, which may crash
 }

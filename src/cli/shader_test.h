@@ -1,5 +1,5 @@
-// shader_test.h: tests the shaders of scripts in a separate process, so that a crash of the driver, or a shader
-// that takes too much time or memory to compile, becomes a diagnostic.
+// shader_test.h: tests the shaders of scripts in a separate process, so that a crash of the driver, or a shader that
+// takes too much time or memory to compile, becomes a diagnostic.
 #ifndef PETRI_SRC_SHADER_TEST_H
 #define PETRI_SRC_SHADER_TEST_H
 
@@ -7,9 +7,14 @@
 
 struct PetriPainter;
 
-// Like petri_painter_open, for a painter that tests shaders. A test ends early if `pending_signal` returns a number
-// other than 0; NULL: no function.
-struct PetriPainter *painter_open_tested(int (*pending_signal)(void));
+// What happens if a signal arrives during a test.
+typedef struct ShaderTester {
+    int (*pending_signal)(void); // returns the number of a signal that ends the command, or 0; NULL: no function
+    bool never_returns;          // true: drawing then sleeps until the process ends; false: the shader is left out
+} ShaderTester;
+
+// Like petri_painter_open, for a painter that tests shaders. The tester must outlive the painter.
+struct PetriPainter *painter_open_tested(ShaderTester *tester);
 // Returns true if a signal has ended a test, so that a picture may lack a shader.
 bool shader_test_interrupted(void);
 // Returns true if this process was started to test a shader.

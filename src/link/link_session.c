@@ -2,7 +2,6 @@
 #include "link/link_session.h"
 
 #include "cli/script.h"
-#include "cli/shader_test.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,12 +16,14 @@ static const char *note_file(void *host, const char *name, size_t *length) {
     return NULL;
 }
 
+ShaderTester link_shader_tester = {.pending_signal = frames_signal};
+
 // Draws the last frame into a single pixel, because image files are requested only when they are drawn.
 static void draw_last_frame(PetriSession *session) {
     PetriPictureOptions options = {0};
     petri_picture_options_init(&options, sizeof options);
     PetriPicture *picture = NULL;
-    PetriPainter *painter = painter_open_tested(frames_signal);
+    PetriPainter *painter = painter_open_tested(&link_shader_tester);
     if (painter && petri_has_picture(session) && petri_picture(session, &options, &picture) == PETRI_OK) {
         uint32_t pixel;
         petri_picture_draw(picture, painter, &pixel, 1, 1, sizeof pixel);
@@ -57,7 +58,7 @@ static void render_if_needed(LinkSession *link_session) {
         petri_picture(session, &options, &picture) != PETRI_OK)
         return;
     if (!link_session->painter)
-        link_session->painter = painter_open_tested(frames_signal);
+        link_session->painter = painter_open_tested(&link_shader_tester);
     petri_picture_render(picture, link_session->painter);
     petri_picture_report(session, picture);
     petri_picture_free(&picture);

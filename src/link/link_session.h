@@ -2,6 +2,7 @@
 #ifndef PETRI_SRC_LINK_SESSION_H
 #define PETRI_SRC_LINK_SESSION_H
 
+#include "cli/shader_test.h"
 #include "link/pack.h"
 #include "petri-draw.h"
 #include "run/frames.h"
@@ -13,6 +14,8 @@ typedef struct LinkSession {
     TextList requested_files; // files that the script tried to read
     PetriPainter *painter;    // has the earlier pictures on which later ones depend; NULL: not needed yet
 } LinkSession;
+
+extern ShaderTester link_shader_tester; // for painters of links
 
 // Opens a session, loads the script and computes the frames up to the frame of the link, with the changes of parameters
 // in the link. Returns OPTIONS_READ, or an exit status after a message. The caller calls link_session_close even after

@@ -2,7 +2,6 @@
 #include "base/file.h"
 #include "cli/output.h"
 #include "cli/script.h"
-#include "cli/shader_test.h"
 #include "link/link_session.h"
 #include "petri-draw.h"
 #include "view/still.h"
@@ -31,8 +30,9 @@ static int save_picture(LinkSession *link_session, const char *file) {
     petri_picture_options_init(&wanted, sizeof wanted);
     PetriPicture *picture = NULL;
     if (!link_session->painter)
-        link_session->painter = painter_open_tested(frames_signal);
+        link_session->painter = painter_open_tested(&link_shader_tester);
     bool saved = link_session->painter && petri_picture(session, &wanted, &picture) == PETRI_OK &&
+                 petri_picture_render(picture, link_session->painter) == PETRI_OK && !shader_test_interrupted() &&
                  petri_picture_save(picture, link_session->painter, file) == PETRI_OK;
     if (picture)
         petri_picture_report(session, picture);

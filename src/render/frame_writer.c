@@ -241,8 +241,10 @@ static Job *pop_job(FrameWriter *writer, bool first) {
 }
 
 static void *run_worker(void *context) {
+    // After a signal, frame_writer_finish abandons the frame.
+    static ShaderTester tester = {frames_signal, true};
     FrameWriter *writer = context;
-    PetriPainter *painter = painter_open_tested(frames_signal);
+    PetriPainter *painter = painter_open_tested(&tester);
     if (!painter)
         set_error_text(writer, "out of memory");
     pthread_mutex_lock(&writer->lock);
@@ -354,7 +356,7 @@ static int wait_for_end(FrameWriter *writer) {
         if (frames_signal() != 0) {
             signalled = signalled == 0 ? clock_seconds() : signalled;
             bool patient = clock_seconds() - signalled <= GRACE_SECONDS;
-            if (!patient && (!writer->film || writer->drawing)) {
+            if (!patient && (!writer->film || writer->drawing || shader_test_interrupted())) {
                 writer->failed = writer->failed || !writer->film; // so that queued jobs are not started
                 writer->abandoned = true;
                 writer->film_abandoned = writer->film;

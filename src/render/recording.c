@@ -2,6 +2,7 @@
 #include "render/recording.h"
 
 #include "cli/byte_buffer.h"
+#include "cli/shader_test.h"
 #include "render/video.h"
 
 #include <math.h>
@@ -73,7 +74,7 @@ static bool save_picture(Recording *recording, PetriPicture *picture, PetriPaint
 bool recording_add(Recording *recording, PetriPicture *picture, PetriPainter *painter) {
     PetriRecord record;
     PetriStatus status = petri_picture_render(picture, painter);
-    bool good = status == PETRI_OK;
+    bool good = status == PETRI_OK && !shader_test_interrupted();
     if (status == PETRI_OUT_OF_MEMORY)
         recording->error_text = "out of memory";
     for (size_t i = 0; good && petri_picture_record(picture, painter, i, &record); i++) {

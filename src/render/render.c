@@ -1,7 +1,6 @@
 // render.c: `petri render`, which writes an image of a frame, a series of images or a video.
 #include "cli/byte_buffer.h"
 #include "cli/script.h"
-#include "cli/shader_test.h"
 #include "cli/stdout_file.h"
 #include "render/frame_writer.h"
 #include "render/video.h"
@@ -186,8 +185,6 @@ static int end_render(Render *render, bool going) {
         render->drawn -= frame_writer_unfinished_count(render->writer);
         stopped = frames_signal(); // a signal may have arrived in the meantime
         keeps = keeps && render->drawn > 0;
-    } else if (shader_test_interrupted()) {
-        stopped = frames_signal();
     }
     frames_end(frames, going);
     if (error_text)

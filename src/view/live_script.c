@@ -3,7 +3,6 @@
 
 #include "cli/parameters.h"
 #include "cli/script.h"
-#include "cli/shader_test.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -91,7 +90,7 @@ int live_script_open(LiveScript *live, const CommandContext *host, const Options
     if (status != OPTIONS_READ)
         return status;
     live->watch = file_watch_new();
-    live->painter = painter_open_tested(live->pending_signal);
+    live->painter = painter_open_tested(&live->tester);
     watch_sources(live);
     if (!live->painter) {
         message("out of memory");

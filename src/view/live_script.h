@@ -9,6 +9,7 @@
 #include "cli/file_watch.h"
 #include "cli/history.h"
 #include "cli/options.h"
+#include "cli/shader_test.h"
 #include "cli/state_file.h"
 #include "petri-draw.h"
 #include "render/recording.h"
@@ -23,8 +24,8 @@ typedef struct LiveScript {
     const Options *options;
     PetriSession *session;
     PetriPainter *painter;
-    int (*pending_signal)(void); // returns the number of a signal that ends the view, or 0; NULL: no function
-    PetriPicture *picture;       // picture of the last frame; NULL: nothing to draw
+    ShaderTester tester;
+    PetriPicture *picture; // picture of the last frame; NULL: nothing to draw
     Recording recording;
     FileWatch *watch;
     int64_t frames; // number of frames since the view was opened, not counting those before the first picture

@@ -38,7 +38,8 @@ PetriStatus still_show(PetriSession *session, PetriPainter *painter, bool colour
     PetriStatus status = petri_picture(session, &options, &picture);
     if (status != PETRI_OK)
         return status;
-    PetriPainter *own = !painter ? painter_open_tested(NULL) : NULL;
+    static ShaderTester tester;
+    PetriPainter *own = !painter ? painter_open_tested(&tester) : NULL;
     painter = !painter ? own : painter;
     TerminalPicture *renderer = terminal_picture_new(STDOUT_FILENO, colour);
     status =

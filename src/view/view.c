@@ -414,7 +414,7 @@ static int run_view(View *view) {
 }
 
 static int view_run(const CommandContext *context, Options *options) {
-    View view = {.host = context, .live.pending_signal = pending_signal};
+    View view = {.host = context, .live.tester.pending_signal = pending_signal};
     int status = live_script_open(&view.live, context, options);
     if (status == OPTIONS_READ && options->listen &&
         (!live_script_enable_history(&view.live) || !listener_open(&view.listener, options->listen)))

@@ -13,8 +13,8 @@ const WITH_OBJECTS = {
 };
 // Functions whose arguments are passed on unchanged.
 const PLAIN = ['activeTexture', 'blendEquation', 'blendFunc', 'checkFramebufferStatus', 'clear', 'clearColor',
-    'cullFace', 'disable', 'drawArrays', 'drawElementsInstanced', 'enable', 'enableVertexAttribArray', 'getError',
-    'renderbufferStorageMultisample', 'texParameteri', 'texStorage2D', 'vertexAttribDivisor', 'viewport'];
+    'cullFace', 'disable', 'drawArrays', 'drawElementsInstanced', 'enable', 'enableVertexAttribArray', 'finish',
+    'getError', 'renderbufferStorageMultisample', 'scissor', 'texParameteri', 'texStorage2D', 'vertexAttribDivisor', 'viewport'];
 
 // The engine's WebGL 2 context, which is created when it is first needed. `memory`: the functions of wasm.mjs that access memory.
 export class Screen {
