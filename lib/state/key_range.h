@@ -2,8 +2,9 @@
 //
 // A particle has a pair of slots, with the keys prefix;id and prefix;id;symbol. For consecutive ids, all keys can be
 // computed from the first one. The owner of the values (state.h) stores them in one array, so the addresses of all
-// values can be computed from that of the first. A range of any length therefore uses constant memory. Other keys are
-// stored as separate entries (state.c). A write that does not fit this pattern converts the range to entries.
+// values can be computed from that of the first. A range of any length therefore uses constant memory until one of its
+// keys is requested. Other keys are stored as separate entries (state.c). A write that does not fit this pattern
+// converts the range to entries.
 #ifndef PETRI_STATE_KEY_RANGE_H
 #define PETRI_STATE_KEY_RANGE_H
 

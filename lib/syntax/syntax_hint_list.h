@@ -44,7 +44,7 @@ HINT(BEGIN "(let|const|var)" GAP WORD BLANK "$", "^[(]", FUNCTION)
 HINT(BEGIN "func.*[(,]" BLANK WORD BLANK "$", "^:", "remove the type: func f(x)")
 HINT(BEGIN "func.*[)]" BLANK "$", "^->", "remove the type: func f(x)")
 HINT(BEGIN "func.*[)]" BLANK "$", "^[^:{ \t]", FUNCTION)
-HINT(BEGIN "return" GAP, "", "remove 'return'; the last line of a function is its value")
+HINT(BEGIN "return" GAP, "", "remove 'return'; a function returns the values of its lines")
 
 // Conditions and loops.
 HINT(BEGIN "else" GAP "$", "^if", "write 'elif TEST'")

@@ -110,7 +110,8 @@ static void test_free_fall(void **state) {
     world_close(&world);
 }
 
-// Drag equals weight at S v² r^(n-1) = m g. This speed is reached from higher and from lower speeds.
+// At the terminal speed v, drag equals weight: S v² r^(n-1) = m g. Particles reach it from higher and from lower
+// speeds.
 static void test_terminal_velocity(void **state) {
     (void)state;
     for (int n = 1; n <= 5; n++) {

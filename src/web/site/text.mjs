@@ -106,7 +106,7 @@ export class Text {
         return this.md.render(markdown, env);
     }
 
-    // Returns dishes with the scripts of the pictures in this paragraph or table.
+    // Returns the HTML of a `<petri-dish>` for each picture in this paragraph or table, and empties their list.
     behind(env) {
         return env.behind.splice(0).map(script => this.site.examples.behind(script, env)).join('');
     }
