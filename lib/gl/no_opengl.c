@@ -21,8 +21,9 @@ void gl_test_shaders(Gl *gl, GlShaderTest *test, void *user_data) {
 }
 
 bool gl_try_program(const char *vertex, const char *fragment, GlShaderProblem *problem) {
-    (void)vertex, (void)fragment, (void)problem;
-    return true;
+    (void)vertex, (void)fragment;
+    *problem = (GlShaderProblem){.failed = true, .text = "this build of petri has no OpenGL"};
+    return false;
 }
 
 void gl_close(Gl *gl) {
