@@ -1,6 +1,8 @@
 // budget.c: see budget.h.
 #include "base/budget.h"
 
+#include <math.h>
+
 void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt) {
     budget->work = budget->next_check = 0;
     budget->work_limit = work_limit < UINT64_MAX / 2 ? work_limit : UINT64_MAX / 2;
@@ -28,6 +30,14 @@ bool budget_charge_time(Budget *budget, double time) {
         return false;
     budget->work += (uint64_t)work;
     return true;
+}
+
+uint64_t budget_drawing_limit(uint64_t session_limit) {
+    return session_limit / 4 * 3;
+}
+
+double budget_needed_limit(const Budget *drawing, double time) {
+    return 4 * ceil(((double)drawing->work + time / BUDGET_UNIT_TIME) / 3 + 1);
 }
 
 size_t budget_memory_left(const Budget *budget) {

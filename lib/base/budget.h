@@ -54,6 +54,11 @@ static inline BudgetOutcome budget_charge(Budget *budget, uint64_t units) {
 // Charges an estimated time in nanoseconds. Returns false, with nothing charged, if the limit would be exceeded.
 bool budget_charge_time(Budget *budget, double time);
 
+// Drawing has a budget with three quarters of the session's work limit. Returns that part of a session's limit.
+uint64_t budget_drawing_limit(uint64_t session_limit);
+// Returns the session's limit with which a drawing budget could also be charged `time`, in nanoseconds.
+double budget_needed_limit(const Budget *drawing, double time);
+
 // Returns how many bytes may still be reserved.
 size_t budget_memory_left(const Budget *budget);
 // Charges memory. Returns false, with nothing charged, if the limit would be exceeded.

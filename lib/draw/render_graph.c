@@ -7,7 +7,6 @@
 #include "gl/effect.h"
 #include "gl/scene.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -213,12 +212,13 @@ static Texture *composite_on_cpu(Walk *walk, const DrawNode *node, Texture *cons
 static Gl *open_gpu(Walk *walk) {
     PetriPainter *painter = walk->painter;
     const char *problem = painter->gl_problem;
-    if (!painter->gl && !problem)
+    if (!painter->gl && !problem) {
         painter->gl = gl_open(&problem);
-    if (painter->gl) {
-        gl_charge(painter->gl, &painter->budget);
-        draw_test_shaders(painter);
+        if (painter->gl)
+            draw_test_shaders(painter);
     }
+    if (painter->gl)
+        gl_charge(painter->gl, &painter->budget);
     if (!painter->gl && !problem)
         arena_exhausted(&walk->frame->arena);
     if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
@@ -243,11 +243,9 @@ static bool charge_effect(Walk *walk, const GlEffect *effect) {
     double cost = gl_effect_cost(effect);
     if (budget_charge_time(budget, cost))
         return true;
-    // draw_limit gives drawing three quarters of the limit.
-    double needed = 4 * ceil(((double)budget->work + cost / BUDGET_UNIT_TIME) / 3 + 1);
     draw_report(walk->faults, &effect->node->origin, DIAG_WARNING, "drawing-limit",
                 "!%s: drawing exceeded the work limit: the effect is left out; --work %.0f would allow it",
-                schema_kinds[effect->node->kind].name, needed);
+                schema_kinds[effect->node->kind].name, budget_needed_limit(budget, cost));
     return false;
 }
 

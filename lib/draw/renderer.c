@@ -63,7 +63,9 @@ void draw_test_shaders(PetriPainter *painter) {
 
 bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem) {
     GlShaderProblem found = {0};
-    if (!vertex || !fragment || !problem || gl_try_program(vertex, fragment, &found))
+    if (!vertex || !fragment || !problem)
+        return false;
+    if (gl_try_program(vertex, fragment, &found))
         return true;
     *problem = (PetriShaderProblem){.failed = found.failed, .in_vertex = found.in_vertex};
     memcpy(problem->text, found.text, sizeof problem->text);
@@ -110,7 +112,7 @@ double draw_fit(double width, double height, double box_width, double box_height
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
     painter->budget.memory_limit = picture->memory;
     // Drawing has a separate work limit. Its work is not charged to the frame.
-    budget_begin(&painter->budget, picture->work / 4 * 3, NULL);
+    budget_begin(&painter->budget, budget_drawing_limit(picture->work), NULL);
 }
 
 static void report_limit(void *faults) {

@@ -44,7 +44,7 @@ static void free_program(const Gl *gl, GlProgram *program) {
 }
 
 // Returns NULL if out of memory.
-static GlProgram *new_program(Str vertex, Str fragment) {
+static GlProgram *new_program(const Gl *gl, Str vertex, Str fragment) {
     GlProgram *program = heap_calloc(1, sizeof *program);
     if (!program)
         return NULL;
@@ -52,9 +52,7 @@ static GlProgram *new_program(Str vertex, Str fragment) {
     program->fragment = copy_text(fragment);
     if (program->vertex && program->fragment)
         return program;
-    heap_free(program->vertex);
-    heap_free(program->fragment);
-    heap_free(program);
+    free_program(gl, program);
     return NULL;
 }
 
@@ -127,7 +125,7 @@ static unsigned make_program(Gl *gl, Arena *arena, Str vertex, Str fragment, boo
             count++;
         if (count >= MAX_PROGRAMS)
             gl_programs_close(gl);
-        program = new_program(vertex, fragment);
+        program = new_program(gl, vertex, fragment);
         if (!program)
             arena_exhausted(arena);
         program->next = gl->programs;
@@ -170,19 +168,20 @@ bool gl_try_program(const char *vertex, const char *fragment, GlShaderProblem *p
         snprintf(problem->text, sizeof problem->text, "%s", reason ? reason : "out of memory");
         return false;
     }
-    GlProgram *program = new_program(str_from(vertex), str_from(fragment));
-    bool good = true;
-    if (program) {
+    GlProgram *program = new_program(gl, str_from(vertex), str_from(fragment));
+    if (program)
         link_program(program);
-        good = program->program != 0;
-        if (good) {
-            draw_few_pixels(gl, program->program);
-        } else {
-            problem->in_vertex = program->in_vertex;
-            snprintf(problem->text, sizeof problem->text, "%s", program->problem ? program->problem : "?");
-        }
-        free_program(gl, program);
+    bool good = program && program->program != 0;
+    if (good) {
+        draw_few_pixels(gl, program->program);
+    } else {
+        problem->failed = !program;
+        problem->in_vertex = program && program->in_vertex;
+        const char *text = !program ? "out of memory" : program->problem ? program->problem : "?";
+        snprintf(problem->text, sizeof problem->text, "%s", text);
     }
+    if (program)
+        free_program(gl, program);
     gl_leave(gl);
     gl_close(gl);
     return good;

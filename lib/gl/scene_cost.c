@@ -42,10 +42,9 @@ static double covered_part(const Matrix *clip, const SceneBox *box) {
 
 // Returns how many times the instances of a draw cover the picture.
 static double covered_pictures(const SceneView *view, const SceneDraw *draw) {
-    Matrix seen = matrix_product(view->projection, view->view);
     double sum = 0;
     for (uint32_t i = draw->first; i < draw->first + draw->count; i++) {
-        Matrix clip = matrix_product(&seen, &view->order->instances[i]->matrix);
+        Matrix clip = matrix_product(&view->clip, &view->order->instances[i]->matrix);
         sum += covered_part(&clip, &view->boxes[draw->model]);
     }
     return sum;

@@ -9,9 +9,8 @@ typedef struct SceneView {
     const Scene *scene;
     const DrawOrder *order;
     const SceneBox *boxes; // of the scene's models
-    const Matrix *view;
-    const Matrix *projection;
-    int width; // in pixels
+    Matrix clip;           // projection · view
+    int width;             // in pixels
     int height;
 } SceneView;
 

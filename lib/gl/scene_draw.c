@@ -394,18 +394,20 @@ static bool charge_view(const Drawing *drawing, const SceneBox *boxes, int width
     if (!budget)
         return true;
     double left = (double)(budget->work_limit - budget->work) * BUDGET_UNIT_TIME;
-    SceneView view = {drawing->scene, &drawing->order, boxes, &drawing->view, &drawing->projection, width, height};
+    SceneView view = {.scene = drawing->scene,
+                      .order = &drawing->order,
+                      .boxes = boxes,
+                      .clip = matrix_product(&drawing->projection, &drawing->view),
+                      .width = width,
+                      .height = height};
     double cost = scene_cost(&view, left / NEGLIGIBLE);
     if (budget_charge_time(budget, cost))
         return true;
-    // Drawing has three quarters of the limit (draw_limit).
-    double needed = 4 * ceil(((double)budget->work + cost / BUDGET_UNIT_TIME) / 3 + 1);
-    scene_report(
-        drawing->scene, "drawing-limit", drawing->camera->node,
-        str_to_c(drawing->scene->arena,
-                 str_format(drawing->scene->arena,
-                            "drawing would exceed the work limit: the scene is left out; --work %.0f would allow it",
-                            needed)));
+    Arena *arena = drawing->scene->arena;
+    Str problem =
+        str_format(arena, "drawing would exceed the work limit: the scene is left out; --work %.0f would allow it",
+                   budget_needed_limit(budget, cost));
+    scene_report(drawing->scene, "drawing-limit", drawing->camera->node, str_to_c(arena, problem));
     return false;
 }
 

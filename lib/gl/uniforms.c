@@ -210,14 +210,12 @@ static void set_numbers(GLint at, GLenum type, GLsizei count, const Numbers *num
     enum { MAX_NUMBERS = 256 };
     bool is_integer;
     uint32_t size = size_of(type, &is_integer);
-    if (size == 0 || count > MAX_NUMBERS) // a larger count could overflow `all`
+    if (size == 0 || (uint32_t)count > MAX_NUMBERS / size)
         return;
     uint32_t all = size * (uint32_t)count;
     float x[MAX_NUMBERS];
     GLint n[MAX_NUMBERS];
     bool fits = numbers->count == all || numbers->count == 1 || numbers->count == size;
-    if (all > MAX_NUMBERS)
-        return;
     for (uint32_t i = 0; i < all; i++) {
         double number = fits ? numbers->list[i % numbers->count] : 0;
         x[i] = (float)number;

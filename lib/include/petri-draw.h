@@ -117,6 +117,7 @@ enum { PETRI_SHADER_TRY_PIXELS = 256 }; // number of pixels that petri_shader_tr
 
 // Compiles a shader program and draws some pixels with it, in a separate OpenGL context. For the process that a
 // PetriShaderTest starts. If the driver rejects the program, or there is no OpenGL, fills *problem and returns false.
+// Also returns false if an argument is NULL.
 PETRI_API bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem);
 
 // Renders all canvases and effects of a picture's frame. Does nothing if this is the picture that the painter rendered

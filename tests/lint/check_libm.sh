@@ -21,13 +21,15 @@ for source in "$1"/lib/*/*.c; do
     fi
 done
 
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
 for bad in $inexact; do
     printf '%s\n' "$bad" "${bad}f" "${bad}l" "__${bad}_finite"
-done >inexact.txt
-found=$("${NM:-nm}" -uA lib/*/*.p/*.o grammar/*.p/*.o | awk '
+done >"$scratch/inexact"
+"${NM:-nm}" -uA lib/*/*.p/*.o grammar/*.p/*.o >"$scratch/undefined"
+found=$(awk '
     FNR == NR { inexact[$1]; next }
-    $NF in inexact { sub(/:.*/, "", $1); print $1 ": " $NF }' inexact.txt -)
-rm inexact.txt
+    $NF in inexact { sub(/:.*/, "", $1); print $1 ": " $NF }' "$scratch/inexact" "$scratch/undefined")
 if [ "$found" ]; then
     echo "$found"
     faults=1
