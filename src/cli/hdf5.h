@@ -18,6 +18,8 @@ typedef struct Hdf5 {
     pid_t process;  // -1: not started
     int stream;     // socket; -1: none
     int cleanup_id; // number from signal_cleanup_begin
+    bool killed;    // true if it did not respond after a signal and was killed
+    int (*pending_signal)(void);
 } Hdf5;
 
 // Starts petri-hdf5. Returns false after a message. `kind` selects what the caller writes to the stream. "trajectory":
@@ -25,12 +27,17 @@ typedef struct Hdf5 {
 // If `after` is not NULL, the trajectory survives a crash of petri and petri-hdf5 and can be resumed. `after` then has
 // the form "FRAME LAST". FRAME is the frame after which the run resumes (-1: none). LAST is the last frame that an
 // existing file should contain.
-bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after);
+// `pending_signal` returns the number of a signal that has been caught, or 0. NULL: signals are not caught. After a
+// signal, petri-hdf5 is continued if it is stopped. It is killed if it then does nothing for some seconds, so that
+// petri does not wait for it forever.
+bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after, int (*pending_signal)(void));
+// Sends bytes to the Hdf5 that `writer` points to. On failure returns false with errno set. An OutputSend.
+bool hdf5_write(void *writer, const char *bytes, size_t length);
 // Waits until petri-hdf5 answers an HDF5_SYNC. All data that was sent before the HDF5_SYNC is then on disk. On failure,
 // returns false after a message from petri-hdf5.
 bool hdf5_wait(Hdf5 *writer);
 // Writes a whole table. Returns false after a message.
-bool hdf5_table(const char *path, const char *csv, size_t length);
+bool hdf5_table(const char *path, const char *csv, size_t length, int (*pending_signal)(void));
 // Returns true if the file name ends in .h5 or .hdf5. A table is then written as HDF5.
 bool hdf5_has_suffix(const char *path);
 // Closes the stream and waits until the file has its final name. Returns false if petri-hdf5 was not started, or

@@ -15,12 +15,14 @@
 
 void output_start(Output *output, int fd) {
     output->fd = fd;
+    output->send = NULL;
     output->error = 0;
     output->written = output->used = 0;
 }
 
 static void write_all(Output *output, const char *text, size_t length) {
-    if (output->error == 0 && !file_write(output->fd, text, length))
+    if (output->error == 0 &&
+        !(output->send ? output->send(output->user_data, text, length) : file_write(output->fd, text, length)))
         output->error = errno;
 }
 

@@ -8,11 +8,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+// Sends bytes. On failure returns false with errno set.
+typedef bool OutputSend(void *user_data, const char *bytes, size_t length);
+
 typedef struct Output {
     int fd;
-    int error;      // errno of the first failure; 0: none
-    size_t written; // bytes written to `fd`, without those in the buffer
-    size_t used;    // bytes in the buffer
+    OutputSend *send; // called instead of writing to `fd`; NULL: none
+    void *user_data;  // passed to `send`
+    int error;        // errno of the first failure; 0: none
+    size_t written;   // bytes written to `fd`, without those in the buffer
+    size_t used;      // bytes in the buffer
     char buffer[1 << 16];
 } Output;
 

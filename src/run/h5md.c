@@ -1,6 +1,8 @@
 // h5md.c: see h5md.h. Columns are sent to petri-hdf5 directly from the session's memory, without a copy.
 #include "run/h5md.h"
 
+#include "run/frames.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -11,8 +13,10 @@ bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *outpu
     *file = (H5md){0};
     if (resume)
         snprintf(after, sizeof after, "%" PRId64 " %" PRId64, resume->after, resume->expected);
-    bool started = hdf5_start(&file->writer, "trajectory", path, resume ? after : NULL);
+    bool started = hdf5_start(&file->writer, "trajectory", path, resume ? after : NULL, frames_signal);
     output_start(output, file->writer.stream);
+    output->send = hdf5_write;
+    output->user_data = &file->writer;
     return started;
 }
 

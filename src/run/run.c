@@ -144,7 +144,7 @@ static int run_frames(Run *run) {
     bool going = true;
     if (!open_trajectory(run)) {
         progress_erase(&frames->progress);
-        return STATUS_FAILED;
+        return frames_signal() != 0 ? STATUS_SIGNAL + frames_signal() : STATUS_FAILED;
     }
     while (going && run->output.error == 0 && !run->trajectory.failed && frames_due(frames))
         going = run_frame(run) || frames->abandoned;

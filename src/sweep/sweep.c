@@ -207,7 +207,8 @@ static bool write_table(const Sweep *sweep) {
     table_commands(sweep, &commands);
     byte_buffer_format(&path, "%s.runs", output);
     return write_file(path.data, &commands) &&
-           (hdf5_has_suffix(output) ? hdf5_table(output, table.data, table.length) : write_file(output, &table));
+           (hdf5_has_suffix(output) ? hdf5_table(output, table.data, table.length, worker_pool_signal)
+                                    : write_file(output, &table));
 }
 
 static bool write_all(const Sweep *sweep) {
@@ -253,7 +254,7 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t mad
         return STATUS_DONE;
     }
     if (!write_all(sweep))
-        return STATUS_FAILED;
+        return worker_pool_signal() != 0 ? STATUS_SIGNAL + worker_pool_signal() : STATUS_FAILED;
     if (journal->path)
         journal_remove(journal, sweep);
     print_report(sweep, clock_seconds() - start, made);
@@ -274,7 +275,7 @@ static int make_runs(Sweep *sweep, Journal *journal) {
         message("%zu runs are already done", before);
     int status = worker_pool_run(sweep, journal, jobs_of(sweep));
     if (status == STATUS_DONE)
-        return finish_sweep(sweep, journal, start, count_done(sweep, true) - before);
+        status = finish_sweep(sweep, journal, start, count_done(sweep, true) - before);
     if (status > STATUS_SIGNAL) {
         message(!journal->path ? "stopped; to keep finished runs, use -o FILE.csv"
                                : "stopped; run the same command to resume");
@@ -286,7 +287,8 @@ static int make_runs(Sweep *sweep, Journal *journal) {
 // data.
 static bool can_write(const char *output) {
     Hdf5 writer;
-    return !output || !hdf5_has_suffix(output) || (hdf5_start(&writer, "table", output, NULL) && hdf5_end(&writer));
+    return !output || !hdf5_has_suffix(output) ||
+           (hdf5_start(&writer, "table", output, NULL, NULL) && hdf5_end(&writer));
 }
 
 static int run_sweep(Sweep *sweep) {

@@ -359,3 +359,7 @@ int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs) {
     free(pool.returned);
     return !good ? STATUS_FAILED : done ? STATUS_DONE : STATUS_SIGNAL + (int)stopped;
 }
+
+int worker_pool_signal(void) {
+    return (int)stopped;
+}

@@ -75,6 +75,60 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
         check "SIG$signal keeps the frames of an H5MD file" has_frames
         number=$((number == 129 ? 130 : 143))
     done
+    # stop_writer: stops the run's petri-hdf5, and waits until the run blocks.
+    stop_writer() {
+        writer=$(pgrep -P $job)
+        kill -STOP "$writer"
+        before=0
+        until [ "$(wc -c <err)" -eq $before ]; do
+            before=$(wc -c <err)
+            sleep 0.1
+        done
+        min_frames=1
+    }
+    # ends_run SIGNAL [SECONDS]: sends a signal, and succeeds if the run has ended SECONDS later (default: 2).
+    ends_run() {
+        kill -"$1" $job
+        timeout "${2:-2}" tail --pid=$job -s 0.05 -f /dev/null
+        ended=$?
+        [ $ended -eq 0 ] || kill -9 $job
+        wait $job
+        status=$?
+        [ $ended -eq 0 ]
+    }
+    ends() { timeout 2 tail --pid="$1" -s 0.05 -f /dev/null; }
+    if command -v pgrep >/dev/null; then
+        number=130
+        for signal in INT TERM; do
+            start_run 3 >out
+            stop_writer
+            check "SIG$signal ends a run whose petri-hdf5 is stopped" ends_run $signal
+            check "SIG$signal gives the usual status while petri-hdf5 is stopped" status_is $number
+            check "SIG$signal leaves no petri-hdf5 that was stopped" ends "$writer"
+            check "SIG$signal keeps the frames that a stopped petri-hdf5 has received" has_frames
+            number=143
+        done
+        start_run 3 >out
+        stop_writer
+        kill -9 $job
+        wait $job 2>/dev/null
+        check "a stopped petri-hdf5 finishes the file after kill -9 of petri" eval 'ends "$writer" && has_frames'
+        mkfifo hung.h5
+        env --default-signal=INT,TERM "$petri" run w.fl --trajectory hung.h5 2>err </dev/null &
+        job=$!
+        until writer=$(pgrep -P $job -x petri-hdf5); do :; done
+        check "SIGINT ends a run whose petri-hdf5 cannot open the file" eval 'ends_run INT && status_is 130'
+        check "a petri-hdf5 that cannot open the file is killed" eval 'ends "$writer" && has err "did not respond"'
+        printf '#!/bin/sh\nprintf ! >&0\nexec sleep 100\n' >bare/petri-hdf5
+        chmod +x bare/petri-hdf5
+        env --default-signal=INT,TERM bare/petri run w.fl --frames 100000000 --trace --trajectory run.h5 2>err </dev/null &
+        job=$!
+        until writer=$(pgrep -P $job -x sleep); do :; done
+        kill -INT $job
+        sleep 0.3
+        check "a second SIGINT ends a run whose petri-hdf5 does not respond" eval 'ends_run INT && status_is 130'
+        check "a petri-hdf5 that does not respond is killed" eval 'ends "$writer" && has err "did not respond"'
+    fi
     mkfifo unread
     # start_blocked_run: starts a run, and waits until it blocks because nothing reads its output.
     start_blocked_run() {
