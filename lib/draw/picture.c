@@ -355,6 +355,16 @@ bool petri_picture_needs_history(const PetriPicture *picture) {
     return picture && picture->picture.needs_history && picture->picture.window;
 }
 
+bool petri_picture_lacks_shader(const PetriPicture *picture) {
+    for (uint32_t i = 0; picture && i < picture->faults.count; i++) {
+        const Diag *diag = &picture->faults.items[i];
+        if (diag->level == DIAG_ERROR && diag->code &&
+            (strcmp(diag->code, "bad-shader") == 0 || strcmp(diag->code, "drawing-limit") == 0))
+            return true;
+    }
+    return false;
+}
+
 void petri_picture_report(PetriSession *session, PetriPicture *picture) {
     if (!session || !picture)
         return;

@@ -108,6 +108,7 @@ void live_script_close(LiveScript *live) {
     }
     recording_free(&live->recording);
     petri_picture_free(&live->picture);
+    petri_picture_free(&live->last_complete);
     petri_painter_close(&live->painter);
     history_free(&live->history);
     petri_close(&live->session);
@@ -141,6 +142,31 @@ static PetriPictureOptions picture_options(const LiveScript *live) {
     return options;
 }
 
+// Frees the picture, or stores it for later if it is complete.
+static void retire_picture(LiveScript *live) {
+    if (live->picture_complete) {
+        petri_picture_free(&live->last_complete);
+        live->last_complete = live->picture;
+        live->picture = NULL;
+    }
+    live->picture_complete = false;
+    petri_picture_free(&live->picture);
+}
+
+PetriPicture *live_script_draw(LiveScript *live) {
+    if (live->picture_hidden || !live->picture)
+        return NULL;
+    PetriStatus status = petri_picture_render(live->picture, live->painter);
+    bool complete = status == PETRI_OK && !petri_picture_lacks_shader(live->picture);
+    live->picture_complete = complete;
+    live_script_check_drawn(live, status);
+    size_t before = live->error_text.length;
+    petri_picture_report(live->session, live->picture);
+    if (!complete && live->last_complete && before == 0 && live->error_text.length > 0)
+        prefix_error_text(live, "a shader failed, showing the last complete picture");
+    return complete || !live->last_complete ? live->picture : live->last_complete;
+}
+
 // Makes the picture of the last frame. Until particles are at their positions, a previous picture is retained; if there
 // is none, the new picture is made only for its size.
 static void update_picture(LiveScript *live) {
@@ -150,7 +176,7 @@ static void update_picture(LiveScript *live) {
     if (live->before_first_picture && live->picture)
         return;
     live->picture_hidden = live->before_first_picture;
-    petri_picture_free(&live->picture);
+    retire_picture(live);
     PetriStatus status = petri_picture(live->session, &options, &live->picture);
     if (live_script_check_drawn(live, status) && !live->before_first_picture)
         record_frame(live);

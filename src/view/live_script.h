@@ -25,7 +25,9 @@ typedef struct LiveScript {
     PetriSession *session;
     PetriPainter *painter;
     ShaderTester tester;
-    PetriPicture *picture; // picture of the last frame; NULL: nothing to draw
+    PetriPicture *picture;       // picture of the last frame; NULL: nothing to draw
+    bool picture_complete;       // true if `picture` was drawn with all shaders
+    PetriPicture *last_complete; // earlier picture that was drawn with all shaders; NULL: none
     Recording recording;
     FileWatch *watch;
     int64_t frames; // number of frames since the view was opened, not counting those before the first picture
@@ -63,6 +65,9 @@ void live_script_begin(LiveScript *live);
 // Sets the number of pixels per unit of the script's size for future pictures: at most 1, the default. Screenshots
 // always use 1.
 void live_script_set_detail(LiveScript *live, double detail);
+// Draws the picture of the last frame and returns the one to show. That is the last complete picture if a shader
+// crashed the driver or exceeded a limit. NULL: nothing to show.
+PetriPicture *live_script_draw(LiveScript *live);
 // Computes one frame and its picture, and writes the files that the script records. Returns false if the frame failed.
 bool live_script_step(LiveScript *live);
 // Returns true for PETRI_OK. Reports PETRI_OUT_OF_MEMORY once.

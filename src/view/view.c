@@ -247,7 +247,7 @@ static PetriStatus show_pixels(View *view, PetriPicture *picture) {
 
 static void draw_view(View *view) {
     choose_detail(view);
-    PetriPicture *picture = view->live.picture_hidden ? NULL : view->live.picture;
+    PetriPicture *picture = live_script_draw(&view->live);
     PetriStatus status;
     view->redraw = false;
     view->drawn = clock_seconds(); // taken before drawing, so that slow drawing does not delay the next picture

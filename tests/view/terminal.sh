@@ -208,6 +208,31 @@ check "q quits" ended 0
 check "the error is printed on standard error at the end" has err 'error:'
 mv good.fl left.fl
 
+# If a shader crashes the driver, the last complete picture is shown.
+cat >shader.fl <<'END'
+!window size=640;384
+    !shader fragment="""${HEADER}
+in vec2 coord; out vec4 color;
+float shade(float x) { return step(0.5, fract(10.0 * x)); }
+void main() { color = vec4(coord.x < 0.5 ? shade(coord.x) : 0.0); }
+"""
+END
+start shader.fl
+started
+if soon filled 22 24 1 38 && clear_of 1 24 42 80; then
+    cp shader.fl good.fl
+    sed 's/^float shade.*/float a[2000000000]; float shade(float x) { a[int(x)] = x; return a[int(2.0 * x)]; }/' good.fl >shader.fl
+    check "a shader that crashes the driver is an error" soon shows 'OpenGL crashed'
+    check "the message names the picture that is shown" soon shows 'showing the last complete picture'
+    check "the last complete picture is shown" soon filled 22 24 1 38
+    check "the last complete picture is not changed" soon clear_of 22 24 42 80
+    sed 's/coord.x < 0.5/coord.x > 0.5/' good.fl >shader.fl
+    check "the corrected shader draws" soon eval 'clear_of 1 24 1 38 && filled 22 24 42 80'
+    check "the message disappears after the correction" soon hides 'OpenGL crashed'
+fi
+type_keys q
+check "the view ends after an error in a shader" ended 0
+
 # Warnings of the running version: a corner of the picture shows their number, and the key w lists them.
 sed 's/stroke_width=3/stroke_with=3/' left.fl >warn.fl
 start warn.fl

@@ -182,6 +182,38 @@ static bool reject_bytes(void *host, const char *text, size_t length) {
 }
 
 // Encodes a file to memory.
+static bool reject_shader(void *user_data, const char *vertex, const char *fragment, PetriShaderProblem *problem) {
+    (void)vertex;
+    (void)fragment;
+    problem->failed = user_data; // NULL: the driver rejected the shader
+    strcpy(problem->text, "rejected by the test");
+    return false;
+}
+
+static bool lacks_shader(Player *player, void *user_data) {
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
+    PetriPainter *painter = petri_painter_open();
+    petri_painter_test_shaders(painter, reject_shader, user_data);
+    assert_false(petri_picture_lacks_shader(picture));
+    PetriStatus status = petri_picture_render(picture, painter);
+    assert_true(status == PETRI_OK || status == PETRI_UNSUPPORTED);
+    bool lacks = petri_picture_lacks_shader(picture);
+    petri_painter_close(&painter);
+    petri_picture_free(&picture);
+    return lacks;
+}
+
+static void test_failed_shader_is_lacking(void **state) {
+    Player *player = *state;
+    player_run(player, "!window size=9\n    !shader fragment='void main() {}'\n", 1);
+    PetriShaderProblem problem;
+    bool has_opengl = petri_shader_try("#version 300 es\nvoid main() { gl_Position = vec4(1); }",
+                                       "#version 300 es\nvoid main() {}", &problem);
+    assert_false(petri_picture_lacks_shader(NULL));
+    assert_false(lacks_shader(player, NULL));
+    assert_int_equal(lacks_shader(player, player), has_opengl);
+}
+
 static void test_encode_to_memory(void **state) {
     Player *player = *state;
     player_run(player, DISC, 1);
@@ -472,6 +504,7 @@ int main(void) {
         PLAYER_TEST(test_picture_outlives_session),
         PLAYER_TEST(test_sizes_and_options_are_checked),
         PLAYER_TEST(test_choice_of_content),
+        PLAYER_TEST(test_failed_shader_is_lacking),
         PLAYER_TEST(test_encode_to_memory),
         PLAYER_TEST(test_misuse_is_rejected),
         PLAYER_TEST(test_ready_once_particles_can_be_shown),
