@@ -7,6 +7,7 @@ void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt) {
     budget->work = budget->next_check = 0;
     budget->work_limit = work_limit < UINT64_MAX / 2 ? work_limit : UINT64_MAX / 2;
     budget->interrupt = interrupt;
+    budget->refused_time = budget->refused_memory = 0;
     budget->memory_refused = false;
 }
 
@@ -26,8 +27,10 @@ BudgetOutcome budget_check(Budget *budget) {
 
 bool budget_charge_time(Budget *budget, double time) {
     double work = time / BUDGET_UNIT_TIME;
-    if (work > (double)(budget->work_limit - budget->work))
+    if (!(work <= (double)(budget->work_limit - budget->work))) {
+        budget->refused_time += isfinite(time) ? time : 0;
         return false;
+    }
     budget->work += (uint64_t)work;
     return true;
 }
@@ -36,8 +39,24 @@ uint64_t budget_drawing_limit(uint64_t session_limit) {
     return session_limit / 4 * 3;
 }
 
-double budget_needed_limit(const Budget *drawing, double time) {
-    return 4 * ceil(((double)drawing->work + time / BUDGET_UNIT_TIME) / 3 + 1);
+// Rounds up to two digits, after adding a tenth because the figures are estimates.
+static double round_up(double number) {
+    double unit = 1, more = 1.1 * number;
+    while (more / unit >= 100 && unit < 1e18)
+        unit *= 10;
+    return ceil(more / unit) * unit;
+}
+
+double budget_suggest_work(Budget *drawing) {
+    double work = (double)drawing->work + drawing->refused_time / BUDGET_UNIT_TIME;
+    double needed = round_up(work / 3 * 4 / (1 << 20));
+    if (needed > drawing->suggested_work)
+        drawing->suggested_work = needed;
+    return drawing->suggested_work;
+}
+
+double budget_suggest_memory(const Budget *drawing, size_t limit) {
+    return round_up(((double)limit + drawing->refused_memory) / (1 << 20));
 }
 
 size_t budget_memory_left(const Budget *budget) {
@@ -49,6 +68,7 @@ bool budget_reserve(Budget *budget, size_t bytes) {
         return true;
     if (bytes > budget->memory_limit || budget->memory > budget->memory_limit - bytes) {
         budget->memory_refused = true;
+        budget->refused_memory += (double)bytes;
         return false;
     }
     budget->memory += bytes;

@@ -18,6 +18,9 @@ typedef struct Budget {
     uint64_t work_limit;                       // maximum of `work`
     size_t memory;                             // bytes currently charged
     size_t memory_limit;                       // maximum of `memory`
+    double refused_time;                       // sum of the times refused since budget_begin, in nanoseconds
+    double refused_memory;                     // sum of the bytes refused since budget_begin
+    double suggested_work;                     // last result of budget_suggest_work; 0: none
     bool memory_refused;                       // true if budget_reserve has failed since budget_begin
     atomic_bool *interrupt;                    // set by the host to interrupt the work; NULL: cannot be interrupted
     bool (*should_interrupt)(void *user_data); // called repeatedly during work; true: interrupt; NULL: not called
@@ -51,13 +54,17 @@ static inline BudgetOutcome budget_charge(Budget *budget, uint64_t units) {
     return budget->work <= budget->next_check ? BUDGET_OK : budget_check(budget);
 }
 
-// Charges an estimated time in nanoseconds. Returns false, with nothing charged, if the limit would be exceeded.
+// Charges an estimated time in nanoseconds. If the limit would be exceeded, adds the time to refused_time and returns
+// false.
 bool budget_charge_time(Budget *budget, double time);
 
 // Drawing has a budget with three quarters of the session's work limit. Returns that part of a session's limit.
 uint64_t budget_drawing_limit(uint64_t session_limit);
-// Returns the session's limit with which a drawing budget could also be charged `time`, in nanoseconds.
-double budget_needed_limit(const Budget *drawing, double time);
+// Returns the session's work limit, in units of 2^20, that suffices to draw also what a drawing budget has refused.
+// Never decreases, so that a message with the result does not change in each frame.
+double budget_suggest_work(Budget *drawing);
+// Like budget_suggest_work, for the memory limit in MiB. `limit` is the session's limit in bytes.
+double budget_suggest_memory(const Budget *drawing, size_t limit);
 
 // Returns how many bytes may still be reserved.
 size_t budget_memory_left(const Budget *budget);

@@ -32,11 +32,12 @@ typedef struct CanvasPicture {
     const AutoPicture *automatic;
     double width; // size in the script's units
     double height;
-    double detail;    // pixels per unit of pictures in the render graph
-    bool opaque;      // true for a black background, false for a transparent one
-    FileAccess reach; // which files the script is allowed to read and write
-    size_t memory;    // limit in bytes, including what the painter caches
-    uint64_t work;    // work limit of a frame (budget.h); the separate limit for drawing is computed from it
+    double detail;         // pixels per unit of pictures in the render graph
+    bool opaque;           // true for a black background, false for a transparent one
+    FileAccess reach;      // which files the script is allowed to read and write
+    size_t memory;         // limit in bytes, including what the painter caches
+    size_t session_memory; // the session's limit, of which the session uses a part
+    uint64_t work;         // work limit of a frame (budget.h); the separate limit for drawing is computed from it
 } CanvasPicture;
 
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } CanvasFormat;

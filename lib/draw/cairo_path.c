@@ -13,6 +13,11 @@ static double clamp_coordinate(double x) {
 
 static void measure_point(Canvas *canvas, double x, double y) {
     PathSize *size = &canvas->size;
+    if (size->starts) {
+        size->starts = false;
+        size->first_x = size->last_x = x;
+        size->first_y = size->last_y = y;
+    }
     double rows = fmin(fabs(y - size->last_y), canvas->rows), columns = fmin(fabs(x - size->last_x), canvas->columns);
     // The cost of filling is roughly proportional to the number of rows that the edges cross.
     canvas->path_work += 1 + rows;
@@ -39,7 +44,12 @@ void draw_clamp_point(Canvas *canvas, double *x, double *y) {
     cairo_device_to_user(canvas->cr, x, y);
 }
 
+// Starts a subpath. Filling closes the previous one, so that its last edge is counted.
 static void move_to(Canvas *canvas, double x, double y) {
+    PathSize *size = &canvas->size;
+    if (!size->starts)
+        measure_point(canvas, size->first_x, size->first_y);
+    size->starts = true;
     draw_clamp_point(canvas, &x, &y);
     cairo_move_to(canvas->cr, x, y);
 }
@@ -143,11 +153,7 @@ void draw_set_path(Canvas *canvas, const DisplayCommand *command) {
 void draw_forget_path(Canvas *canvas) {
     cairo_new_path(canvas->cr);
     canvas->path_work = 0;
-    canvas->size = (PathSize){.left = INFINITY,
-                              .right = -INFINITY,
-                              .top = INFINITY,
-                              .bottom = -INFINITY,
-                              .last_x = canvas->size.last_x,
-                              .last_y = canvas->size.last_y};
+    canvas->size =
+        (PathSize){.left = INFINITY, .right = -INFINITY, .top = INFINITY, .bottom = -INFINITY, .starts = true};
     canvas->path_of = NULL;
 }

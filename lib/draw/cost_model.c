@@ -35,9 +35,10 @@ static double pixels_of(const Canvas *canvas, const DisplayPaint *paint, bool fi
 }
 
 bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke) {
+    static const double EACH_PATH = 3000, EACH_ROW = 130;
     // The cost of the rows that edges cross, plus the worst-case cost of intersections between edges.
-    double edges = canvas->path_work * (100 + 1e-3 * canvas->path_work);
-    return charge_pixels(canvas, paint, pixels_of(canvas, paint, fill, stroke), edges);
+    double edges = canvas->path_work * (EACH_ROW + 1e-3 * canvas->path_work);
+    return charge_pixels(canvas, paint, pixels_of(canvas, paint, fill, stroke), EACH_PATH + edges);
 }
 
 bool draw_charge_box(Canvas *canvas, const DisplayPaint *paint, double width, double height, double count) {

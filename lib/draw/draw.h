@@ -27,10 +27,12 @@ struct TextContext {
     DisplayText font;
 };
 
-// The extent of a path on the target, computed from its end points and control points. Subpaths are not distinguished.
+// The extent of a path on the target, computed from its end points and control points.
 typedef struct PathSize {
     double left, right, top, bottom;
+    double first_x, first_y; // start of the current subpath
     double last_x, last_y;
+    bool starts;   // true if the next point starts a subpath
     double length; // sum of the horizontal and vertical distances between successive points
     double area;   // twice the signed area; parts of opposite orientation cancel
 } PathSize;

@@ -69,6 +69,7 @@ void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what,
     if (!budget->memory_refused)
         arena_exhausted(&canvas->painter->arena);
     budget->memory_refused = false;
+    canvas->painter->lacks_memory = true;
     draw_report_canvas_at(canvas, place, DIAG_WARNING, "memory-limit",
                           "drawing exceeded the memory limit (--memory): the content is drawn without %s", what);
 }

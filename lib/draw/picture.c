@@ -309,6 +309,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
         request.problem = "nothing to draw: no frame has been computed";
     size_t left = access.budget->memory_limit - access.budget->memory;
     picture->picture.work = access.budget->work_limit;
+    picture->picture.session_memory = access.memory_limit;
     picture->picture.memory = left < access.memory_limit ? left : access.memory_limit;
     arena_detach_budget(&picture->arena); // detached because another thread can free the picture
     if (status == PETRI_OK)

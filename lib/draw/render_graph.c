@@ -244,8 +244,8 @@ static bool charge_effect(Walk *walk, const GlEffect *effect) {
     if (budget_charge_time(budget, cost))
         return true;
     draw_report(walk->faults, &effect->node->origin, DIAG_WARNING, "drawing-limit",
-                "!%s: drawing exceeded the work limit: the effect is left out; --work %.0f would allow it",
-                schema_kinds[effect->node->kind].name, budget_needed_limit(budget, cost));
+                "!%s: drawing exceeded the work limit (--work): the effect is left out",
+                schema_kinds[effect->node->kind].name);
     return false;
 }
 
@@ -494,5 +494,6 @@ PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture
     if (walk.gpu)
         gl_leave(painter->gl);
     *shown = end == ARENA_OK ? walk.shown : NULL;
+    draw_report_needed(painter, faults);
     return end == ARENA_OK ? PETRI_OK : end == ARENA_MEMORY_LIMIT ? draw_report_limit(faults) : PETRI_OUT_OF_MEMORY;
 }

@@ -96,6 +96,7 @@ bool draw_report_refused(PetriPainter *painter, const Origin *place, const char 
     if (!painter->budget.memory_refused)
         return false;
     painter->budget.memory_refused = false;
+    painter->lacks_memory = true;
     draw_report(faults, place, DIAG_WARNING, "memory-limit",
                 "%s: a picture of %d x %d pixels exceeds the memory limit (--memory); it is left out", node, width,
                 height);
@@ -111,8 +112,32 @@ double draw_fit(double width, double height, double box_width, double box_height
 
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
     painter->budget.memory_limit = picture->memory;
+    painter->session_memory = picture->session_memory;
+    painter->lacks_memory = false;
     // Drawing has a separate work limit. Its work is not charged to the frame.
     budget_begin(&painter->budget, budget_drawing_limit(picture->work), NULL);
+}
+
+// The context of report_needed, which is called through arena_protect.
+typedef struct Needed {
+    PetriPainter *painter;
+    DiagSink *faults;
+} Needed;
+
+static void report_needed(void *context) {
+    const Needed *needed = context;
+    PetriPainter *painter = needed->painter;
+    if (painter->budget.refused_time > 0)
+        draw_report(needed->faults, NULL, DIAG_NOTE, "drawing-limit", "--work %.0fM suffices to draw everything",
+                    budget_suggest_work(&painter->budget));
+    if (painter->lacks_memory)
+        draw_report(needed->faults, NULL, DIAG_NOTE, "memory-limit", "--memory %.0fM suffices to draw everything",
+                    budget_suggest_memory(&painter->budget, painter->session_memory));
+}
+
+void draw_report_needed(PetriPainter *painter, DiagSink *faults) {
+    Needed needed = {painter, faults};
+    (void)arena_protect(&faults->arena, 1, report_needed, &needed); // without memory, the note is left out
 }
 
 static void report_limit(void *faults) {

@@ -122,6 +122,13 @@ static double seconds_left(const Gl *gl) {
                   : INFINITY;
 }
 
+// Notes that a shader needs `seconds` for each of the remaining passes. Its pixels may differ in cost.
+static void refuse_passes(Gl *gl, double seconds, uint32_t passes) {
+    static const double UNEVEN = 1.5;
+    gl->budget->refused_time +=
+        1e9 * ((isinf(gl->shader_seconds) ? 0 : gl->shader_seconds) + UNEVEN * seconds * passes);
+}
+
 bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out) {
     GlImage first = {0}, last = effect->last;
     int reduction = gl_downsample(effect->node);
@@ -143,8 +150,12 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
             }
             gl_set_uniforms(gl, passes[i].program, &state);
             if (own) {
-                gl->shader_seconds += gl_draw_quad_within(gl, passes[i].program, width, height, seconds_left(gl));
-                good = gl->shader_seconds < INFINITY;
+                double taken, needed, left = seconds_left(gl);
+                taken = gl_draw_quad_within(gl, passes[i].program, width, height, left, &needed);
+                good = taken < INFINITY;
+                if (!good && gl->budget)
+                    refuse_passes(gl, needed, count - i);
+                gl->shader_seconds += taken;
             } else {
                 gl_draw_quad(gl, passes[i].program);
             }

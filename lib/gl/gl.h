@@ -93,8 +93,8 @@ extern const char gl_quad[];
 void gl_draw_quad(Gl *gl, unsigned program);
 // Like gl_draw_quad, for a target of width x height pixels and a program that may be slow. Draws one band of rows after
 // the other. Returns the seconds of processor time that this took, estimated from above. Stops, and returns infinity,
-// once it has taken more than `seconds`.
-double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds);
+// once it has taken more than `seconds`. Sets *needed to the estimated seconds for the whole target.
+double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds, double *needed);
 
 // The following functions draw on the window of an adopted context. Boxes are in pixels from the window's bottom left.
 // They return false if the GPU is out of memory. Temporary data is allocated from the arena.

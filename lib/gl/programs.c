@@ -212,7 +212,7 @@ static double draw_box(Gl *gl, unsigned program, int y, int width, int height) {
     return seconds_of(CLOCK_MONOTONIC) - start;
 }
 
-double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds) {
+double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds, double *needed) {
     static const double COMPILES = 0.01, BAND_SECONDS = 0.05, UNEVEN = 8, THREADS = 2;
     const double processor = seconds_of(CLOCK_PROCESS_CPUTIME_ID), start = seconds_of(CLOCK_MONOTONIC);
     const double pixels = fmin(width, GL_TRY_SIDE) * fmin(height, GL_TRY_SIDE);
@@ -225,6 +225,7 @@ double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, doub
     double row = box / pixels * width, taken = 0; // in seconds
     // Pixels may differ in cost, so that the estimate decides only if it is far above the limit.
     bool good = row * height <= UNEVEN * seconds;
+    *needed = row * height;
     // Bands have an even number of rows, because pairs of rows share the derivatives of a shader.
     double wanted = fmin(floor(BAND_SECONDS / fmax(row, 1e-9)), height + 1);
     int rows = wanted < 2 ? 2 : (int)wanted / 2 * 2;
@@ -235,6 +236,7 @@ double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, doub
         double wall = seconds_of(CLOCK_MONOTONIC) - start;
         taken = fmax(fmin(seconds_of(CLOCK_PROCESS_CPUTIME_ID) - processor, THREADS * wall), wall / 4);
         good = taken <= seconds;
+        *needed = taken * height / fmin(y + rows, height);
     }
     glDisable(GL_SCISSOR_TEST);
     return good ? taken : INFINITY;

@@ -403,11 +403,8 @@ static bool charge_view(const Drawing *drawing, const SceneBox *boxes, int width
     double cost = scene_cost(&view, left / NEGLIGIBLE);
     if (budget_charge_time(budget, cost))
         return true;
-    Arena *arena = drawing->scene->arena;
-    Str problem =
-        str_format(arena, "drawing would exceed the work limit: the scene is left out; --work %.0f would allow it",
-                   budget_needed_limit(budget, cost));
-    scene_report(drawing->scene, "drawing-limit", drawing->camera->node, str_to_c(arena, problem));
+    scene_report(drawing->scene, "drawing-limit", drawing->camera->node,
+                 "drawing exceeded the work limit (--work): the scene is left out");
     return false;
 }
 

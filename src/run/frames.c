@@ -10,6 +10,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 // Signals within this many seconds count as one signal, because timeout(1) sends its signal twice.
@@ -68,6 +69,8 @@ static bool should_print_diagnostic(Frames *frames, PetriLevel level) {
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Frames *frames = host;
+    if (diagnostic->level == PETRI_ERROR)
+        frames->memory_exceeded = diagnostic->code && strcmp(diagnostic->code, "memory-limit") == 0;
     frames->invalid_definition = frames->invalid_definition || is_invalid_definition(diagnostic);
     if (should_print_diagnostic(frames, diagnostic->level)) {
         progress_erase(&frames->progress);
@@ -147,6 +150,18 @@ void frames_set_interruptible(Frames *frames, bool begins) {
         petri_clear_interrupt(frames->session); // an interrupt that arrived after the frame must not stop the next one
 }
 
+// Reports that a frame exceeded a limit. How much it needs is not known.
+static void report_limit(const Frames *frames, int64_t number) {
+    PetriOptions defaults = petri_default_options();
+    uint64_t memory = frames->options->memory > 0 ? frames->options->memory : defaults.memory_limit;
+    uint64_t work = frames->options->work > 0 ? frames->options->work : defaults.work_limit;
+    uint64_t more = ((frames->memory_exceeded ? memory : work) >> 20) * 4;
+    more = more > 0 ? more : 4;
+    bool in_g = more > 1024;
+    message("stopped in frame %" PRId64 "; to allow four times as much, use %s %" PRIu64 "%s", number,
+            frames->memory_exceeded ? "--memory" : "--work", in_g ? (more + 1023) / 1024 : more, in_g ? "G" : "M");
+}
+
 bool frames_step(Frames *frames) {
     progress_update(&frames->progress, frames->done - frames->before_first_picture);
     int64_t number = petri_frame(frames->session).number + 1; // read before the step, because the step can fail
@@ -158,10 +173,10 @@ bool frames_step(Frames *frames) {
         return false;
     if (status != PETRI_OK) {
         progress_erase(&frames->progress);
-        message("stopped in frame %" PRId64 "%s", number,
-                status == PETRI_OUT_OF_MEMORY    ? ": out of memory"
-                : status == PETRI_LIMIT_EXCEEDED ? "; to raise the limits, use --work and --memory"
-                                                 : "");
+        if (status == PETRI_LIMIT_EXCEEDED)
+            report_limit(frames, number);
+        else
+            message("stopped in frame %" PRId64 "%s", number, status == PETRI_OUT_OF_MEMORY ? ": out of memory" : "");
         return false;
     }
     frames->done++;

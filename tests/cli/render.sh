@@ -1,5 +1,8 @@
 # render.sh: tests of `petri render`: images, image sequences, videos and errors. Part of run.sh.
 
+# sufficient LIMIT: prints the value of the last note that names a limit for `work` or `memory`.
+sufficient() { sed -n "s/.*note: --$1 \([0-9]*M\) suffices.*/\1/p" err | tail -n 1; }
+
 cat >disc.fl <<'END'
 !window size=40;30 title="disc"
     !canvas
@@ -234,10 +237,10 @@ END
             check "a shader that discards shows transparency in frame $frame" cmp -s discard$frame.png empty.png
         done
         petri render heavy.fl -o heavy.png --frames 1
-        check "an effect above the work limit is left out" has err "!blur: drawing exceeded the work limit: the effect is left out"
+        check "an effect above the work limit is left out" has err "!blur: drawing exceeded the work limit (--work): the effect is left out"
         printf '!window size=400\n    !blur radius=100\n        !adjust\n' >heavy.fl
         petri render heavy.fl -o heavy.png --frames 1 --work 1000000
-        petri render heavy.fl -o heavy.png --frames 1 --work "$(sed -n 's/.*--work \([0-9]*\) would allow it.*/\1/p' err)"
+        petri render heavy.fl -o heavy.png --frames 1 --work "$(sufficient work)"
         check "the message names a sufficient limit" empty err
         # These hulls take much work. Each apex is farther out than the previous one, so it sees all side faces of the hull
         # that was built so far.
@@ -256,7 +259,7 @@ END
         printf '!window size=30\n    !canvas3d\n        !light color=1\n        for i in ..20\n            !sphere segments=256 snap_edges=0.1+i/2000\n' >meshes.fl
         petri render meshes.fl -o meshes.png --frames 1 --memory 60M
         check "meshes are charged to the memory limit" has err "exceeds the memory limit (--memory)"
-        left_out="!canvas3d: drawing would exceed the work limit: the scene is left out; --work"
+        left_out="!canvas3d: drawing exceeded the work limit (--work): the scene is left out"
         # many large instances; many lights; many groups with many lights
         for scene in 'for i in ..20000\n            !cylinder segments=1024 position=i/2000 size=50\n' \
             'for i in ..4000\n            !light color=1 start=i;0;0 end=0;i;10 radius=3\n        !box size=2000 transparency=0.5\n' \
@@ -267,7 +270,7 @@ END
         done
         printf '!window size=60\n    !canvas3d viewpoint=0;0;50\n        !light color=1\n        for i in ..999\n            !box size=40 position=0;0;-i/100 transparency=0.5\n' >scene.fl
         petri render scene.fl -o scene.png --frames 1 --work 1000000
-        petri render scene.fl -o scene.png --frames 1 --work "$(sed -n 's/.*--work \([0-9]*\) would allow it.*/\1/p' err)"
+        petri render scene.fl -o scene.png --frames 1 --work "$(sufficient work)"
         check "the message names a limit that suffices for the scene" empty err
     fi
     printf '!window size=20\n    !canvas\n        !image filename="scans.jpg" size=20\n' >scans.fl
@@ -535,12 +538,26 @@ END
         printf '!window size=100\n    !canvas id=:c\n        for i in ..1000\n            %s\n' "$many" >many.fl
         petri render many.fl -o many.png --work 500k --scale 5
         check "drawing is charged as work: $many" has err "drawing exceeded the work limit (--work): parts of the picture are left"
+        check "the note on the limit is printed once: $many" count_is err "note: --work " 1
+        petri render many.fl -o many.png --scale 5 --work "$(sufficient work)"
+        check "the note names a limit that suffices: $many" [ ! -s err ]
         petri render many.fl -o many.png
         check "cheap drawing is below the limit: $many" [ ! -s err ]
     done
+    # Small shapes that are far apart cost no more than others.
+    printf '!window size=1000\n    !canvas\n        for i in ..20000\n            !ellipse point=i%%2*1000;i%%3*500 radius=1 fill=true\n' >many.fl
+    petri render many.fl -o many.png --frames 1 --work 25M
+    check "many small shapes that are far apart are drawn" eval 'status_is 0 && [ ! -s err ]'
     printf '!physics state=:p dimensions=2\n    for i in ..1000\n        !particle id=i position=0 radius=1\n' >many.fl
     petri render many.fl -o many.png --work 500k
     check "drawing is charged as work: particles" has err "drawing exceeded the work limit (--work)"
+    petri render many.fl -o many.png --work "$(sufficient work)"
+    check "the note names a limit that suffices: particles" [ ! -s err ]
+    printf '!window size=1000\n    for i in ..3\n        !canvas\n            !ellipse point=500 radius=400 fill=true\n' >many.fl
+    petri render many.fl -o many.png --frames 1 --memory 10M
+    check "pictures above the memory limit are left out" has err "exceeds the memory limit (--memory); it is left out"
+    petri render many.fl -o many.png --frames 1 --memory "$(sufficient memory)"
+    check "the note names a memory limit that suffices" [ ! -s err ]
     PATH='' "$petri" render disc.fl -o none.mp4 --frames 5 >out 2>err </dev/null
     status=$?
     check "a video without ffmpeg is an error" status_is 1

@@ -56,6 +56,8 @@ if [ -s good.png ] && ! has err "effects and 3-D scenes are left out"; then
     draw loops --work 2000000
     check "a shader that draws too long is an error" status_is 1
     check "the error names the work limit" has err "error: !shader: the shader took longer to draw than the work limit allows (--work)"
+    draw loops --work "$(sed -n 's/.*note: --work \([0-9]*M\) suffices.*/\1/p' err | tail -n 1)"
+    check "the note names a limit that suffices for the shader" eval 'status_is 0 && empty err'
 
     {
         cat good.fl

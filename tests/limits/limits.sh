@@ -73,11 +73,15 @@ check "too deeply nested imports are reported" has err "imports nested too deepl
 echo '!a x=len(i for i in ..(1000+frame))' >loop.fl
 runs $limit run --frames 1 --work 500 loop.fl
 check "--work lowers the limit" has err "the frame exceeded its limit of 500 work units"
+check "the message names --work and a larger limit" has err "stopped in frame 0; to allow four times as much, use --work 4M"
 runs $limit run --frames 1 --work 1G in_quadratic.fl
 check "--work raises the limit" has err "its limit of 1073741824 work units"
 echo '!a x=len((..2e7)+frame)' >power.fl
 runs $limit run --frames 1 --memory 100M power.fl
 check "--memory lowers the limit" has err "the frame exceeded its memory limit of 100 MiB"
+check "the message names --memory and a larger limit" has err "stopped in frame 0; to allow four times as much, use --memory 400M"
+runs $limit run --frames 1 --memory 400M power.fl
+check "the larger memory limit suffices" status_is 0
 runs $limit run --frames 1 --memory none loop.fl
 check "--memory none is rejected" status_is 2
 finish

@@ -15,13 +15,15 @@ typedef struct Drawn {
     int width;
     int height;
     uint32_t *pixels;    // last frame, rows from the top
-    char reported[TOLD]; // diagnostics, one per line: LINE [CODE] TEXT
+    char reported[TOLD]; // diagnostics except notes, one per line: LINE [CODE] TEXT
     unsigned column;     // column of the last diagnostic
 } Drawn;
 
 static inline void drawn_on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Drawn *drawn = host;
     size_t at = strlen(drawn->reported);
+    if (diagnostic->level == PETRI_NOTE)
+        return;
     drawn->column = diagnostic->column;
     snprintf(drawn->reported + at, TOLD - at, "%u [%s] %s\n", diagnostic->line, diagnostic->code, diagnostic->text);
 }
