@@ -8,7 +8,9 @@ static const double PIXEL = 60;      // shading a pixel of an instance
 static const double LIGHT = 13;      // adding a line light, the most expensive kind, to a pixel
 static const double SENT_LIGHT = 10; // sending a light to the GPU, for each group
 static const double BACKS = 2;       // translucent instances are drawn twice
-static const double TRIANGLE = 50;
+static const double TRIANGLE = 80;
+static const double SAMPLE = 100;    // each sample of a triangle, with multisampling
+static const double MAX_SAMPLES = 4; // limit of llvmpipe
 
 static double lights_of(const SceneGroup *group) {
     double count = 0;
@@ -51,7 +53,9 @@ static double covered_pictures(const SceneView *view, const SceneDraw *draw) {
 }
 
 static double sum_costs(const SceneView *view, bool exact) {
-    double pixels = (double)view->width * view->height, sum = (double)view->order->triangles * TRIANGLE;
+    double samples = fmin(view->samples, MAX_SAMPLES);
+    double pixels = (double)view->width * view->height,
+           sum = (double)view->order->triangles * (TRIANGLE + SAMPLE * samples);
     for (uint32_t i = 0; i < view->order->draw_count; i++) {
         const SceneDraw *draw = &view->order->draws[i];
         double lights = lights_of(view->scene->groups[draw->group]), times = draw->translucent ? BACKS : 1;

@@ -12,6 +12,7 @@ typedef struct SceneView {
     Matrix clip;           // projection · view
     int width;             // in pixels
     int height;
+    int samples; // per pixel; 0: no multisampling
 } SceneView;
 
 // Returns the time in nanoseconds. If a rough upper bound is at most `enough`, returns this bound; it is quick to

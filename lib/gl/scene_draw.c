@@ -351,12 +351,17 @@ static void reset_state(void) {
     glDepthMask(GL_TRUE);
 }
 
+// Returns the number of samples per pixel that the script requests; 0: no multisampling.
+static int samples_of(const Scene *scene, const SceneCamera *camera) {
+    double samples = scene->detail < 1 ? 0 : fmin(camera->state.samples, 64);
+    return samples >= 2 ? (int)samples : 0;
+}
+
 static bool draw_to_image(Drawing *drawing, GlImage image) {
     Gl *gl = drawing->gl;
     const SceneCamera *camera = drawing->camera;
-    double samples = drawing->scene->detail < 1 ? 0 : fmin(camera->state.samples, 64);
-    SceneTarget *target =
-        gpu_cache_target(drawing->gl, image.width, image.height, samples >= 2 ? (int)samples : 0, image.format, false);
+    SceneTarget *target = gpu_cache_target(drawing->gl, image.width, image.height, samples_of(drawing->scene, camera),
+                                           image.format, false);
     if (!target)
         return false;
     drawing->target = target;
@@ -399,7 +404,8 @@ static bool charge_view(const Drawing *drawing, const SceneBox *boxes, int width
                       .boxes = boxes,
                       .clip = matrix_product(&drawing->projection, &drawing->view),
                       .width = width,
-                      .height = height};
+                      .height = height,
+                      .samples = samples_of(drawing->scene, drawing->camera)};
     double cost = scene_cost(&view, left / NEGLIGIBLE);
     if (budget_charge_time(budget, cost))
         return true;

@@ -268,6 +268,13 @@ END
             petri render scene.fl -o scene.png --frames 1
             check "a scene above the work limit is left out" has err "$left_out"
         done
+        printf '!window size=600;400\n    !canvas3d viewpoint=0;0;100 samples=SAMPLES\n        !light color=1\n        for i in ..600\n            !cylinder segments=512 position=i/2000 size=1\n' >scene.fl
+        sed 's/SAMPLES/0/' scene.fl >plain.fl
+        sed -i 's/SAMPLES/4/' scene.fl
+        petri render plain.fl -o scene.png --frames 1 --work 40M
+        check "triangles with one sample per pixel are below the limit" empty err
+        petri render scene.fl -o scene.png --frames 1 --work 40M
+        check "multisampled triangles cost more" has err "$left_out"
         printf '!window size=60\n    !canvas3d viewpoint=0;0;50\n        !light color=1\n        for i in ..999\n            !box size=40 position=0;0;-i/100 transparency=0.5\n' >scene.fl
         petri render scene.fl -o scene.png --frames 1 --work 1000000
         petri render scene.fl -o scene.png --frames 1 --work "$(sufficient work)"
