@@ -99,10 +99,74 @@ bool spool_open(Spool *spool, const char *path, bool begins) {
     return !begins && read ? true : reset_spool(spool, begins);
 }
 
+// Part of a block that has not been checked yet.
+typedef struct Unchecked {
+    const char *at;
+    uint64_t length;
+} Unchecked;
+
+// Copies `size` bytes to `out`, unless `out` is NULL, and moves on. Returns false if there are fewer bytes.
+static bool skip_bytes(Unchecked *rest, void *out, uint64_t size) {
+    if (size > rest->length)
+        return false;
+    if (out)
+        memcpy(out, rest->at, size);
+    rest->at += size;
+    rest->length -= size;
+    return true;
+}
+
+// Moves on by padded strings of `bytes` bytes. Returns false if they contain fewer than `count` strings.
+static bool skip_texts(Unchecked *rest, uint64_t bytes, uint64_t count) {
+    Unchecked texts = {rest->at, bytes};
+    if (bytes % 8 != 0 || !skip_bytes(rest, NULL, bytes))
+        return false;
+    for (; count > 0; count--) {
+        const char *end = texts.length == 0 ? NULL : memchr(texts.at, '\0', texts.length);
+        if (!end)
+            return false;
+        skip_bytes(&texts, NULL, (uint64_t)(end - texts.at) + 1);
+    }
+    return true;
+}
+
+// Moves on by a system. Returns false if it is invalid, or if an id refers to none of the first `texts` strings.
+static bool skip_system(Unchecked *rest, uint64_t texts) {
+    enum { MAX_EMPTY = 1 << 20 }; // maximum number of dimensions of a system without particles
+    Hdf5System system;
+    if (!skip_bytes(rest, &system, sizeof system) || !skip_texts(rest, system.name_bytes, 1) ||
+        system.dimensions == 0 || system.dimensions > (system.particles > 0 ? UINT32_MAX : MAX_EMPTY))
+        return false;
+    uint64_t values = 2 * system.dimensions + HDF5_NUMBERS; // of a particle
+    if (system.particles > rest->length / (values * 8) || !skip_bytes(rest, NULL, system.particles * (values - 2) * 8))
+        return false;
+    for (uint64_t i = 0; i < system.particles; i++) {
+        int64_t id = -1;
+        skip_bytes(rest, &id, sizeof id);
+        if (id < -1 && (uint64_t)(-2 - id) >= texts)
+            return false;
+    }
+    return skip_bytes(rest, NULL, system.particles * 8); // anchor flags
+}
+
+// Returns true if a block contains a valid frame. Adds the number of its strings to *texts, the number of strings of
+// the earlier frames of the run. A hash does not suffice, because anyone can compute it.
+static bool check_frame(const char *block, uint64_t length, uint64_t *texts) {
+    Unchecked rest = {block, length};
+    Hdf5Frame frame;
+    if (!skip_bytes(&rest, &frame, sizeof frame) || !skip_texts(&rest, frame.text_bytes, frame.text_count))
+        return false;
+    *texts += frame.text_count;
+    for (uint64_t i = 0; i < frame.system_count; i++)
+        if (!skip_system(&rest, *texts))
+            return false;
+    return rest.length == 0;
+}
+
 bool spool_next(Spool *spool, int64_t after, Hdf5Head *head, char **block) {
     Entry entry;
-    uint64_t at = spool->at + sizeof entry;
-    Hdf5Frame frame = {0};
+    uint64_t at = spool->at + sizeof entry, texts = spool->texts;
+    Hdf5Frame frame;
     if (at > spool->size || !read_at(spool, spool->at, &entry, sizeof entry) || entry.head.bytes > spool->size - at)
         return false;
     *head = entry.head;
@@ -110,11 +174,16 @@ bool spool_next(Spool *spool, int64_t after, Hdf5Head *head, char **block) {
     if (!read_at(spool, at, *block, head->bytes) || hash_bytes(head->command, *block, head->bytes) != entry.hash)
         return false;
     if (head->command == HDF5_ADD) {
+        if (!check_frame(*block, head->bytes, &texts))
+            return false;
         memcpy(&frame, *block, sizeof frame);
         if (frame.number > after)
             return false;
         spool->has_frames = true;
+    } else {
+        texts = 0;
     }
+    spool->texts = texts;
     spool->at = at + head->bytes;
     return true;
 }

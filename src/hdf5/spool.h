@@ -19,13 +19,14 @@ typedef struct Spool {
     bool has_frames; // true if the spool contains frames, possibly of an earlier run
     uint64_t size;   // size of the file in bytes
     uint64_t at;     // offset of the next block to read or write
+    uint64_t texts;  // number of id strings in the blocks of the current run that were read
 } Spool;
 
 // Opens the spool of the trajectory `path` and empties it if `begins` is true. Returns false after a message, for
 // example if another process uses the spool.
 bool spool_open(Spool *spool, const char *path, bool begins);
 // Reads the next block, HDF5_ADD or HDF5_NEW_RUN. Returns false at the first frame later than `after`, at a damaged
-// block and at the end.
+// or invalid block and at the end.
 bool spool_next(Spool *spool, int64_t after, Hdf5Head *head, char **block);
 // Adds a block of this run after the blocks that spool_next has read, and discards any further old blocks. Returns
 // false after a message.

@@ -77,6 +77,7 @@ bool store_begin(Store *store, const char *path, bool continues) {
     // libhdf5 must not lock the file, because replace_begin already holds a lock on it.
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    H5Lunregister(H5L_TYPE_EXTERNAL); // a file of a stranger must not refer to other files, which would be modified
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // H5Fclose also closes all open objects of the file
     SCOPED_BYTE_BUFFER name = {0};
@@ -170,6 +171,23 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
     return column;
 }
 
+// Returns true if the sizes of an existing column are plausible, apart from the number of rows. The file of a stranger
+// can claim any sizes, which would then be read. In petri's files, every frame has a step, and the longest row is
+// stored.
+static bool is_plausible(const StoreColumn *column, hid_t made) {
+    // Maxima: values in a chunk, components of a vector if there are no particles, compression ratio of deflate.
+    enum { MAX_CHUNK = 1 << 22, MAX_EMPTY = 1 << 20, MAX_RATIO = 1032 };
+    hsize_t stored = H5Dget_storage_size(column->set) / sizeof(double), chunk = 1;
+    stored *= H5Pget_nfilters(made) > 0 ? MAX_RATIO : 1;
+    for (int k = 0; k < column->rank; k++) {
+        bool rows = k == 0 && column->rank > 1, empty = k == 2 && column->sizes[1] == 0;
+        if ((!rows && column->sizes[k] > (empty ? MAX_EMPTY : stored)) || column->chunk[k] > MAX_CHUNK / chunk)
+            return false;
+        chunk *= column->chunk[k];
+    }
+    return true;
+}
+
 StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_t type, int rank, const void *fill) {
     StoreColumn column = {.parent = parent, .name = name, .type = type, .fill = fill, .rank = rank};
     column.set = check_id(store, H5Dopen2(parent, name, H5P_DEFAULT));
@@ -178,6 +196,10 @@ StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_
         store->failed = true;
     else
         H5Sget_simple_extent_dims(space, column.sizes, NULL);
+    if (store->failed || !is_plausible(&column, made)) {
+        memset(column.sizes, 0, sizeof column.sizes);
+        store->failed = true;
+    }
     H5Sclose(space);
     H5Pclose(made);
     return column;
@@ -284,12 +306,14 @@ hid_t store_open(Store *store, hid_t parent, const char *name) {
 }
 
 // Reads `count` strings of fixed length from a data set, or from an attribute if `set` is negative. Sets *bytes to the
-// size of each string with its NUL. Closes `type`.
+// size of each string with its NUL. Closes `type`. After an error, returns an empty string.
 static char *read_fixed(Store *store, hid_t type, size_t count, hid_t attribute, hid_t set, size_t *bytes) {
     *bytes = H5Tget_size(type) + 1;
     hid_t memory = store_text_type(*bytes - 1);
-    char *texts = memory_calloc(count * *bytes + 1);
-    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
+    bool good = !store->failed && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
+                count < SIZE_MAX / *bytes;
+    char *texts = memory_calloc(good ? count * *bytes + 1 : 1);
+    if (!good) {
         store->failed = true;
     } else {
         store_check(store, set < 0 ? H5Aread(attribute, memory, texts)
@@ -300,9 +324,18 @@ static char *read_fixed(Store *store, hid_t type, size_t count, hid_t attribute,
     return texts;
 }
 
+// Opens an attribute, which must have one value.
+static hid_t open_attribute(Store *store, hid_t object, const char *name) {
+    hid_t attribute = check_id(store, H5Aopen(object, name, H5P_DEFAULT));
+    hid_t space = check_id(store, H5Aget_space(attribute));
+    store->failed = store->failed || H5Sget_simple_extent_npoints(space) != 1;
+    H5Sclose(space);
+    return attribute;
+}
+
 char *store_read_text(Store *store, hid_t object, const char *name) {
     size_t bytes = 0;
-    hid_t attribute = check_id(store, H5Aopen(object, name, H5P_DEFAULT));
+    hid_t attribute = open_attribute(store, object, name);
     char *text = read_fixed(store, H5Aget_type(attribute), 1, attribute, -1, &bytes);
     H5Aclose(attribute);
     return text;
@@ -310,8 +343,9 @@ char *store_read_text(Store *store, hid_t object, const char *name) {
 
 int store_read_number(Store *store, hid_t object, const char *name) {
     int number = 0;
-    hid_t attribute = check_id(store, H5Aopen(object, name, H5P_DEFAULT));
-    store_check(store, H5Aread(attribute, H5T_NATIVE_INT, &number));
+    hid_t attribute = open_attribute(store, object, name);
+    if (!store->failed)
+        store_check(store, H5Aread(attribute, H5T_NATIVE_INT, &number));
     H5Aclose(attribute);
     return number;
 }
@@ -334,9 +368,12 @@ bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name) 
 
 char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes) {
     hid_t set = check_id(store, H5Dopen2(parent, name, H5P_DEFAULT)), space = check_id(store, H5Dget_space(set));
+    hid_t type = check_id(store, H5Dget_type(set));
     hssize_t found = H5Sget_simple_extent_npoints(space);
     *count = found < 0 ? 0 : (size_t)found;
-    char *texts = read_fixed(store, H5Dget_type(set), *count, -1, set, bytes);
+    // Files of strangers can claim any number of strings.
+    store->failed = store->failed || *count > H5Dget_storage_size(set) / H5Tget_size(type);
+    char *texts = read_fixed(store, type, *count, -1, set, bytes);
     H5Sclose(space);
     H5Dclose(set);
     return texts;

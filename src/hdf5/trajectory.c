@@ -218,6 +218,11 @@ static bool read_group(TrajectoryFile *file, Group *group, int64_t after, int64_
             group->time = store_open_column(store, element, "time", H5T_NATIVE_DOUBLE, 1, &NO_NUMBER);
         }
     }
+    // Every frame has a row in each column. The file of a stranger can claim more rows.
+    bool equal = group->time.sizes[0] == group->step.sizes[0];
+    for (Kind kind = POSITION; kind < KINDS; kind++)
+        equal = equal && group->columns[kind].sizes[0] == group->step.sizes[0];
+    store->failed = store->failed || !equal;
     hsize_t one[STORE_RANKS] = {1, group->columns[ID].sizes[1]};
     int64_t *ids = memory_calloc((one[1] + 1) * sizeof *ids);
     for (int64_t step = 0; !store->failed && group->frames < group->step.sizes[0]; group->frames++) {
@@ -253,8 +258,11 @@ static void read_groups(TrajectoryFile *file, int64_t after, int64_t *min_id) {
     SCOPED_BYTE_BUFFER name = {0};
     for (hsize_t i = 0; store_name_at(file->store, file->particles, i, &name);) {
         Group group = {.group = store_open(file->store, file->particles, name.data)};
-        if (!read_group(file, &group, after, min_id)) {
+        bool any = read_group(file, &group, after, min_id);
+        if (file->store->failed || !any) {
             free(group.system_name);
+            if (file->store->failed)
+                return;
             store_check(file->store, H5Ldelete(file->particles, name.data, H5P_DEFAULT));
             continue;
         }

@@ -53,8 +53,22 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
     petri run pair.fl --frames 5 --every 2 --trajectory run.csv
     check "a .h5md file contains every K-th frame" eval 'read_h5md run.h5md run.csv || { cat err; false; }'
 
-    # However the run ends, the complete frames must be in the file.
     printf '!physics state=:c dimensions=2\n    for i in ..300\n        !particle id=i velocity=1;i\n' >w.fl
+    # A file of a stranger must not make petri write to another file.
+    petri run w.fl --frames 2 --state linked.state --trajectory linked.h5
+    cp linked.h5 other.h5
+    cp other.h5 before.h5
+    $python -I -c '
+import h5py
+with h5py.File("linked.h5", "r+") as file:
+    del file["particles"]
+    file["particles"] = h5py.ExternalLink("other.h5", "/particles")'
+    petri run w.fl --frames 2 --state linked.state --trajectory linked.h5
+    check "an H5MD file that refers to another file is not continued" status_is 1
+    check "the message says that --trajectory did not write the file" has err "cannot continue linked.h5: it was not written by"
+    check "the other file is not changed" cmp other.h5 before.h5
+
+    # However the run ends, the complete frames must be in the file.
     # start_run FRAMES [OPTION...]: starts a run and waits until it has computed FRAMES frames.
     start_run() {
         min_frames=$(($1 - 1))
