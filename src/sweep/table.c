@@ -21,6 +21,8 @@ bool row_next(const char **at, Row *row) {
 
 Str row_cell(const Row *row, size_t number) {
     Str cells = row->cells;
+    if (cells.len == 0)
+        return cells; // a damaged journal can contain rows without cells
     for (;; number--) {
         cells = (Str){cells.bytes + 1, cells.len - 1}; // skip the tab
         const char *end = memchr(cells.bytes, '\t', cells.len);
