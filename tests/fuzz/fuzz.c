@@ -139,6 +139,16 @@ bool fuzz_texts_equal(const FuzzText *a, const FuzzText *b) {
     return a->length == b->length && (a->length == 0 || memcmp(a->bytes, b->bytes, a->length) == 0);
 }
 
+bool fuzz_next_part(const char **at, const char *end, const char **part, size_t *length) {
+    if (*at == end)
+        return false;
+    const char *stop = memchr(*at, 30, (size_t)(end - *at));
+    *part = *at;
+    *length = (size_t)((stop ? stop : end) - *at);
+    *at = stop ? stop + 1 : end;
+    return true;
+}
+
 static bool is_finite(const char *element, size_t length) {
     static const char *const others[] = {"nan", "-nan", "inf", "-inf"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)

@@ -45,6 +45,10 @@ typedef struct FuzzText {
 bool fuzz_append(void *text, const char *bytes, size_t length);
 bool fuzz_texts_equal(const FuzzText *a, const FuzzText *b);
 
+// Reads the next part of an input whose parts are separated by a byte 30: sets *part and *length, and moves *at to the
+// start of the part after it. Returns false if *at is `end`.
+bool fuzz_next_part(const char **at, const char *end, const char **part, size_t *length);
+
 // Returns the path of a file in this process's temporary folder. The string stays valid for the next three calls.
 const char *fuzz_file(const char *name);
 // Writes a file in that folder.

@@ -83,6 +83,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     enum { ACTION_SIZE = 1 + sizeof(double), MAX_ACTIONS = 8 };
     PetriOptions options = fuzz_options();
     PetriSnapshot *snapshot = NULL;
+    options.work_limit = 1 << 16; // a frame after a long pause has many steps of physics
     options.realtime = size > 0 && data[0] & 128;
     now = 1000;
     PetriSession *session = fuzz_open(&options);

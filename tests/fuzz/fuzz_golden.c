@@ -6,14 +6,6 @@
 
 #include <string.h>
 
-// The list of commands, which help needs.
-const Command *const COMMANDS[] = {&RUN_COMMAND, NULL};
-
-const Command *command_find(const char *name) {
-    (void)name;
-    return NULL;
-}
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const uint8_t *part = memchr(data, 30, size);
     size_t length = part ? (size_t)(part - data) : size;

@@ -118,14 +118,12 @@ static void perform_action(Host *host, const char *text, size_t length) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     Host host = {.session = fuzz_open(NULL)};
-    const char *at = (const char *)data, *end = at + size;
+    const char *at = (const char *)data, *end = at + size, *part;
+    size_t length;
     fuzz_load(host.session, SCRIPT);
     host.config = petri_config_get(host.session);
-    for (int i = 0; at < end && i < MAX_ACTIONS; i++) {
-        const char *part = memchr(at, 30, (size_t)(end - at));
-        perform_action(&host, at, (size_t)((part ? part : end) - at));
-        at = part ? part + 1 : end;
-    }
+    for (int i = 0; i < MAX_ACTIONS && fuzz_next_part(&at, end, &part, &length); i++)
+        perform_action(&host, part, length);
     for (int i = 0; i < SNAPSHOTS; i++)
         petri_snapshot_free(host.snapshots[i]);
     petri_config_free(host.config);

@@ -1,11 +1,14 @@
 #!/bin/sh
-# replay.sh BUILD SOURCE: runs each harness on its seeds and on earlier findings (crashes/NAME), without fuzzing.
+# replay.sh BUILD SOURCE: runs each harness on its seeds (with those of corpus/NAME) and on earlier findings
+# (crashes/NAME), without fuzzing. Skips harnesses whose optional libraries are missing.
 set -eu
 build=$1 source=$2
 folder=$(mktemp -d "${TMPDIR:-/tmp}/petri-fuzz-XXXXXX")
 trap 'rm -rf "$folder"' EXIT
 "$build/tests/fuzz/fuzz_seeds" "$folder/seeds"
 cp "$folder"/seeds/script/* "$folder/seeds/simplify/"
+cp "$folder"/seeds/script/* "$folder/seeds/fmt/"
+cp -r "$source"/tests/fuzz/corpus/. "$folder/seeds/"
 cp "$source"/tests/pictures/images/small.jpg "$folder/seeds/image/"
 failed=0
 for seeds in "$folder"/seeds/*/; do
@@ -19,6 +22,7 @@ for seeds in "$folder"/seeds/*/; do
         failed=1
         continue
     }
+    [ -x "$build/tests/fuzz/fuzz_$name" ] || continue
     if "$build/tests/fuzz/fuzz_$name" "$@" >"$folder/log" 2>&1; then
         echo "ok - $name: $# inputs"
     else

@@ -7,19 +7,6 @@ build=$(cd "$1" && pwd) source=$(cd "$2" && pwd) seconds=$3
 shift 3
 work=$build/fuzz
 
-seed() {
-    "$build/tests/fuzz/fuzz_seeds" "$work"
-    # One cp per file, because different folders contain equal file names.
-    find "$source/tests/golden" "$source/tests/conformance" "$source/tests/pictures" "$source/samples" \
-        -name '*.fl' -size -4k -exec cp {} "$work/script" \;
-    cp "$work"/script/*.fl "$work/simplify/"
-    cp "$source"/tests/pictures/*.fl "$work/draw/"
-    cp "$source"/tests/pictures/images/small.jpg "$work/image/"
-    for session in "$source"/tests/repl/*.session; do
-        sed -n 's/^\(petri\|@[0-9]*\|\.\.\.\)>\{0,1\} //p' "$session" >"$work/repl/$(basename "$session")"
-    done
-}
-
 # minimise NAME FILE: minimises a finding and stores it.
 minimise() {
     stored=$source/tests/fuzz/crashes/$1/$(sha1sum <"$2" | cut -c -12)
@@ -36,13 +23,15 @@ minimise() {
 }
 
 fuzz_one() {
-    name=$1 quiet=0 # hides the output of harnesses that run commands
+    name=$1 quiet=0 longest=4096
+    [ "$name" != repl ] || longest=300 # commands take long
+    # `quiet` hides the output of harnesses that run commands.
     case $name in
-    arguments | golden | repl) quiet=3 ;;
+    arguments | golden | journal | link | listen | lsp | plan | repl | resume) quiet=3 ;;
     esac
     rm -f "$work/found-$name"-*
     cd "$work"
-    if "$build/tests/fuzz/fuzz_$name" -dict="$work/dictionary" -max_len=4096 -timeout=60 -rss_limit_mb=3000 \
+    if "$build/tests/fuzz/fuzz_$name" -dict="$work/dictionary" -max_len=$longest -timeout=60 -rss_limit_mb=3000 \
         -max_total_time="$seconds" -close_fd_mask=$quiet -artifact_prefix="$work/found-$name-" -print_final_stats=1 \
         "$work/$name" >"$work/$name.log" 2>&1; then
         echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$work/$name.log") inputs, nothing found"
@@ -66,7 +55,8 @@ fi
 TMPDIR=$(mktemp -d "$([ -w /dev/shm ] && echo /dev/shm || echo /tmp)/fuzz-XXXXXX")
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
-seed
+"$source/tests/fuzz/seeds.sh" "$build" "$source" "$work"
+cp -r "$source"/tests/fuzz/corpus/. "$work/"
 [ $# -gt 0 ] || set -- $(find "$source/tests/fuzz" -name 'fuzz_*.c' | sed 's|.*/fuzz_||; s|\.c$||' | sort)
 export PETRI_FUZZ_ONE=1
 printf '%s\n' "$@" | xargs -P "$(nproc)" -I NAME sh "$0" "$build" "$source" "$seconds" NAME || exit 1

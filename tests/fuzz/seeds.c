@@ -1,6 +1,7 @@
 // seeds.c: writes the first inputs of the fuzzers, made from petri's tables. usage: fuzz_seeds FOLDER
 // FOLDER/dictionary is libFuzzer's dictionary; FOLDER/NAME contains inputs for harness NAME.
 #include "cli/cli.h"
+#include "cli/hdf5.h"
 #include "petri-draw.h"
 #include "petri.h"
 #include "repl/repl.h"
@@ -12,13 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-const Command *const COMMANDS[] = {&RUN_COMMAND, NULL};
-
-const Command *command_find(const char *name) {
-    (void)name;
-    return NULL;
-}
 
 static const char *const TOPICS[] = {
 #define TOPIC(word, usage, help) word,
@@ -107,6 +101,25 @@ static void write_builtins(void) {
              builtin.name, builtin.name, builtin.name, builtin.name);
 }
 
+// An area of node kinds (PetriNodeKind.area), and the harness and script of its seeds. The script ends with the
+// indentation of the first node. Nodes of the area "canvas" are also seeds of another harness, as nodes of a window.
+typedef struct NodeArea {
+    const char *name;
+    const char *harness;
+    const char *script;
+    const char *indentation; // of a second node
+} NodeArea;
+
+static const NodeArea AREAS[] = {
+    {"physics", "script",
+     "!physics state=:s dimensions=2\n    !particle id=0\n    !particle id=1 position=1;0 mass=2\n    ", ""},
+    {"canvas3d", "scene", "!window size=8\n    !canvas3d\n        !light color=1\n        !box\n        ", "        "},
+    {"canvas", "draw", "!window size=60;40\n    !canvas\n        !path\n            !move_to point=1;2\n        ",
+     "        "},
+    {"canvas", "effects", "!window size=8\n    !canvas id='c'\n        !rect size=5 fill=true color=1;0;0\n    ",
+     "    "},
+};
+
 // Writes a script for each kind of node with each attribute, at a place in the tree where such a node is valid.
 static void write_nodes(void) {
     static const char *const values[] = {"1;2", ":a", "frame/3", "'x'", "0.5", "1e308;0", "0"};
@@ -115,16 +128,15 @@ static void write_nodes(void) {
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         char name[80], text[2000];
         int size = 0;
-        bool physics = strcmp(kind.area, "physics") == 0;
         snprintf(name, sizeof name, "node-%s-%s", kind.area, kind.name);
         for (size_t j = 0; petri_node_attribute(i, j, &attribute) && size < 1500; j++)
             size += snprintf(text + size, sizeof text - (size_t)size, " %s=%s", attribute.name,
                              values[(i + j) % (sizeof values / sizeof values[0])]);
         text[size] = 0;
-        seed(physics ? "script" : "draw", name, "%s    !%s%s\n%s!%s state=:t%s\n",
-             physics ? "!physics state=:s dimensions=2\n    !particle id=0\n    !particle id=1 position=1;0 mass=2\n"
-                     : "!window size=60;40\n    !canvas\n        !path\n            !move_to point=1;2\n    ",
-             kind.name, text, physics ? "" : "        ", kind.name, text);
+        for (size_t j = 0; j < sizeof AREAS / sizeof AREAS[0]; j++)
+            if (strcmp(AREAS[j].name, kind.area) == 0)
+                seed(AREAS[j].harness, name, "%s!%s%s\n%s!%s state=:t%s\n", AREAS[j].script, kind.name, text,
+                     AREAS[j].indentation, kind.name, text);
     }
 }
 
@@ -176,6 +188,104 @@ static void write_others(void) {
          "\x1e@0 time=0 beat=0\n$:a = 1;2.0000001\n");
 }
 
+// Writes inputs of the harnesses that read files and messages of strangers. Inputs that are more than a few lines are
+// in corpus/.
+static void write_foreign(void) {
+    seed(
+        "link", "json",
+        "{\"v\":1,\"t\":\"!a x=1\\n\",\"n\":\"a.fl\",\"c\":[[3,\"A\",\"2\"],[-1,\"B\",\"1;2\"]],\"f\":9,\"h\":\"ab\"}");
+    seed("link", "text", "#q1bKU7JSKlHSUcpTslJKVIBTSUBWbmJSVl5icmoJlAIA");
+    seed("plan", "plan",
+         "script: a.fl\nframes: 3\ndefine:\n  A: 1..3\n  B: [0.5, (1;2), 3]\n  C: 0..1|0.25\nmetric:\n  x: $:n\n"
+         "seeds: 2\nquiet: true\noutput: a.csv\nsummary: b.csv\nevery: 2\nuntil: x>3\nshard: 1/2\n");
+    seed("plan", "json",
+         "{\"script\": \"a.fl\", \"define\": {\"A\": \"0..1\", \"B\": 2}, \"sample\": \"latin:9:1\"}\n");
+    seed("journal", "results",
+         "\x01\x03"
+         "3\t1\t2\t\n\x1e%c\x02"
+         "1\t1;2\t'a'\t\n2\t\t\ta fault\n\x1e\x02\x05"
+         "5\tnull\t1e300\t\n",
+         0);
+    seed("resume", "csv",
+         "%cframe,time,system,id,anchor,x1,x2,v1,v2,radius,mass,charge\n0,0,:a,1,0,1,2,3,4,1,1,0\n1,0.1,:a,1,0,1,2,3,4,"
+         "1,1,0\n",
+         3);
+    seed("resume", "xyz",
+         "%c1\nProperties=species:S:1:pos:R:3:vel:R:3 Time=0 Frame=0\nX 1 2 3 0 0 0\n0\n"
+         "Properties=species:S:1:pos:R:3: Time=0 Frame=1\n",
+         4);
+    seed("terminal", "keys",
+         "aB1 \x1b[A\x1b[1;5C\x1bOP\x1b[15~\x1b[<0;12;7M\x1b[<0;12;7m\x1b[O\x1b[I\x1b[97;5u\xc3\xa9\x1b");
+    seed("listen", "texts",
+         "!b x=2\x1e.set SIZE 5\x1e.back 2\x1e.set SIZE\x1e.drop\x1e.reset\x1e"
+         "1+SIZE\x1elet x=\x1e.back x");
+    seed("mesh", "obj",
+         "%cv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 1\nvn 0 0 1\nf 1/1/1 2//1 3\nf -1 -2 1\nf 1 2 3 4\n", 2);
+    seed("mesh", "stl",
+         "%csolid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+         "0\nendloop\nendfacet\nendsolid a\n",
+         10);
+    seed("mesh", "hull", "%c\x01\x01\x01\x05\x01\x02\x01\x07\x03\x09\x03\x04\x02\x02\x06\x08\x03\x05", 99);
+    seed("h5md", "changes", "\x03\x02\x05\x01\x04\x0a\x01\x03\x05\x07\x02\x01\x02\x0e\x0d\x06");
+    seed("effects", "uniforms",
+         "!window size=24;16\n    !shader fragment=FRAGMENT a=1 b=1;2 c=1;2;3 d=4 e=1;0;0;1 f=1 g=time h=3 i=1;2;3 j=7 "
+         "k=true "
+         "l=1;0 m=1;2;3;4;5 n=1;2;3;4;5;6;7;8 shift=0.5;1 passes=3 downsample=2 downsample_passes=1\n"
+         "        !canvas\n            !rect size=9 fill=true color=1;0;0\n");
+    seed("effects", "rejected",
+         "!window size=9\n    !shader fragment=\"\"\"${HEADER}\nvoid main() {\n    colour = blue;\n}\n\"\"\"\n\x1e"
+         "0:3(5): error: `blue' undeclared\n");
+}
+
+// Writes frames of an H5MD trajectory, as petri sends them to petri-hdf5.
+static void write_frames(void) {
+    struct {
+        Hdf5Frame frame;
+        char texts[8];
+        Hdf5System system;
+        char name[8];
+        double numbers[7];
+        int64_t id, anchor;
+    } frame = {
+        .frame = {0, 0.5, 8, 1, 1}, .texts = "a", .system = {1, 2, 8}, .name = ":s", .numbers = {1, 2}, .id = -2};
+    char all[2 * sizeof frame + 1];
+    memcpy(all, &frame, sizeof frame);
+    all[sizeof frame] = 30;
+    frame.frame.number = 1;
+    frame.frame.text_count = 0;
+    memcpy(all + sizeof frame + 1, &frame, sizeof frame);
+    write_seed("spool", "frames", all, sizeof all);
+}
+
+// The messages that an editor sends, apart from those that open a document.
+static const char *const METHODS[] = {
+    "completion",        "hover",         "signatureHelp",     "definition",   "references",
+    "documentHighlight", "prepareRename", "documentSymbol",    "foldingRange", "semanticTokens/full",
+    "inlayHint",         "documentColor", "colorPresentation", "codeAction",   "formatting"};
+
+// Each input opens a document, changes it, sends a request and closes the document.
+static void write_editor_messages(void) {
+    static const char document[] = "\"textDocument\":{\"uri\":\"file:///a.fl\"}";
+    static const char range[] = "{\"start\":{\"line\":0,\"character\":0},\"end\":{\"line\":2,\"character\":3}}";
+    for (size_t i = 0; i < sizeof METHODS / sizeof METHODS[0]; i++) {
+        char name[40];
+        snprintf(name, sizeof name, "%zu", i);
+        seed(
+            "lsp", name,
+            "{\"method\":\"textDocument/didOpen\",\"params\":{\"textDocument\":{\"uri\":\"file:///a.fl\",\"version\":1,"
+            "\"text\":\"import part from 'part.fl'\\nlet x=3 -- 1..9 how many\\nfunc f(a)\\n    a*x+part\\n"
+            "!window size=2;1\\n    !canvas color=1;0;0\\n        !rect size=f(x)\\n\"}}}\x1e"
+            "{\"method\":\"textDocument/didChange\",\"params\":{%s,\"contentChanges\":[{\"range\":%s,\"text\":\"let "
+            "y=\"}]}}\x1e"
+            "{\"id\":%zu,\"method\":\"textDocument/%s\",\"params\":{%s,\"position\":{\"line\":3,\"character\":7},"
+            "\"range\":%s,\"context\":{\"includeDeclaration\":true,\"diagnostics\":[]},"
+            "\"color\":{\"red\":1,\"green\":0,\"blue\":0.5,\"alpha\":1},\"newName\":\"z\",\"options\":{\"tabSize\":4}}}"
+            "\x1e"
+            "{\"method\":\"textDocument/didClose\",\"params\":{%s}}",
+            document, range, i, METHODS[i], document, range, document);
+    }
+}
+
 // Draws a PNG file, because the harness's input is an encoded image.
 static void write_image(void) {
     PetriOptions options = petri_default_options();
@@ -197,8 +307,10 @@ static void write_image(void) {
 }
 
 int main(int argc, char **argv) {
-    static const char *const folders[] = {"",      "script", "simplify", "draw",   "prompt",    "clock",
-                                          "state", "files",  "image",    "golden", "arguments", "repl"};
+    static const char *const folders[] = {"",         "script", "simplify", "draw",    "effects", "scene",  "mesh",
+                                          "prompt",   "clock",  "state",    "files",   "image",   "golden", "arguments",
+                                          "repl",     "link",   "plan",     "journal", "lsp",     "resume", "fmt",
+                                          "terminal", "listen", "spool",    "h5md"};
     if (argc != 2) {
         fputs("usage: fuzz_seeds FOLDER\n", stderr);
         return 2;
@@ -212,6 +324,9 @@ int main(int argc, char **argv) {
     write_commands();
     write_clock();
     write_others();
+    write_foreign();
+    write_editor_messages();
+    write_frames();
     write_image();
     return 0;
 }

@@ -14,7 +14,7 @@ KINDS = {'.c': 'c', '.h': 'c', '.re': 'c', '.y': 'c', '.cpp': 'c', '.mjs': 'js',
          '.frag': 'c', '.vert': 'c', '.md': 'md', '.sh': 'sh', '.py': 'sh', '.yml': 'sh', '.build': 'sh', '.cmake': 'sh'}
 SHELL_FILES = {'dev', 'run', 'builds', 'fresh', 'clean-install', 'web', 'clean-env'}
 # Recorded output, text by other authors, and the files of this lint.
-SKIPPED = re.compile(r'^(CHANGELOG\.md|LICENSE|tests/conformance/|tests/golden/.*\.fl|tests/fuzz/(crashes|seeds)/|'
+SKIPPED = re.compile(r'^(CHANGELOG\.md|LICENSE|tests/conformance/|tests/golden/.*\.fl|tests/fuzz/(crashes|corpus)/|'
                      r'tests/lint/(prose|retired)|src/manual/migrating\.md)|_tables\.h$')
 
 

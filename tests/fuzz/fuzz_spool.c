@@ -1,0 +1,62 @@
+// fuzz_spool.c: fuzzes FILE.h5.part, from which an H5MD trajectory is completed after a crash. If the first byte of the
+// input is '#', the rest is the file. Otherwise, the input is a list of frames, separated by a byte 30. They are
+// written with valid hashes.
+#include "base/hash_index.h"
+#include "cli/cli.h"
+#include "fuzz.h"
+#include "hdf5/spool.h"
+#include "hdf5/trajectory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void add_block(FuzzText *file, const char *bytes, size_t length) {
+    Hdf5Head head = {HDF5_ADD, length};
+    uint64_t hash = hash_bytes(head.command, bytes, length);
+    fuzz_append(file, (const char *)&head, sizeof head);
+    fuzz_append(file, (const char *)&hash, sizeof hash);
+    fuzz_append(file, bytes, length);
+}
+
+static void put_spool(const char *data, size_t size) {
+    FuzzText file = {0};
+    const char *at = data, *part;
+    size_t length;
+    if (size > 0 && data[0] == '#') {
+        fuzz_append(&file, data + 1, size - 1);
+    } else {
+        fuzz_append(&file, "petri way 1 is whole \n", 22);
+        while (fuzz_next_part(&at, data + size, &part, &length))
+            add_block(&file, part, length);
+    }
+    fuzz_put("t.h5.part", file.bytes ? file.bytes : "", file.length);
+    free(file.bytes);
+}
+
+static void read_frames(Spool *spool, Store *store) {
+    TrajectoryFile file;
+    Hdf5Head head;
+    char *block = NULL;
+    trajectory_file_begin(&file, store);
+    while (!store->failed && spool_next(spool, 1000, &head, &block))
+        if (head.command == HDF5_ADD)
+            trajectory_file_add(&file, block);
+        else
+            trajectory_file_begin_run(&file);
+    free(block);
+    trajectory_file_end(&file);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    Spool spool;
+    Store store;
+    put_spool((const char *)data, size);
+    const char *path = fuzz_file("t.h5");
+    bool opened = spool_open(&spool, path, false);
+    if (opened && store_begin(&store, path, false)) {
+        read_frames(&spool, &store);
+        store_end(&store, false);
+    }
+    spool_close(&spool, true);
+    return 0;
+}
