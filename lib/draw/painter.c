@@ -1,6 +1,7 @@
 // painter.c: the public functions that draw pictures to pixels and files.
 #include "base/file.h"
 #include "base/heap.h"
+#include "draw/painter.h"
 #include "draw/picture.h"
 #include "draw/render_graph.h"
 
@@ -128,7 +129,10 @@ PetriStatus petri_picture_encode(PetriPicture *picture, PetriPainter *painter, c
 PetriStatus petri_picture_render(PetriPicture *picture, PetriPainter *painter) {
     if (!picture || !painter)
         return PETRI_INVALID;
-    return draw_render(painter, &picture->picture, &picture->faults);
+    uint64_t before = painter->total_work;
+    PetriStatus status = draw_render(painter, &picture->picture, &picture->faults);
+    picture->work += painter->total_work - before;
+    return status;
 }
 
 // Arguments of fill_record, which is called through arena_protect.

@@ -11,8 +11,9 @@ typedef struct TextContext TextContext; // defined in text.c
 typedef struct CachedImage CachedImage; // an image file; defined in images.c
 
 struct PetriPainter {
-    Arena arena;   // reset for each picture
-    Budget budget; // memory and work limits of drawing
+    Arena arena;         // reset for each picture
+    Budget budget;       // memory and work limits of drawing
+    uint64_t total_work; // work units of all render graphs
     TextContext *text_context;
     DisplayListSizes sizes; // array lengths of the last display list
     CachedImage *images;

@@ -373,4 +373,6 @@ void petri_picture_report(PetriSession *session, PetriPicture *picture) {
         if (!session_has_source(session, &picture->faults.items[i]))
             picture->faults.items[i].source = NULL;
     session_report_all(session, &picture->faults);
+    session_add_work(session, picture->work);
+    picture->work = 0;
 }

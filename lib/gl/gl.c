@@ -2,6 +2,8 @@
 #include "base/heap.h"
 #include "gl/internal.h"
 
+#include <math.h>
+
 // By default, samplers have low precision and can return 16-bit floats, so the header ends with a precision for them.
 const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
@@ -75,6 +77,11 @@ void gl_close(Gl *gl) {
 
 void gl_charge(Gl *gl, Budget *budget) {
     gl->budget = budget;
+}
+
+uint64_t gl_shader_work(const Gl *gl) {
+    uint64_t left = gl->budget ? gl->budget->work_limit - gl->budget->work : UINT64_MAX / 2;
+    return (uint64_t)fmin(gl->shader_seconds * 1e9 / BUDGET_UNIT_TIME, (double)left);
 }
 
 void gl_test_shaders(Gl *gl, GlShaderTest *test, void *user_data) {

@@ -36,6 +36,8 @@ void gl_close(Gl *gl); // ignores NULL; must not be called between gl_enter and 
 // Returns false, with the reason in *problem, if the context cannot be used, for example because it was lost.
 bool gl_enter(Gl *gl, const char **problem);
 void gl_leave(Gl *gl);
+// Returns the time that the programs of scripts have taken since gl_enter, in units of work.
+uint64_t gl_shader_work(const Gl *gl);
 
 typedef enum GlFormat { GL_FORMAT_SRGB8, GL_FORMAT_RGBA8, GL_FORMAT_RGBA16F, GL_FORMAT_RGBA32F } GlFormat;
 

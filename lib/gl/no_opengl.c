@@ -16,6 +16,11 @@ void gl_charge(Gl *gl, Budget *budget) {
     (void)gl, (void)budget;
 }
 
+uint64_t gl_shader_work(const Gl *gl) {
+    (void)gl;
+    return 0;
+}
+
 void gl_test_shaders(Gl *gl, GlShaderTest *test, void *user_data) {
     (void)gl, (void)test, (void)user_data;
 }

@@ -329,6 +329,10 @@ typedef struct PetriFrame {
 // Returns a copy of the last frame's data.
 PETRI_API PetriFrame petri_frame(const PetriSession *session);
 
+// Returns the units of work (PetriOptions.work_limit) of all calls since the session was opened. They include constant
+// folding and the pictures that petri_picture_report has reported. With it, a host can limit a whole run.
+PETRI_API uint64_t petri_work(const PetriSession *session);
+
 // User input, for scripts with `!pointer` and `!key` nodes in a `!window`. Report input when it happens. The next frame
 // finds the input in the state dictionary. A node takes effect in the second frame that contains it. A key or button
 // that is pressed and released between two frames counts as pressed for one frame. If the host never reports input, the

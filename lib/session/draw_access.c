@@ -42,6 +42,10 @@ uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *
     return count;
 }
 
+void session_add_work(PetriSession *session, uint64_t work) {
+    session->total_work += work;
+}
+
 bool session_has_source(const PetriSession *session, const Diag *fault) {
     const Unit *program = session->config.program;
     for (const Unit *unit = program; unit; unit = unit == program ? session->loader.modules : unit->next)

@@ -33,6 +33,9 @@ uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *
 // Returns true if the source of a diagnostic still exists. A reload may have freed the source.
 bool session_has_source(const PetriSession *session, const Diag *fault);
 
+// Adds the work of drawing to the result of petri_work.
+void session_add_work(PetriSession *session, uint64_t work);
+
 // Returns memory for lib/draw that lives as long as the session and is zeroed before frame 0. All calls must pass the
 // same size. Called within a protected call.
 void *session_draw_memory(PetriSession *session, size_t size);

@@ -387,6 +387,10 @@ PetriStatus petri_step_at(PetriSession *session, double time, double beat) {
                                             : PETRI_INVALID;
 }
 
+uint64_t petri_work(const PetriSession *session) {
+    return session ? session->total_work : 0;
+}
+
 PetriFrame petri_frame(const PetriSession *session) {
     if (!session)
         return (PetriFrame){.number = -1};

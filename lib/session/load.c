@@ -163,6 +163,7 @@ static bool host_evaluate(void *host, const Code *code, Value *value) {
     PetriStatus status = session_protect(session, arena, evaluate_static, &evaluation);
     arena->limit = limit;
     session->loader.static_work += budget->work;
+    session->total_work += budget->work;
     budget_begin(budget, saved.work_limit, saved.interrupt);
     budget->work = saved.work;
     if (status == PETRI_OUT_OF_MEMORY || status == PETRI_INTERRUPTED)

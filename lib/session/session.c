@@ -112,19 +112,21 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
                        &frame->arena,   &frame->systems_arena, &session->prompt.arena, extra};
     Unit *compiling = session->loader.compiling;
     bool working = frame->evaluating;
+    uint64_t before = 0;
     Call made = {session, call, context};
     if (session->rollback_pending && !session_rollback(session))
         return PETRI_OUT_OF_MEMORY;
     if (session->call_depth++ == 0) {
         budget_begin(&session->budget, session->options.work_limit,
                      session->uninterruptible ? NULL : &session->interrupt);
-        session->budget.work = session->spent;
+        session->budget.work = before = session->spent;
         session->spent = 0;
         session->vm.at = NULL;
         session->schema.current_node = NULL;
     }
     ArenaOutcome end = arena_protect(arenas, sizeof arenas / sizeof *arenas, run_call, &made);
-    session->call_depth--;
+    if (--session->call_depth == 0)
+        session->total_work += session->budget.work - before;
     if (end != ARENA_OK) {
         session->last_outcome = end;
         session->loader.compiling = compiling;

@@ -87,6 +87,7 @@ struct PetriSession {
     // Work units that the next outermost protected call starts with. Before the systems are updated, it is the work of
     // the evaluation, because both share one limit. Otherwise it is 0.
     uint64_t spent;
+    uint64_t total_work;       // work units since the session was opened
     Budget budget;             // work and memory of the script
     uint32_t call_depth;       // nesting depth of protected calls
     bool uninterruptible;      // true while an operation must not be interrupted

@@ -1,8 +1,11 @@
 // link_session.c: see link_session.h.
 #include "link/link_session.h"
 
+#include "cli/link_work.h"
 #include "cli/script.h"
 
+#include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,6 +67,23 @@ static void render_if_needed(LinkSession *link_session) {
     petri_picture_free(&picture);
 }
 
+// Returns true, after a message, if the link has exceeded its limit of work before its last frame.
+static bool exceeds_limit(LinkSession *link_session) {
+    Frames *frames = &link_session->frames;
+    const Linked *linked = &link_session->linked;
+    uint64_t frame_limit = frames->options->work, work = petri_work(frames->session);
+    uint64_t limit = link_work_limit(frame_limit > 0 ? frame_limit : petri_default_options().work_limit);
+    int64_t number = petri_frame(frames->session).number;
+    if (work <= limit || number >= linked->frame)
+        return false;
+    double needed = (double)work * (double)(linked->frame + 1) / (double)(number + 1);
+    progress_erase(&frames->progress);
+    message("%s: stopped after frame %" PRId64 ": the link exceeded its limit of %" PRIu64
+            " units of work; --work %.0fG or more would allow it",
+            linked->name, number, limit, ceil(needed / (double)link_work_limit(1) / 0x1p30));
+    return true;
+}
+
 static int make_frames(LinkSession *link_session) {
     Frames *frames = &link_session->frames;
     frames_begin(frames);
@@ -72,6 +92,7 @@ static int make_frames(LinkSession *link_session) {
         going = frames_step(frames) && set_parameters(link_session, petri_frame(frames->session).number);
         if (going)
             render_if_needed(link_session);
+        going = going && !exceeds_limit(link_session);
     }
     frames_end(frames, going);
     if (frames_signal() != 0)

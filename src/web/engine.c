@@ -1,6 +1,7 @@
 // engine.c: petri.h for JavaScript, as functions whose arguments and results are only numbers and strings (host.h).
 // Functions of petri.h that already have this form are exported directly (meson.build). Functions with structs or
 // callbacks are wrapped here.
+#include "cli/link_work.h"
 #include "cli/particles.h"
 #include "petri-draw.h"
 #include "web/host.h"
@@ -54,6 +55,15 @@ EXPORT(void, web_frame, const PetriSession *session) {
     PetriFrame frame = petri_frame(session);
     host_frame((double)frame.number, frame.time, frame.beat, frame.fps, frame.tempo, (double)frame.physics_steps,
                frame.evaluation_seconds, frame.physics_seconds);
+}
+
+EXPORT(double, web_work, const PetriSession *session) {
+    return (double)petri_work(session);
+}
+
+// Returns the maximum work to open a link, as in `petri open`.
+EXPORT(double, web_link_work_limit, void) {
+    return (double)link_work_limit(petri_default_options().work_limit);
 }
 
 // Collects short strings and passes them to the host together, because each call of a JavaScript function is slow.

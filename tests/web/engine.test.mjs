@@ -63,6 +63,15 @@ test('petri.d.ts declares exactly the methods that exist', () => {
     session.close();
 });
 
+test('the limit of work for links is six times the default limit of `petri open --work`', () => {
+    assert.equal(engine.memory.wasm.web_link_work_limit(), 6 * 2 ** 30);
+    const session = opened(DISH), loaded = session.work;
+    assert.ok(loaded > 0);
+    const first = session.step().work - loaded;
+    assert.ok(first > 1000 && session.step().work > loaded + first, `${first}`);
+    session.close();
+});
+
 test('rewind gives the same frames again', () => {
     const session = stepped(opened(DISH), 20), kept = session.snapshot();
     assert.ok(kept.bytes > 0);

@@ -3,7 +3,8 @@ import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { atFrame, opened, options, root } from './browser.mjs';
+import { packLink } from '../../src/web/page/link.mjs';
+import { atFrame, frameOf, opened, options, root } from './browser.mjs';
 
 const petri = join(root, 'build/petri'), tried = spawnSync(petri, ['open', '#'], { encoding: 'utf8' });
 const ways = { ...options, skip: options.skip || (tried.error || /built without/.test(tried.stderr) ? 'petri opens no links' : false) };
@@ -19,6 +20,31 @@ test('a link of petri opens in the page with the same state', ways, async () => 
                 assert.equal(await page.inputValue('#parameter-DROPS'), words.length ? '9' : '220');
             },
         });
+});
+
+// With `petri open --work 1M`, the limit of the link is 6 * 2^20. The page has no options, so the test changes its limit.
+test('a link that exceeds the limit of work stops in the page after the same frame as in petri', ways, async () => {
+    const LIMIT = 6 * 2 ** 20, text = '!a v=len(i for i in ..300000+0*frame)\n!counter state=:c rate=1\n';
+    const link = await packLink({ text, name: 'heavy.fl', changes: [], frame: 1000000, hash: '0'.repeat(64) });
+    const { status, stderr } = spawnSync(petri, ['open', '--work', '1M', link], { encoding: 'utf8' });
+    assert.equal(status, 1);
+    const [, frame] = stderr.match(new RegExp(`stopped after frame (\\d+): the link exceeded its limit of ${LIMIT} units`));
+    await opened(link, {
+        prepare: page => page.route('**/worker.js', async route => {
+            const response = await route.fetch(), body = await response.text();
+            const changed = body.replace(/[\w.]+\.web_link_work_limit\(\)/, LIMIT);
+            assert.notEqual(changed, body);
+            await route.fulfill({ response, body: changed });
+        }),
+        use: async page => {
+            await page.waitForFunction(() => document.getElementById('message').textContent !== '');
+            assert.equal(await page.textContent('#message'),
+                `Stopped after frame ${frame}: opening exceeded the limit of ${LIMIT} units of work.`);
+            assert.equal(await frameOf(page), Number(frame));
+            await page.click('#step'); // the limit applies only to opening
+            await atFrame(page, Number(frame) + 1);
+        },
+    });
 });
 
 test('a link of the page opens in petri with the changed parameters', ways, () => opened(linked('-D', 'DROPS=9', '--frame', '5'), {

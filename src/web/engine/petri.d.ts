@@ -159,6 +159,8 @@ export interface Session {
     /** Clears the state and restarts before frame 0. */
     clear(): void;
     readonly frame: Frame;
+    /** The units of work (`Options.work`) of all calls since the session was opened, to limit a whole run. */
+    readonly work: number;
     readonly parameters: Parameter[];
     /** Sets a parameter to a value, written as in a script, or to its default if `value` is null. */
     setParameter(name: string, value: string | number | null): this;

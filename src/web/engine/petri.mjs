@@ -212,6 +212,11 @@ export class Session {
         return this.taken[0];
     }
 
+    // The units of work of all calls since the session was opened.
+    get work() {
+        return this.run(wasm => wasm.web_work(this.handle));
+    }
+
     // Returns the text of the last frame, with sections as in `petri run --print`.
     print(...sections) {
         const bits = sections.reduce((sum, name) => sum | SECTIONS[name], 0);

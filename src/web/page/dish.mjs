@@ -99,7 +99,12 @@ export class Dish {
 
     // Loads a script and goes to a frame. Returns true on success, false on failure, or the hash of the state if it differs from `hash`.
     async open(text, name, { changes = [], frame = 0, hash = null } = {}) {
-        if (!await this.load(text, name, changes) || !await this.showAnswer('seek', { frame: frame || (hash ? 0 : FIRST_SEEN) }))
+        if (!await this.load(text, name, changes))
+            return false;
+        const shown = await this.showAnswer('seek', { frame: frame || (hash ? 0 : FIRST_SEEN), limited: true });
+        if (shown?.limit)
+            await this.fail(new Error(`Stopped after frame ${shown.frame}: opening exceeded the limit of ${shown.limit} units of work.`));
+        if (!shown || shown.limit)
             return false;
         const answer = hash && await this.attempt('hash');
         return !answer || answer.hash === hash || answer.hash;

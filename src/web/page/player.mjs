@@ -96,8 +96,8 @@ export class Player {
     }
 
     // Goes to a frame. To go back, restores the last keyframe before the frame and steps from there, so that the frame's tree is computed.
-    // Takes at most `most` steps. Returns false if the frame is not reached yet.
-    seek(frame, most = Infinity) {
+    // Takes at most `most` steps, and ends after a step if `ends` returns true. Returns false if the frame is not reached yet.
+    seek(frame, most = Infinity, ends = () => false) {
         if (frame < this.frame || (frame === this.frame && this.torn)) {
             // If pictures depend on earlier pictures, all of them are rendered again from the first.
             const key = this.needsHistory ? null : this.keyframes.findLast(other => other.frame < frame);
@@ -113,7 +113,7 @@ export class Player {
             }
             this.lastFrame = end;
         }
-        for (let i = 0; this.frame < frame && i < most; i++)
+        for (let i = 0; this.frame < frame && i < most && !ends(); i++)
             this.step();
         return this.frame >= frame;
     }

@@ -69,10 +69,12 @@ const acts = {
             player.step();
         return shown();
     },
-    async seek({ frame }) {
-        while (!shouldInterrupt() && !player.seek(frame, SEEK_STEPS))
+    // If `limited` is true, stops at the limit of work for links.
+    async seek({ frame, limited }) {
+        const limit = limited ? engine.memory.wasm.web_link_work_limit() : Infinity, exceeds = () => player.session.work > limit;
+        while (!shouldInterrupt() && !player.seek(frame, SEEK_STEPS, exceeds) && !exceeds())
             await new Promise(resolve => setTimeout(resolve));
-        return shown();
+        return shown(player.frame < frame && exceeds() ? { limit } : {});
     },
     // Shows the current frame again after a frame was aborted.
     shown() {

@@ -76,6 +76,29 @@ static void test_abort_leaves_state_unchanged(void **state) {
     assert_true(done > 20);
 }
 
+// The work of a whole run is the sum of the work of its calls. Work of calls that exceed the limit also counts.
+static void test_work_is_summed(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.work_limit = 1 << 27;
+    player_reopen(player, &options);
+    assert_int_equal(petri_work(NULL), 0);
+    assert_int_equal(petri_work(player->session), 0);
+    // The second expression is constant, so it is evaluated when the script is loaded.
+    assert_int_equal(player_load(player, "!a v=(y if x<0 for y in ..10000 for x in ..(20000 if frame==2 else 1))\n"
+                                         "!b v=len(i for i in ..30000)\n"),
+                     PETRI_OK);
+    uint64_t loaded = petri_work(player->session);
+    assert_in_range(loaded, 30000, 90000);
+    assert_int_equal(petri_step(player->session), PETRI_OK);
+    uint64_t frame = petri_work(player->session) - loaded;
+    assert_in_range(frame, 10000, 29999);
+    assert_int_equal(petri_step(player->session), PETRI_OK);
+    assert_int_equal(petri_work(player->session), loaded + 2 * frame);
+    assert_int_equal(petri_step(player->session), PETRI_LIMIT_EXCEEDED);
+    assert_in_range(petri_work(player->session), loaded + 2 * frame + (1 << 27), loaded + 3 * frame + (1 << 27));
+}
+
 // Memory does not grow from frame to frame.
 static void test_memory_does_not_grow(void **state) {
     Player *player = *state;
@@ -87,9 +110,8 @@ static void test_memory_does_not_grow(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_work_limit_aborts_frame),
-        PLAYER_TEST(test_memory_limit_aborts_frame),
-        PLAYER_TEST(test_abort_leaves_state_unchanged),
+        PLAYER_TEST(test_work_limit_aborts_frame),      PLAYER_TEST(test_memory_limit_aborts_frame),
+        PLAYER_TEST(test_abort_leaves_state_unchanged), PLAYER_TEST(test_work_is_summed),
         PLAYER_TEST(test_memory_does_not_grow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,14 @@
+// link_work.h: the limit of work for opening a link, used by `petri open`, `petri link` and the playground.
+#ifndef PETRI_SRC_LINK_WORK_H
+#define PETRI_SRC_LINK_WORK_H
+
+#include <stdint.h>
+
+// Returns the maximum units of work to open a link, if each frame may use `frame_limit` units (--work): about a minute
+// by default.
+static inline uint64_t link_work_limit(uint64_t frame_limit) {
+    enum { FRAMES = 6 };
+    return frame_limit < UINT64_MAX / FRAMES ? frame_limit * FRAMES : UINT64_MAX;
+}
+
+#endif
