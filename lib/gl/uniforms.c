@@ -246,6 +246,7 @@ void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state) {
     glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
     for (GLint i = 0; i < count; i++) {
         char name[1024]; // OpenGL ES 3 limits names to 1024 bytes
+        name[0] = 0;     // in a browser, it is not written if the context was lost
         GLint size = 0;
         GLenum type = 0;
         Numbers numbers = {.list = NULL};

@@ -36,6 +36,18 @@ test('every OpenGL function that the engine calls is implemented', async () => {
     assert.deepEqual(called.filter(name => !functions[name]), []);
 });
 
+test('after the WebGL context is restored, the names of lost objects are unused, and calls of a lost context do nothing', async () => {
+    const { Screen } = await import(pathToFileURL(join(folder, 'webgl.mjs')));
+    const screen = new Screen({}), used = [], texture = {};
+    screen.gl = { isContextLost: () => used.length > 1, bindTexture: (target, object) => used.push(object), getExtension: () => null };
+    const name = screen.add(texture);
+    screen.functions.glBindTexture(0, name);
+    screen.restore();
+    screen.functions.glBindTexture(0, name);
+    assert.equal(screen.functions.glBindTexture(0, name), 0);
+    assert.deepEqual(used, [texture, null]);
+});
+
 test('the example of README gives its values', async () => {
     const [, code] = read('src/web/engine/README.md').match(/```js\n([^]*?)```/);
     const act = code.replace("'petri'", JSON.stringify(pathToFileURL(join(folder, 'petri.mjs')).href));

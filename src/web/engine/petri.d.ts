@@ -53,6 +53,11 @@ export interface Engine {
     readonly version: string;
     /** The exception that made the engine unusable; undefined while the engine works. If it is set, load a new engine. */
     readonly broken?: Error;
+    /**
+     * Called with true after the WebGL context was lost, and with false after the browser has restored it. Between these calls, `render`
+     * returns display lists.
+     */
+    onContextChange: ((lost: boolean) => void) | null;
     open(options?: Options): Session;
 }
 
@@ -139,6 +144,7 @@ export interface RenderedImage {
     /** Descriptions of unsupported parts, which are omitted. */
     unsupported: string[];
     screen: true;
+    lost: false;
 }
 
 /** A session, which runs a script. Calls that fail throw a PetriError and change nothing. */
@@ -220,6 +226,8 @@ export interface Picture {
     ready: boolean;
     /** Set by `render`: true if WebGL 2 is available. */
     screen?: boolean;
+    /** Set by `render`: true if the browser has lost the WebGL context. */
+    lost?: boolean;
 }
 
 export interface Snapshot {

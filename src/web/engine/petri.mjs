@@ -88,6 +88,11 @@ class Engine {
         return this.memory.text(this.memory.wasm.petri_version());
     }
 
+    // Sets a function that is called with true after the WebGL context was lost, and with false after the browser has restored it.
+    set onContextChange(changed) {
+        this.memory.screen.onContextChange = changed;
+    }
+
     open(options = {}) {
         return new Session(this, options);
     }
@@ -102,6 +107,7 @@ export class Session {
         this.shouldInterrupt = shouldInterrupt;
         this.image = image;
         this.painter = null; // null: not opened yet; 0: not available
+        this.context = 0; // the WebGL context of the painter (Screen.context)
         this.followed = null; // the last rendered picture, if later pictures depend on it
         this.unsupported = new Set();
         this.files = new Map();
@@ -323,7 +329,12 @@ export class Session {
         return true;
     }
 
+    // Returns the painter, or 0 if there is no WebGL context. After the context was lost or restored, replaces the painter.
     openPainter() {
+        const { context } = this.memory.screen;
+        if (context !== this.context)
+            this.closePainter();
+        this.context = context;
         return (this.painter ??= this.run(wasm => wasm.web_painter()));
     }
 
@@ -346,8 +357,10 @@ export class Session {
         this.unsupported.clear();
         const followed = this.renderIfNeeded() && !automatic ? this.followed?.at ?? 0 : 0;
         this.run(wasm => wasm.web_picture(this.handle, this.painter, followed, automatic ? 1 : 0));
-        const shown = this.taken[0] ?? null;
-        return shown && { ...shown, screen: this.painter > 0, ...(shown.image && { unsupported: [...this.unsupported] }) };
+        const shown = this.taken[0] ?? null, { lost } = this.memory.screen;
+        if (this.painter && lost) // the context was lost while the picture was drawn
+            return this.render({ automatic });
+        return shown && { ...shown, screen: this.painter > 0, lost, ...(shown.image && { unsupported: [...this.unsupported] }) };
     }
 
     drawCanvas(numbers, count, width, height, pixels) {

@@ -4,6 +4,8 @@
 const SETTINGS = { alpha: true, antialias: false, depth: false, premultipliedAlpha: true, stencil: false };
 const EXTENSIONS = ['EXT_color_buffer_float', 'EXT_color_buffer_half_float', 'OES_texture_float_linear', 'EXT_float_blend'];
 const KINDS = ['Buffer', 'Framebuffer', 'Renderbuffer', 'Texture', 'VertexArray'];
+// A script whose drawing makes the driver fail would otherwise lose the context again after each restoration.
+const MAX_LOSSES = 3, LOSS_INTERVAL = 600000; // maximum number of losses within this many ms after which a context is restored
 const UNSIGNED_BYTE = 0x1401, RED = 0x1903, INFO_LOG_LENGTH = 0x8B84, SAMPLES = 0x80A9;
 // For each of these functions, the indices of the arguments that are objects.
 const WITH_OBJECTS = {
@@ -25,6 +27,9 @@ export class Screen {
         this.canvas = null;
         this.gl = null;
         this.extensions = new Set();
+        this.losses = []; // times of recent losses of the context
+        this.restored = 0; // how many times the context was restored
+        this.onContextChange = null; // called with true after the context was lost, with false after it was restored
         this.functions = this.makeFunctions();
     }
 
@@ -33,9 +38,40 @@ export class Screen {
         if (!this.canvas && typeof OffscreenCanvas !== 'undefined') {
             this.canvas = new OffscreenCanvas(1, 1);
             this.gl = this.canvas.getContext('webgl2', SETTINGS);
-            EXTENSIONS.forEach(name => this.gl?.getExtension(name) && this.extensions.add(`GL_${name}`));
+            this.canvas.addEventListener('webglcontextlost', event => this.lose(event));
+            this.canvas.addEventListener('webglcontextrestored', () => this.restore());
+            this.enableExtensions();
         }
         return !!this.gl && !this.gl.isContextLost();
+    }
+
+    get lost() {
+        return !!this.gl?.isContextLost();
+    }
+
+    // Identifies the working context; 0 if there is none. Objects of an earlier context no longer exist.
+    get context() {
+        return this.ready ? this.restored + 1 : 0;
+    }
+
+    enableExtensions() {
+        EXTENSIONS.forEach(name => this.gl?.getExtension(name) && this.extensions.add(`GL_${name}`));
+    }
+
+    lose(event) {
+        const now = performance.now();
+        this.losses = [...this.losses.filter(at => now - at < LOSS_INTERVAL), now];
+        if (this.losses.length <= MAX_LOSSES)
+            event.preventDefault(); // the browser restores only contexts whose event was handled
+        this.onContextChange?.(true);
+    }
+
+    restore() {
+        this.restored++;
+        this.objects.fill(null);
+        this.locations.fill(null);
+        this.enableExtensions();
+        this.onContextChange?.(false);
     }
 
     resize(width, height) {
@@ -75,7 +111,8 @@ export class Screen {
 
     makeFunctions() {
         const { objects, memory } = this, set = (at, value) => at && memory.setWord(at, value), functions = {};
-        const put = (name, act) => (functions[`gl${name[0].toUpperCase()}${name.slice(1)}`] = act);
+        // After the context is lost, it returns null instead of objects, so functions then do nothing.
+        const put = (name, act) => (functions[`gl${name[0].toUpperCase()}${name.slice(1)}`] = (...args) => this.lost ? 0 : act(...args));
         const each = (count, at, act) => {
             for (let i = 0; i < count; i++)
                 act(at + 4 * i);

@@ -9,13 +9,16 @@ const FIRST_SEEN = 2; // first frame in which particles are at their positions
 
 export class Dish {
     // host: the callbacks shown(answer, unsupported), failed(error, diagnostics) and changed(), which is called when the script starts or
-    // stops running; optionally loaded() and slow(boolean).
+    // stops running; optionally loaded(), slow(boolean) and restored(), which is called if the picture is complete again because the WebGL
+    // context was restored.
     constructor(canvas, host, { source, worker }) {
         Object.assign(this, {
             canvas, host, running: false, loaded: null, name: null, frame: -1, lastFrame: -1, fps: 60, speed: 1, behind: 0, last: 0,
-            turn: 0, files: new Map(), images: new Map(), wanted: null, pressed: new Set(),
+            turn: 0, incomplete: false, files: new Map(), images: new Map(), wanted: null, pressed: new Set(),
         });
         this.remote = hasEngine() ? new Remote(source, worker) : null;
+        if (this.remote)
+            this.remote.onContextChange = lost => this.changeContext(lost);
     }
 
     get ready() {
@@ -71,10 +74,20 @@ export class Dish {
     show(answer) {
         Object.assign(this, { frame: answer.frame, lastFrame: answer.lastFrame, fps: answer.fps, parameters: answer.parameters });
         const left = this.draw(answer);
+        this.incomplete ||= left.length > 0 && answer.picture.lost;
         this.host.shown(answer, left);
         if (left.includes('canvas3d'))
             this.attempt('automatic').then(other => other?.picture && this.draw(other));
         this.host.changed();
+    }
+
+    // Draws the current frame again after the WebGL context was lost or restored.
+    changeContext(lost) {
+        if (!lost && this.incomplete)
+            this.host.restored?.();
+        this.incomplete &&= lost;
+        if (this.loaded !== null)
+            this.showAnswer('shown');
     }
 
     async showAnswer(act, message) {
@@ -91,7 +104,7 @@ export class Dish {
         const answer = await this.attempt('load', { text, name, changes });
         if (!answer)
             return false;
-        Object.assign(this, { loaded: text, name });
+        Object.assign(this, { loaded: text, name, incomplete: false });
         this.host.loaded?.();
         this.show(answer);
         return true;
@@ -250,5 +263,6 @@ export const errorText = error => error.type === 'stopped' ? 'Stopped. The previ
         : error.type === 'broken' ? `${error.message}. Press Run to restart.` : error.message.split('\n')[0];
 
 // Returns the message for the user about unsupported parts of a picture.
-export const unsupportedText = ({ picture }, left) =>
-    `Not drawn: ${left.join(', ')}.${picture.screen ? '' : ' This browser does not support WebGL 2.'}`;
+export const unsupportedText = ({ picture }, left) => picture.lost
+    ? `The WebGL context was lost; until the browser restores it or you reload the page, these nodes are not drawn: ${left.join(', ')}.`
+    : `Not drawn: ${left.join(', ')}.${picture.screen ? '' : ' This browser does not support WebGL 2.'}`;

@@ -84,6 +84,7 @@ class PetriDish extends HTMLElement {
         const dish = this.dish = new Dish(this.get('picture'), {
             shown: (answer, left) => this.shown(answer, left), failed: (error, told) => this.failed(error, told),
             changed: () => this.changed(), loaded: () => this.say(''),
+            restored: () => this.say(''),
         }, { source: engine() });
         this.controls = new Controls(this.shadowRoot, dish, options => this.ready(options));
         dish.listen();
@@ -178,7 +179,7 @@ class PetriDish extends HTMLElement {
         if (problems.length)
             this.say(problems.slice(0, MAX_PROBLEMS).map(({ rendered }) => rendered.trimEnd()).join('\n'));
         else if (left.length)
-            this.say(unsupportedText(answer, left));
+            this.say(unsupportedText(answer, left), answer.picture.lost);
         this.controls.show(answer);
         this.get('picture').dataset.frame = answer.frame;
         this.tell('petri-frame', { frame: answer.frame, time: answer.time });

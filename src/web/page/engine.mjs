@@ -37,6 +37,8 @@ export class Remote {
         worker.onmessage = ({ data }) => {
             if (data.type === 'progress')
                 return this.progress?.(data);
+            if (data.type === 'context')
+                return this.onContextChange?.(data.lost);
             const { resolve, reject } = this.waiting.get(data.id);
             this.waiting.delete(data.id);
             if (data.type === 'failed' || data.type === 'broken' || data.type === 'stopped')

@@ -21,7 +21,10 @@ export async function makeFilm(player, images, show, range) {
     await each(player, range, async () => {
         let picture = show(automatic);
         film ??= await Film.begin(picture ? sizeOf(picture) : { width: 640, height: 480 }, player.session.frame.fps);
-        if (picture && paint(film.context, picture, images).includes('canvas3d')) {
+        const left = picture ? paint(film.context, picture, images) : [];
+        if (left.length && picture.lost)
+            throw new Error('cannot make the video: the WebGL context was lost');
+        if (left.includes('canvas3d')) {
             automatic = true;
             picture = show(automatic);
             paint(film.context, picture, images);

@@ -36,7 +36,7 @@ const host = {
         if (answer.picture)
             document.title = answer.picture.title ? `${answer.picture.title} · petri` : 'petri';
         if (left.length)
-            say(unsupportedText(answer, left));
+            say(unsupportedText(answer, left), answer.picture.lost);
         document.body.dataset.frame = answer.frame;
         look();
     },
@@ -49,6 +49,9 @@ const host = {
     },
     changed() {
         controls.refresh();
+    },
+    restored() {
+        say('');
     },
 };
 

@@ -28,7 +28,9 @@ export class Player {
         }
         this.forget(-2);
         this.session?.close();
-        Object.assign(this, { session, text, name, keyframes: [], every: EVERY, frame: -1, lastFrame: -1, torn: false });
+        Object.assign(this, {
+            session, text, name, keyframes: [], every: EVERY, frame: -1, lastFrame: -1, torn: false, lacksHistory: false,
+        });
         this.setChanges(changes);
     }
 
@@ -66,6 +68,13 @@ export class Player {
             this.keep(later.length > 0);
     }
 
+    // Called after the WebGL context was restored. The next `seek` to the current frame renders all earlier pictures again if this frame
+    // depends on them.
+    redraw() {
+        this.automatic = false;
+        this.lacksHistory = !!this.needsHistory;
+    }
+
     keep(changed) {
         const there = this.keyframes.findIndex(key => key.frame === this.frame);
         if (there >= 0) {
@@ -98,7 +107,7 @@ export class Player {
     // Goes to a frame. To go back, restores the last keyframe before the frame and steps from there, so that the frame's tree is computed.
     // Takes at most `most` steps, and ends after a step if `ends` returns true. Returns false if the frame is not reached yet.
     seek(frame, most = Infinity, ends = () => false) {
-        if (frame < this.frame || (frame === this.frame && this.torn)) {
+        if (frame < this.frame || (frame === this.frame && (this.torn || this.lacksHistory))) {
             // If pictures depend on earlier pictures, all of them are rendered again from the first.
             const key = this.needsHistory ? null : this.keyframes.findLast(other => other.frame < frame);
             const end = this.lastFrame;

@@ -33,6 +33,11 @@ const acts = {
     async open({ source, flag: shared }) {
         flag = shared;
         engine = await loadEngine(source);
+        engine.onContextChange = lost => {
+            if (!lost)
+                player.redraw();
+            postMessage({ type: 'context', lost });
+        };
         player = new Player(engine, { onDiagnostic: tell, shouldInterrupt, image: name => imageOf(images, name) }, watches);
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
