@@ -4,10 +4,10 @@
 
 #include <stdint.h>
 
-// Returns the maximum units of work to open a link, if each frame may use `frame_limit` units (--work): about a minute
-// by default.
+// Returns the maximum units of work to open a link, if each frame may use `frame_limit` units (--work): about half a
+// minute by default.
 static inline uint64_t link_work_limit(uint64_t frame_limit) {
-    enum { FRAMES = 6 };
+    enum { FRAMES = 3 };
     return frame_limit < UINT64_MAX / FRAMES ? frame_limit * FRAMES : UINT64_MAX;
 }
 

@@ -142,7 +142,8 @@ const Command OPEN_COMMAND = {
         "Runs the script in a link (from petri link or the playground) to the frame of the link, with the same\n"
         "changes of parameters, and compares the hash of the state. Exits with 1 if it differs. Prints the hash and,\n"
         "in a terminal, the picture; --output saves the script or the picture instead. The script can neither read\n"
-        "nor write files. All frames together may use six times the limit of --work, about a minute by default.\n"
+        "nor write files. All frames together may use three times the limit of --work, about half a minute by\n"
+        "default.\n"
         "\n"
         "LINK is the whole URL or the part from '#', in quotes; - reads it from standard input.",
     .examples = "  petri open 'http://127.0.0.1:8080/#q1bKU...'    verify the frame\n"

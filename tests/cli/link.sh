@@ -48,7 +48,7 @@ if [ -s back8.png ] && ! grep -Eq "OpenGL|without" err; then
     check "pictures on which later pictures depend are part of the work of a link" one_message "the link exceeded its limit"
 fi
 
-# Each frame uses about 300000 units of work, and the limit of the link is six times --work.
+# Each frame uses about 300000 units of work, and the limit of the link is three times --work.
 printf '!a v=len(i for i in ..300000+0*frame)\n!counter state=:c rate=1\n' >heavy.fl
 petri link heavy.fl --frame 50
 check "a link within its limit of work is made" status_is 0
@@ -56,9 +56,9 @@ heavy_link=$(cat out)
 petri link heavy.fl --frame 50 --work 1M
 check "link stops at the limit of work for the whole link" status_is 1
 check "link reports the frame after which it stopped and the option that raises the limit" \
-    one_message "heavy.fl: stopped after frame 19: the link exceeded its limit of 6291456 units of work; --work 1G or more would allow it"
+    one_message "heavy.fl: stopped after frame 9: the link exceeded its limit of 3145728 units of work; --work 1G or more would allow it"
 petri open "$heavy_link" --work 1M
-check "open stops at the limit of work for the whole link" one_message "stopped after frame 19: the link exceeded its limit"
+check "open stops at the limit of work for the whole link" one_message "stopped after frame 9: the link exceeded its limit"
 petri open "$heavy_link"
 check "open runs a link within its limit" has err "frame 50: state matches the link exactly"
 

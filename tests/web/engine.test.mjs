@@ -75,8 +75,8 @@ test('petri.d.ts declares exactly the methods that exist', () => {
     session.close();
 });
 
-test('the limit of work for links is six times the default limit of `petri open --work`', () => {
-    assert.equal(engine.memory.wasm.web_link_work_limit(), 6 * 2 ** 30);
+test('the limit of work for links is three times the default limit of `petri open --work`', () => {
+    assert.equal(engine.memory.wasm.web_link_work_limit(), 3 * 2 ** 30);
     const session = opened(DISH), loaded = session.work;
     assert.ok(loaded > 0);
     const first = session.step().work - loaded;

@@ -22,9 +22,9 @@ test('a link of petri opens in the page with the same state', ways, async () => 
         });
 });
 
-// With `petri open --work 1M`, the limit of the link is 6 * 2^20. The page has no options, so the test changes its limit.
+// With `petri open --work 1M`, the limit of the link is 3 * 2^20. The page has no options, so the test changes its limit.
 test('a link that exceeds the limit of work stops in the page after the same frame as in petri', ways, async () => {
-    const LIMIT = 6 * 2 ** 20, text = '!a v=len(i for i in ..300000+0*frame)\n!counter state=:c rate=1\n';
+    const LIMIT = 3 * 2 ** 20, text = '!a v=len(i for i in ..300000+0*frame)\n!counter state=:c rate=1\n';
     const link = await packLink({ text, name: 'heavy.fl', changes: [], frame: 1000000, hash: '0'.repeat(64) });
     const { status, stderr } = spawnSync(petri, ['open', '--work', '1M', link], { encoding: 'utf8' });
     assert.equal(status, 1);
