@@ -91,8 +91,10 @@ class Checkout:
 
     def prepare(self, root, targets):
         """Copies the sources and compiles the targets without a fault; ends the program if that fails."""
-        if self.folder != self.first and not self.folder.exists():
+        if self.folder != self.first:
+            shutil.rmtree(self.folder, ignore_errors=True)
             shutil.copytree(self.first, self.folder, symlinks=True)
+            return
         copy_sources(root, self.folder)
         if not (self.build / 'build.ninja').exists():
             self.call('meson', 'setup', self.build, self.folder, '--buildtype=plain', '--optimization=1')
