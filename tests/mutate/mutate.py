@@ -37,6 +37,7 @@ SUITES = {
     'lib/draw': ['draw', 'pictures', 'canvas', 'gl', 'memory'],
 }
 CORPORA = 'scripts'
+SLOW = 4  # tests that take more seconds run only if mutants are tried again (--only)
 SKIPPED = 77  # exit status of a test that cannot run here
 MEMORY = 4 << 30  # address space of a test, in bytes
 
@@ -246,9 +247,10 @@ class Survey:
             raise
 
 
-def measure(tests, own):
+def measure(tests, own, slow):
     """Runs the tests without a fault. Returns their names in the groups that are compiled and run one after the other (those of
-    the suites `own`, the corpora, the others; quick ones first) and a limit of seconds for each. Ends the program if one fails.
+    the suites `own`, the corpora, the others; quick ones first) and a limit of seconds for each. `slow`: keep slow tests.
+    Ends the program if one fails.
     """
     seconds = {}
     for test in tests:
@@ -256,7 +258,8 @@ def measure(tests, own):
         if not run_test(test, 600):
             sys.exit(f'mutate: {test.name} fails without a fault')
         seconds[test.name] = time.monotonic() - start
-    ordered = sorted(tests, key=lambda t: seconds[t.name])
+    kept = [t for t in tests if slow or own & t.suites or CORPORA in t.suites or seconds[t.name] <= SLOW]
+    ordered = sorted(kept, key=lambda t: seconds[t.name])
     groups = [[t.name for t in ordered if own & t.suites],
               [t.name for t in ordered if CORPORA in t.suites and not own & t.suites],
               [t.name for t in ordered if CORPORA not in t.suites and not own & t.suites]]
@@ -296,7 +299,7 @@ def main():
     tests = first.tests(suites)
     targets = sorted({t for test in tests for t in test.targets})
     first.prepare(root, targets)
-    groups, limits = measure(tests, own)
+    groups, limits = measure(tests, own, bool(options.only))
     workers = []
     for number in range(1, (os.cpu_count() or 1) + 1):
         checkout = Checkout(root, number)
