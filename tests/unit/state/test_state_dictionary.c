@@ -1,4 +1,5 @@
 // test_state_dictionary.c: keys, slots and order of the state dictionary (language.md L11).
+#include "base/budget.h"
 #include "state/state.h"
 #include "values.h"
 
@@ -183,6 +184,9 @@ static void test_slots_stay_valid(void **state) {
     assert_int_equal(state_count(fixture->state), COUNT / 2 - 1);
     assert_true(state_slot_set(fixture->state, slots[1], value_number(-1))); // the slot is still valid
     assert_true(value_equal(NULL, state_slot_get(fixture->state, slots[1]), value_number(-1)));
+    assert_true(state_slot_set(fixture->state, COUNT, value_number(1))); // slots that do not exist are ignored
+    assert_int_equal(state_slot_count(fixture->state), COUNT);
+    assert_int_equal(state_count(fixture->state), COUNT / 2);
     assert_false(state_slot_set(fixture->state, STATE_NO_SLOT, value_number(1)));
     assert_true(value_is_null(state_slot_get(fixture->state, STATE_NO_SLOT)));
 }
@@ -213,6 +217,27 @@ static void test_clear_removes_all_entries(void **state) {
     assert_int_equal(state_find(fixture->state, read_value(fixture->world, ":a")), STATE_NO_SLOT);
     put_text(fixture, "'b'", "7");
     assert_text("new", listing(fixture), "'b'=7");
+}
+
+// All memory is charged to the budget, and released. A value that exceeds the budget is not stored.
+static void test_memory_is_charged_to_budget(void **state) {
+    (void)state;
+    static const double numbers[1000] = {1};
+    Budget budget = {.memory_limit = SIZE_MAX};
+    State *limited = state_new(&budget);
+    StateSlot slot = state_slot(limited, value_number(1));
+    assert_false(state_clear_exhausted(limited));
+    budget.memory_limit = budget.memory + sizeof numbers - 1;
+    assert_false(state_slot_set(limited, slot, value_numbers_view(numbers, COUNT_OF(numbers))));
+    assert_true(state_clear_exhausted(limited));
+    assert_false(state_clear_exhausted(limited));
+    assert_int_equal(state_count(limited), 0);
+    budget.memory_limit++;
+    assert_true(state_slot_set(limited, slot, value_numbers_view(numbers, COUNT_OF(numbers))));
+    state_clear(limited);
+    assert_true(budget.memory < sizeof numbers);
+    state_free(limited);
+    assert_int_equal(budget.memory, 0);
 }
 
 // Random writes and removals, compared with an array.
@@ -246,6 +271,7 @@ int main(void) {
         STATE_TEST(test_slots_stay_valid),
         STATE_TEST(test_keys_and_values_are_copied),
         STATE_TEST(test_clear_removes_all_entries),
+        STATE_TEST(test_memory_is_charged_to_budget),
         STATE_TEST(test_state_matches_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

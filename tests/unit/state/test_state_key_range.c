@@ -49,6 +49,16 @@ static void test_range_needs_no_memory(void **unused) {
         assert_true(key.len == 2 + seen % 2 && key.as.numbers[1] == seen / 2);
     assert_int_equal(seen, 2 * MANY);
     assert_true(budget.memory < MANY);
+    // In the next frame, the owner has another array, and particles with other keys follow.
+    double *next_rows = calloc(MANY, 2 * NUMBERS * sizeof *next_rows);
+    for (StateSlot slot = 0; slot < 2 * MANY; slot++)
+        state_slot_reference(state, slot, owner, next_rows + (size_t)NUMBERS * slot, NUMBERS);
+    assert_true(state_slot_get(state, MANY).as.numbers == next_rows + NUMBERS * MANY);
+    free(rows);
+    rows = next_rows;
+    add_pairs(state, 2 * MANY, MANY);
+    assert_int_equal(state_slot_count(state), 4 * MANY);
+    assert_true(budget.memory < MANY);
     // If there is no memory for separate entries, nothing changes.
     budget.memory_limit = budget.memory + MANY;
     assert_false(state_slot_set(state, 7, value_number(1)));
@@ -86,6 +96,58 @@ static void test_range_keys_match_exactly(void **unused) {
     assert_true(state_slot_last_number(state, 4, 2) == 2 && state_slot_last_number(state, 4, 3) != 2);
     add_pairs(state, 1000, PAIRS);
     assert_int_equal(slot_of(state, 1001, true), SLOTS + 3 + 3);
+    state_free(state);
+}
+
+// The last particle of a range may have only one slot so far.
+static void test_range_may_end_with_incomplete_pair(void **unused) {
+    (void)unused;
+    State *state = state_new(NULL);
+    double buffer[3];
+    add_pairs(state, 0, PAIRS);
+    assert_int_equal(state_slot(state, key_of(PAIRS, false, buffer)), SLOTS);
+    assert_int_equal(slot_of(state, PAIRS, true), STATE_NO_SLOT);
+    Value key = state_slot_key(state, SLOTS);
+    assert_true(key.len == 2 && memcmp(key.as.numbers, buffer, 2 * sizeof *buffer) == 0);
+    state_free(state);
+}
+
+static void reference_range(State *state, StateOwner owner, const double *rows, uint32_t count) {
+    for (StateSlot slot = 0; slot < count; slot++)
+        state_slot_reference(state, slot, owner, rows + (size_t)NUMBERS * slot, NUMBERS);
+}
+
+// An owner may start with a third array although most slots still refer to the first.
+static void test_range_with_three_arrays_keeps_all_values(void **unused) {
+    (void)unused;
+    static double rows[3][SLOTS * NUMBERS];
+    State *state = state_new(NULL);
+    add_pairs(state, 0, PAIRS);
+    StateOwner owner = state_add_owner(state);
+    reference_range(state, owner, rows[0], SLOTS);
+    reference_range(state, owner, rows[1], 10);
+    reference_range(state, owner, rows[2], 5);
+    for (StateSlot slot = 0; slot < SLOTS; slot++)
+        assert_ptr_equal(state_slot_get(state, slot).as.numbers, rows[slot < 5    ? 2
+                                                                      : slot < 10 ? 1
+                                                                                  : 0] +
+                                                                     (size_t)NUMBERS * slot);
+    assert_false(state_clear_modified(state, owner));
+    state_free(state);
+}
+
+// If another owner takes over a slot of a range, the other slots keep their owner, which is marked as modified.
+static void test_range_keeps_its_owner(void **unused) {
+    (void)unused;
+    static double rows[2][SLOTS * NUMBERS];
+    State *state = state_new(NULL);
+    add_pairs(state, 0, PAIRS);
+    StateOwner owner = state_add_owner(state), rival = state_add_owner(state);
+    reference_range(state, owner, rows[0], SLOTS);
+    reference_range(state, rival, rows[1], 1);
+    assert_true(state_clear_modified(state, owner));
+    assert_true(state_slot_references(state, 0, rival));
+    assert_true(state_slot_references(state, 1, owner));
     state_free(state);
 }
 
@@ -212,6 +274,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_range_needs_no_memory),
         cmocka_unit_test(test_range_keys_match_exactly),
+        cmocka_unit_test(test_range_may_end_with_incomplete_pair),
+        cmocka_unit_test(test_range_with_three_arrays_keeps_all_values),
+        cmocka_unit_test(test_range_keeps_its_owner),
         cmocka_unit_test(test_range_may_start_at_negative_zero),
         cmocka_unit_test(test_range_matches_entries),
     };
