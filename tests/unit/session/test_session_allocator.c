@@ -101,6 +101,7 @@ static void check_all_released(const char *when) {
     assert_false(host.strayed);
 }
 
+static const char *const MODULE = "func twice(x)\n    x*2\n";
 static const char *const SCRIPT =
     "import twice from 'module.fl'\n"
     "let N=N or 5 -- 1..9 how many\n"
@@ -154,6 +155,7 @@ static void use_session(Life *life, PetriSession *session) {
     PetriSnapshot *snapshot = petri_snapshot(session);
     PetriConfig *config = petri_config_get(session);
     life->short_of |= !snapshot || !config;
+    folder_write(life->folder, "module.fl", MODULE); // the module is loaded again
     check_status(life, petri_set_parameter(session, "N", "3"));
     check_status(life, petri_step(session));
     check_status(life, petri_save(session, folder_file(life->folder, "state")));
@@ -301,7 +303,7 @@ static void test_threads_share_allocator(void **state) {
 static int set_up(void **state) {
     static Folder folder;
     folder_open(&folder);
-    folder_write(&folder, "module.fl", "func twice(x)\n    x*2\n");
+    folder_write(&folder, "module.fl", MODULE);
     folder_write(&folder, "s.fl", SCRIPT);
     *state = &folder;
     return 0;

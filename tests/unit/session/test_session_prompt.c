@@ -145,6 +145,10 @@ static void test_errors_are_reported(void **state) {
     assert_null(petri_prompt_statement(player->session, 0));
     player_step(player, 2);
     assert_string_equal(typed(player, "COUNT", PETRI_OK), "3\n");
+    // An error that an input causes is not an error of the frame.
+    assert_string_equal(typed(player, "'s'(1)", PETRI_OK), "null\n");
+    assert_non_null(strstr(player_diagnostics(player), "a string cannot be called"));
+    assert_string_equal(player_print(player, PETRI_PRINT_ERROR), "");
 }
 
 static void test_completeness(void **state) {
@@ -200,14 +204,28 @@ static void test_evaluate(void **state) {
     assert_true(!result.is_true && result.length == 0 && result.number != result.number);
     assert_int_equal(petri_evaluate(player->session, "1;0", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
     assert_true(result.is_true && result.length == 2 && result.number != result.number);
+    assert_int_equal(petri_evaluate(player->session, "1\n2", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_INVALID);
+    assert_string_equal(player_diagnostics(player),
+                        "error prompt:1:1 the input must be a single expression [syntax]\n");
     static const char *const wrong[] = {"let x=1", "1\n2", "", "1+", "%pragma tempo 1\n"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_int_equal(petri_evaluate(player->session, wrong[i], PETRI_NUL_TERMINATED, &result, NULL, NULL),
                          PETRI_INVALID);
-    // Evaluation must not leak memory.
-    for (int i = 0; i < 3000; i++)
+}
+
+// Expressions leave nothing in memory.
+static void test_expressions_retain_no_memory(void **state) {
+    Player *player = *state;
+    PetriEvaluation result;
+    PetriOptions options = player_options(player);
+    options.memory_limit = 1 << 20;
+    player_reopen(player, &options);
+    player_run(player, SCRIPT, 2);
+    for (int i = 0; i < 1000; i++)
         assert_int_equal(petri_evaluate(player->session, "COUNT;..1000", PETRI_NUL_TERMINATED, &result, NULL, NULL),
                          PETRI_OK);
+    for (int i = 0; i < 1000; i++)
+        assert_string_equal(typed(player, "len(COUNT;..1000)", PETRI_OK), "1001\n");
     assert_null(petri_prompt_statement(player->session, 0));
 }
 
@@ -243,6 +261,7 @@ int main(void) {
         PLAYER_TEST(test_errors_are_reported),
         PLAYER_TEST(test_completeness),
         PLAYER_TEST(test_evaluate),
+        PLAYER_TEST(test_expressions_retain_no_memory),
         PLAYER_TEST(test_visible_names),
         PLAYER_TEST(test_prompt_needs_script),
     };

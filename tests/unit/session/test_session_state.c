@@ -63,6 +63,7 @@ static void test_invalid_state_files_are_rejected(void **state) {
         {"frame 999999999999999999\n", PETRI_INVALID, "", damaged},
         {"frame 9223372036854775807\n", PETRI_INVALID, "", damaged},
         {"frame -7\n", PETRI_INVALID, "", damaged},
+        {"frame \n", PETRI_INVALID, "", damaged},
         {"frame 1-2\n", PETRI_INVALID, "", damaged},
         {"frame 0\n$(nan) = 1\n", PETRI_INVALID, "", damaged},
     };
@@ -96,8 +97,29 @@ static void test_large_frame_numbers(void **state) {
     folder_close(&folder);
 }
 
+// A host may save often between two frames, because saving retains no memory.
+static void test_saving_retains_no_memory(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.memory_limit = 1 << 20; // the session may use 64 MiB more for its own data
+    player_reopen(player, &options);
+    Folder folder;
+    folder_open(&folder);
+    player_run(player, SCRIPT, 1);
+    static double numbers[100000];
+    for (size_t i = 0; i < COUNT_OF(numbers); i++)
+        numbers[i] = (double)(i + 1) / 7;
+    assert_int_equal(petri_state_set(player->session, (PetriValue){1, &(double){5}, NULL},
+                                     (PetriValue){COUNT_OF(numbers), numbers, NULL}),
+                     PETRI_OK);
+    for (int i = 0; i < 60; i++)
+        assert_int_equal(petri_save(player->session, folder_file(&folder, "t.state")), PETRI_OK);
+    folder_close(&folder);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {PLAYER_TEST(test_invalid_state_files_are_rejected),
-                                       PLAYER_TEST(test_large_frame_numbers)};
+                                       PLAYER_TEST(test_large_frame_numbers),
+                                       PLAYER_TEST(test_saving_retains_no_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

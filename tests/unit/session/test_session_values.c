@@ -131,6 +131,21 @@ static void test_globals(void **state) {
     assert_string_equal(player_diagnostics(player), "");
 }
 
+// A host may set a name for each frame, because old values are freed.
+static void test_globals_retain_no_old_values(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.memory_limit = 1 << 20; // the session may use 64 MiB more for its own data
+    player_reopen(player, &options);
+    static PetriItem many[10000];
+    for (int i = 0; i < 1000; i++) {
+        many[0].as.number = i;
+        assert_int_equal(petri_set_global(player->session, "warmth", items(many, COUNT_OF(many))), PETRI_OK);
+    }
+    player_run(player, "!dish heat=warmth[..2]", 1);
+    assert_string_equal(heat(player), "999;0");
+}
+
 // petri_check accepts global names, and does not report those that are unused.
 static void test_check_knows_globals(void **state) {
     Player *player = *state;
@@ -169,9 +184,10 @@ static void test_tree(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_printed_values), PLAYER_TEST(test_state_access), PLAYER_TEST(test_iteration),
-        PLAYER_TEST(test_moved_particle), PLAYER_TEST(test_globals),      PLAYER_TEST(test_check_knows_globals),
-        PLAYER_TEST(test_tree),
+        PLAYER_TEST(test_printed_values), PLAYER_TEST(test_state_access),
+        PLAYER_TEST(test_iteration),      PLAYER_TEST(test_moved_particle),
+        PLAYER_TEST(test_globals),        PLAYER_TEST(test_check_knows_globals),
+        PLAYER_TEST(test_tree),           PLAYER_TEST(test_globals_retain_no_old_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
