@@ -58,8 +58,13 @@ static void test_new_program_changes_generation(void **state) {
     player_run(player, "!a\n", 2);
     uint64_t loaded = player->session->loader.generation;
     assert_true(loaded != generation);
+    PetriConfig *config = petri_config_get(player->session);
     player_run(player, "!a\n", 2);
-    assert_true(player->session->loader.generation != loaded);
+    uint64_t again = player->session->loader.generation;
+    assert_true(again != loaded);
+    petri_config_apply(player->session, config);
+    assert_true(player->session->loader.generation != again && player->session->loader.generation != loaded);
+    petri_config_free(config);
 }
 
 int main(void) {

@@ -40,6 +40,17 @@ static PetriValue twice(PetriCall *call, void *host, const PetriValue *arguments
     return (PetriValue){.length = 2, .items = items};
 }
 
+// Returns its argument and the next number, stored in memory of the host.
+static PetriValue pair(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
+    static double numbers[2];
+    (void)call;
+    (void)host;
+    assert_int_equal(count, 1);
+    numbers[0] = arguments[0].numbers[0];
+    numbers[1] = numbers[0] + 1;
+    return (PetriValue){.length = 2, .numbers = numbers};
+}
+
 static PetriStatus add_function(Player *player, const char *name, const char *parameters, bool pure,
                                 PetriFunctionCall *call, void *host) {
     return petri_add_function(player->session, &(PetriFunction){sizeof(PetriFunction), name, parameters,
@@ -57,6 +68,14 @@ static void test_calls(void **state) {
     assert_text("results", player_tree(player), "!a x=6 y=4 z=3 w=15\n!b t='é';'é' n=(total)\n");
     assert_int_equal(calls.count, 8); // the function is called in each frame
     assert_string_equal(player_diagnostics(player), "");
+}
+
+// A result is copied, so the host may overwrite its memory in the next call.
+static void test_results_are_copied(void **state) {
+    Player *player = *state;
+    assert_int_equal(add_function(player, "pair", "x", false, pair, NULL), PETRI_OK);
+    player_run(player, "!a x=pair(7) y=pair(9)\n", 1);
+    assert_text("results", player_tree(player), "!a x=7;8 y=9;10\n");
 }
 
 static void test_errors_are_reported(void **state) {
@@ -133,6 +152,7 @@ static void test_invalid_functions_are_rejected(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_calls),
+        PLAYER_TEST(test_results_are_copied),
         PLAYER_TEST(test_errors_are_reported),
         PLAYER_TEST(test_pure_calls_are_folded),
         PLAYER_TEST(test_step_within_call_fails),

@@ -1,6 +1,8 @@
 // test_session_host.c: tests guarantees that petri.h gives to hosts.
 #include "player.h"
 
+#include <math.h>
+
 static void test_options(void **state) {
     (void)state;
     PetriOptions options;
@@ -209,6 +211,11 @@ static void test_profile_has_row_per_line(void **state) {
         assert_non_null(strstr(text, " 1  t.fl:1: let a=frame\n"));
         assert_non_null(strstr(text, " 1  t.fl:3: !b x=a\n"));
         assert_non_null(strstr(text, "physics\n"));
+        // The rows have shares of the total time. The output, which has the largest share, comes first.
+        double total = 0, share = 0;
+        assert_int_equal(sscanf(strstr(text, "total: "), "total: %lf", &total), 1);
+        assert_int_equal(sscanf(strchr(text, '\n'), "%lf %%", &share), 1);
+        assert_claim("share", total > 166 && fabs(share - 100 * 166.6667 / total) < 0.1);
         assert_null(strstr(text, "t.fl:2"));
         assert_null(strstr(text, "t.fl:4"));
         assert_text("the same frames", player_tree(player), "!b x=2\n!counter state=:c rate=1\n");
@@ -291,6 +298,7 @@ static void test_diagnostics_are_limited(void **state) {
     }
     player_run(player, script.text, 2);
     assert_non_null(strstr(player_diagnostics(player), "further ones are not shown"));
+    assert_int_equal(petri_diagnostic_count(player->session, PETRI_NOTE), 1);
     count = petri_diagnostic_count(player->session, PETRI_WARNING);
     player_step(player, 1);
     assert_int_equal(petri_diagnostic_count(player->session, PETRI_WARNING), count);

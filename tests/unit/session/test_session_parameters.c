@@ -42,6 +42,8 @@ static void test_parameters_are_recognised(void **state) {
         {"let N=N or 0 or 5\n", "N 0 or 5 (0 or 5) nan/nan -inf..inf|0 '' 1:5\n", true},
         {"let N=N or (1;\n  2)\n", "N 1;2 ((1; 2)) nan/nan -inf..inf|0 '' 1:5\n", true},
         {"let N=N or beat -- a\033[31m\tb\302\233c\n", "N beat (beat) nan/nan -inf..inf|0 'a [31m b c' 1:5\n", true},
+        {"let N=N or beat -- a\302\237b\302\240c\n", "N beat (beat) nan/nan -inf..inf|0 'a b\302\240c' 1:5\n",
+         true}, // a no-break space is kept
         {"let N=N or false -- 0..1\n", "N 0 (false) 0/0 0..1|0 '' 1:5\n", true},
         // The second `let` is not a parameter, because the name is already bound.
         {"let N=N or 1\nlet N=N or 2\n", "N 1 (1) 1/1 -inf..inf|0 '' 1:5\n", true},
@@ -140,6 +142,9 @@ static void test_unused_definitions_are_reported(void **state) {
          "warning t.fl:1:5 unused definition 'CELL': t.fl does not read it [unknown-parameter]\n"},
         {"fps=5", "!a v=fps\n", "warning unused definition 'fps': petri sets this name itself [unused-definition]\n"},
         {"FOO=5", "!a\n", "warning unused definition 'FOO': t.fl does not read it [unread-definition]\n"},
+        {"FOO=5", "let A=A or 1 B=B or 2 C=C or 3\n",
+         "warning unused definition 'FOO': t.fl does not read it; the parameters of the script are A, B and C "
+         "[unread-definition]\n"},
         // The definition is used, even if only before the script binds the name.
         {"CELLS=5", "!a v=CELLS\nlet CELLS=200\n!a v=CELLS\n", ""},
         {"CELLS=5", "let CELLS=CELLS*2\n!a v=CELLS\n", ""},

@@ -1,6 +1,7 @@
 // test_session_promises.c: tests that lifetimes, snapshots and NULL arguments are as documented in petri.h.
 #include "folder.h"
 #include "player.h"
+#include "session/session.h"
 
 #include <math.h>
 #include <sys/stat.h>
@@ -104,6 +105,38 @@ static void test_performance_rewinds(void **state) {
                      PETRI_OK);
     assert_number("performance", after.number, before.number);
     petri_snapshot_free(snapshot);
+}
+
+static void find_draw_memory(PetriSession *session, void *context) {
+    *(int **)context = session_draw_memory(session, sizeof(int));
+}
+
+static int *draw_memory(Player *player) {
+    int *memory = NULL;
+    assert_int_equal(session_protect(player->session, NULL, find_draw_memory, &memory), PETRI_OK);
+    return memory;
+}
+
+// The memory that lib/draw stores across frames is zeroed before frame 0.
+static void test_draw_memory_is_zeroed_before_frame_0(void **state) {
+    Player *player = *state;
+    player_run(player, "!a", 1);
+    int *memory = draw_memory(player);
+    assert_int_equal(*memory, 0);
+    *memory = 7;
+    player_step(player, 1);
+    assert_ptr_equal(draw_memory(player), memory);
+    assert_int_equal(*memory, 7);
+    petri_reset(player->session);
+    assert_int_equal(*draw_memory(player), 0);
+}
+
+// petri_work includes the work of drawing.
+static void test_work_of_drawing_is_added(void **state) {
+    Player *player = *state;
+    uint64_t before = petri_work(player->session);
+    session_add_work(player->session, 5);
+    assert_int_equal(petri_work(player->session), before + 5);
 }
 
 static void test_null_arguments_are_accepted(void **state) {
@@ -287,6 +320,8 @@ int main(void) {
         PLAYER_TEST(test_texts_stay_valid),
         PLAYER_TEST(test_toggles_rewind),
         PLAYER_TEST(test_performance_rewinds),
+        PLAYER_TEST(test_draw_memory_is_zeroed_before_frame_0),
+        PLAYER_TEST(test_work_of_drawing_is_added),
         PLAYER_TEST(test_null_arguments_are_accepted),
         PLAYER_TEST(test_invalid_levels_have_no_diagnostics),
         PLAYER_TEST(test_close_after_fork),

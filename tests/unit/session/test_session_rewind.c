@@ -207,6 +207,10 @@ static void test_reload_keeps_clock(void **state) {
     assert_int_equal(petri_frame(player->session).number, 7);
     assert_float_equal(petri_frame(player->session).time, 7 / 60.0, 1e-12);
     assert_float_equal(petri_frame(player->session).beat, beat + 1 / 60.0 + 3 / 60.0, 1e-12);
+    // A reload changes the tempo only if its pragma changed.
+    assert_int_equal(petri_set_tempo(player->session, 90), PETRI_OK);
+    assert_int_equal(petri_reload(player->session, file), PETRI_OK);
+    assert_float_equal(petri_frame(player->session).tempo, 90, 0);
     // Recompiling the loaded text applies new definitions.
     folder_write(&folder, "s.fl", "!v x=N\n");
     assert_int_equal(petri_load(player->session, file), PETRI_OK);
