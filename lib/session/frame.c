@@ -321,10 +321,12 @@ static PetriStatus evaluate_frame(PetriSession *session) {
     bool counts = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
     if (!counts)
         input_undo_write(scene_input(session->scene), session->state, &undo);
-    if (status != PETRI_OK)
-        state_clear_exhausted(session->state); // the failure is already reported and must not abort the next frame too
-    if (status != PETRI_OK)
-        session_drop_frame(session);
+    if (status == PETRI_OK)
+        return status;
+    bool incomplete = state_clear_exhausted(session->state); // must not abort the next frame too
+    session_drop_frame(session);
+    if (incomplete && session->options.rollback_frames)
+        session_rollback(session); // because memory ran out while the input was removed from the state
     return status;
 }
 

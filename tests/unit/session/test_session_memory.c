@@ -71,6 +71,7 @@ static void open_stage(Stage *stage, bool interruptible) {
     assert_int_equal(petri_prompt(session, "!typed x=typed", PETRI_NUL_TERMINATED, NULL, NULL, &done), PETRI_OK);
     player_step(&stage->player, 2);
     petri_report_key(session, "space", true);
+    petri_report_pointer(session, &(PetriPointer){.inside = true, .x = 0.5, .y = 0.25, .buttons = 1});
     player_step(&stage->player, 1);
     stage->early = petri_snapshot(session);
     stage->config = petri_config_get(session);
@@ -79,7 +80,7 @@ static void open_stage(Stage *stage, bool interruptible) {
     assert_int_equal(petri_save(session, folder_file(&stage->folder, "state")), PETRI_OK);
     player_step(&stage->player, 1);
     petri_report_key(session, "space", false);
-    petri_report_pointer(session, &(PetriPointer){.inside = true, .x = 0.5, .y = 0.25, .buttons = 1});
+    petri_report_pointer(session, &(PetriPointer){.inside = false}); // the pointer leaves, so its position is removed
     note(&stage->written, "", 0);
 }
 
@@ -502,11 +503,10 @@ static void test_failed_allocations_change_nothing(void **state) {
 }
 
 // Without rollback_frames, systems that were updated before the allocation failed keep their new state, and the frame
-// is counted. The session continues.
-static void test_step_without_rollback_continues(void **state) {
-    Stage *stage = *state;
+// is counted. The session continues. With rollback_frames, a rollback that failed is repeated.
+static void check_steps_continue(Stage *stage, bool interruptible) {
     for (long number = 0, total = 1; number < total; number++) {
-        open_stage(stage, false);
+        open_stage(stage, interruptible);
         heap_fail(number, true);
         PetriStatus status = petri_step(stage->player.session);
         heap_restore();
@@ -521,6 +521,38 @@ static void test_step_without_rollback_continues(void **state) {
         }
         close_stage(stage);
         number += number / 20;
+    }
+}
+
+static void test_step_without_rollback_continues(void **state) {
+    check_steps_continue(*state, false);
+}
+
+static void test_step_with_rollback_continues(void **state) {
+    check_steps_continue(*state, true);
+}
+
+static void count_warnings(void *count, const PetriDiagnostic *diagnostic) {
+    *(int *)count += diagnostic->level == PETRI_WARNING;
+}
+
+// A check either reports all problems or fails.
+static void test_check_reports_all_or_fails(void **state) {
+    (void)state;
+    PetriStatus status = PETRI_OUT_OF_MEMORY;
+    for (long number = 0; number <= heap.count || status != PETRI_OK; number++) {
+        int warnings = 0;
+        PetriOptions options = petri_default_options();
+        options.on_diagnostic = count_warnings;
+        options.user_data = &warnings;
+        PetriSession *session = petri_open(&options);
+        heap_fail(number, false);
+        status = petri_check_text(session, "t.fl", "!a x=one y=two\n!counter state=:c rat=1\n", PETRI_NUL_TERMINATED);
+        heap_restore();
+        assert_int_equal(status, status == PETRI_OK ? PETRI_OK : PETRI_OUT_OF_MEMORY);
+        if (status == PETRI_OK)
+            assert_int_equal(warnings, 3);
+        petri_close(&session);
     }
 }
 
@@ -544,6 +576,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_failed_allocations_change_nothing, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_step_without_rollback_continues, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_step_with_rollback_continues, set_up, tear_down),
+        cmocka_unit_test(test_check_reports_all_or_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
