@@ -1,5 +1,6 @@
 // test_state_key_range.c: key ranges behave exactly like separate entries but use less memory.
 #include "base/budget.h"
+#include "base/heap.h"
 #include "state/state.h"
 
 #include <math.h>
@@ -151,6 +152,46 @@ static void test_range_keeps_its_owner(void **unused) {
     state_free(state);
 }
 
+// A heap whose allocations fail when `left` reaches 0.
+static void *allocate(void *left, size_t size) {
+    return (*(int *)left)-- > 0 ? malloc(size) : NULL;
+}
+
+static void *resize(void *left, void *block, size_t size) {
+    return (*(int *)left)-- > 0 ? realloc(block, size) : NULL;
+}
+
+static void release(void *left, void *block) {
+    (void)left;
+    free(block);
+}
+
+// If a range cannot be converted to separate entries because memory runs out, nothing changes.
+static void test_failed_conversion_changes_nothing(void **unused) {
+    enum { OTHERS = 20 };
+    (void)unused;
+    int left = INT32_MAX, failures = 0;
+    assert_true(heap_set_allocator(&(HeapAllocator){allocate, resize, release, &left}));
+    for (bool done = false; !done; failures++) {
+        State *state = state_new(NULL);
+        add_pairs(state, 0, PAIRS);
+        for (int i = 0; i < OTHERS; i++)
+            assert_true(state_set(state, value_number(i), value_number(10 * i)));
+        left = failures;
+        done = state_slot_set(state, 7, value_number(1));
+        left = INT32_MAX;
+        assert_int_equal(state_clear_exhausted(state), !done);
+        assert_int_equal(state_count(state), done ? OTHERS + 1 : OTHERS);
+        for (int i = 0; i < OTHERS; i++)
+            assert_true(state_get(state, value_number(i)).as.number == 10 * i);
+        for (StateSlot slot = 0; slot < SLOTS; slot++)
+            assert_int_equal(slot_of(state, slot / 2, slot % 2), slot);
+        state_free(state);
+    }
+    assert_true(failures > 3);
+    assert_true(heap_set_allocator(NULL));
+}
+
 // A range may start with the id -0, which is different from 0.
 static void test_range_may_start_at_negative_zero(void **unused) {
     enum { FIRST = 2 };
@@ -277,6 +318,7 @@ int main(void) {
         cmocka_unit_test(test_range_may_end_with_incomplete_pair),
         cmocka_unit_test(test_range_with_three_arrays_keeps_all_values),
         cmocka_unit_test(test_range_keeps_its_owner),
+        cmocka_unit_test(test_failed_conversion_changes_nothing),
         cmocka_unit_test(test_range_may_start_at_negative_zero),
         cmocka_unit_test(test_range_matches_entries),
     };
