@@ -1,6 +1,7 @@
 // test_session_files.c: tests scripts, modules and includes in files (language.md L13, L14).
 #include "folder.h"
 #include "player.h"
+#include "session/session.h"
 
 typedef struct Desk {
     Player player;
@@ -224,6 +225,22 @@ static void test_check(void **state) {
     assert_int_equal(petri_frame(session).number, 1);
 }
 
+// A check goes through the script several times, and then reports everything in the order of the text.
+static void test_check_reports_in_order(void **state) {
+    Desk *desk = *state;
+    Notebook *reported = &desk->player.diagnostics;
+    static const char script[] = "!window size=40;40\n    !canvas size=40;40\n        !rect siz=1\n"
+                                 "!physics state=:s dimensions=1 colour=1\n!a v=unknown\n";
+    static const char *const wanted[] = {"!rect: unknown attribute 'siz'", "unknown attribute 'colour'", "t.fl:5:6 "};
+    assert_int_equal(petri_check_text(desk->player.session, "t.fl", script, PETRI_NUL_TERMINATED), PETRI_OK);
+    const char *at = reported->text;
+    for (size_t i = 0; i < COUNT_OF(wanted); i++) {
+        at = strstr(at, wanted[i]);
+        assert_claim(wanted[i], at != NULL);
+    }
+    assert_int_equal(petri_diagnostic_count(desk->player.session, PETRI_WARNING), COUNT_OF(wanted));
+}
+
 // --- files provided by the host
 
 typedef struct Given {
@@ -276,6 +293,30 @@ static void test_host_provides_files(void **state) {
     assert_string_equal(player_diagnostics(player), "");
     assert_int_equal(petri_check(player->session, "dish/main.fl"), PETRI_OK);
     assert_string_equal(player_diagnostics(player), "");
+}
+
+static uint64_t chain_of(const char *path) {
+    return (hash_bytes(0, path, strlen(path)) >> 32) % MODULE_CHAINS;
+}
+
+// Modules whose paths have the same place in the hash table are distinct, so neither is loaded again in each frame.
+static void test_modules_with_equal_hash_stay_loaded(void **state) {
+    Desk *desk = *state;
+    Player *player = &desk->player;
+    char other[20], script[100];
+    for (int i = 1; snprintf(other, sizeof other, "m%d.fl", i), chain_of(other) != chain_of("m.fl"); i++) {
+    }
+    snprintf(script, sizeof script, "import f from 'm.fl'\nimport g from '%s'\n!a v=f;g\n", other);
+    Shelf shelf = {.files = {{"m.fl", "let f=1\n"}, {other, "let g=2\n"}}};
+    PetriOptions options = player_options(player);
+    options.read_file = read_shelf_file;
+    options.read_user_data = &shelf;
+    player_reopen(player, &options);
+    player_run(player, script, 1);
+    uint64_t revision = petri_config_revision(player->session);
+    player_step(player, 2);
+    assert_text("both", player_tree(player), "!a v=1;2\n");
+    assert_int_equal(petri_config_revision(player->session), revision);
 }
 
 static void test_host_provides_folders(void **state) {
@@ -375,7 +416,9 @@ int main(void) {
         DESK_TEST(test_define_names_an_include),
         DESK_TEST(test_invalid_scripts_are_rejected),
         DESK_TEST(test_check),
+        DESK_TEST(test_check_reports_in_order),
         DESK_TEST(test_host_provides_files),
+        DESK_TEST(test_modules_with_equal_hash_stay_loaded),
         DESK_TEST(test_host_provides_folders),
         DESK_TEST(test_only_host_files_exist),
         DESK_TEST(test_unsaved_text_replaces_file),

@@ -126,7 +126,8 @@ static void test_invalid_functions_are_rejected(void **state) {
     PetriBuiltin found;
     static const char *const names[] = {"", "a b", "sin", "pi", "time", "1"};
     static const char *const bad[] = {"x,y", "x, ", "x=1, y", "..., x", "a, b, c, d, e, f, g, h, i", "1"};
-    static const char *const good[] = {"", "...", "x, ...", "x=1, y=2", "a, b, c, d, e, f, g, h, ..."};
+    static const char *const good[] = {
+        "", "...", "x, ...", "x=1, y=2", "x, y, z", "a, b, c, d, e=1", "a, b, c, d, e, f, g, h, ..."};
     for (size_t i = 0; i < COUNT_OF(names); i++)
         assert_int_equal(add_function(player, names[i], "x", false, sum, NULL), PETRI_INVALID);
     for (size_t i = 0; i < COUNT_OF(bad); i++)

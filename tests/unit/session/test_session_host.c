@@ -261,6 +261,15 @@ static void test_diagnostics_are_reported_once_per_load(void **state) {
     }
 }
 
+// Problems that are found while compiling are reported in the order of the text.
+static void test_diagnostics_follow_text(void **state) {
+    Player *player = *state;
+    player_run(player, "!a v=one;x where x=two\n", 1); // `two` is compiled first
+    assert_text("order", player_diagnostics(player),
+                "warning t.fl:1:6 unbound name 'one' is null [unbound-name]\n"
+                "warning t.fl:1:20 unbound name 'two' is null [unbound-name]\n");
+}
+
 // Two messages at one position are two diagnostics (language.md L15.1).
 static void test_texts_at_one_position_are_distinct(void **state) {
     Player *player = *state;
@@ -491,6 +500,7 @@ int main(void) {
         PLAYER_TEST(test_profile_has_row_per_line),
         PLAYER_TEST(test_failed_load_keeps_the_script),
         PLAYER_TEST(test_diagnostics_are_reported_once_per_load),
+        PLAYER_TEST(test_diagnostics_follow_text),
         PLAYER_TEST(test_texts_at_one_position_are_distinct),
         PLAYER_TEST(test_diagnostics_are_limited),
         PLAYER_TEST(test_sessions_are_independent),

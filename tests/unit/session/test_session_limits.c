@@ -108,11 +108,31 @@ static void test_memory_does_not_grow(void **state) {
     assert_text("state", player_state(player), "$:c = 33.31666666666667\n$(:c;:time) = 33.31666666666667\n");
 }
 
+// Diagnostics of scripts that cannot be loaded leave nothing in memory.
+static void test_failed_loads_retain_no_memory(void **state) {
+    Player *player = *state;
+    static char name[100000];
+    memset(name, 'n', sizeof name - 1);
+    open_small(player, 1 << 20); // the session may use 64 MiB more for its own data
+    for (int i = 0; i < 400; i++)
+        assert_int_equal(petri_load_text(player->session, name, "!a )", PETRI_NUL_TERMINATED), PETRI_INVALID);
+    assert_int_equal(petri_diagnostic_count(player->session, PETRI_ERROR), 400);
+}
+
+// A constant expression that needs more than 512 MiB is not evaluated when the script is loaded.
+static void test_large_constants_are_not_folded(void **state) {
+    Player *player = *state;
+    open_small(player, (size_t)500 << 20);
+    player_run(player, "!a v=len(..8000000+frame)\n!b v=(len(..70000000) if frame<0 else 1)\n", 1);
+    assert_text("tree", player_tree(player), "!a v=8000000\n!b v=1\n");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_work_limit_aborts_frame),      PLAYER_TEST(test_memory_limit_aborts_frame),
-        PLAYER_TEST(test_abort_leaves_state_unchanged), PLAYER_TEST(test_work_is_summed),
-        PLAYER_TEST(test_memory_does_not_grow),
+        PLAYER_TEST(test_work_limit_aborts_frame),        PLAYER_TEST(test_memory_limit_aborts_frame),
+        PLAYER_TEST(test_abort_leaves_state_unchanged),   PLAYER_TEST(test_work_is_summed),
+        PLAYER_TEST(test_memory_does_not_grow),           PLAYER_TEST(test_failed_loads_retain_no_memory),
+        PLAYER_TEST(test_large_constants_are_not_folded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -131,6 +131,28 @@ static void test_draw_memory_is_zeroed_before_frame_0(void **state) {
     assert_int_equal(*draw_memory(player), 0);
 }
 
+// Shaders get the numbers of the engine and of definitions, but no more than there is room for.
+static void test_shaders_get_numbers_of_frame(void **state) {
+    Player *player = *state;
+    const char *names[40];
+    double numbers[COUNT_OF(names)];
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    assert_int_equal(petri_define(player->session, "SIZE=3"), PETRI_OK);
+    assert_int_equal(petri_define(player->session, "PAIR=3;4"), PETRI_OK);
+    assert_int_equal(petri_define(player->session, "SIZE=5"), PETRI_OK);
+    player_run(player, "!a v=SIZE;PAIR", 3);
+    uint32_t count = session_frame_numbers(player->session, &arena, names, numbers, COUNT_OF(names));
+    assert_in_range(count, 10, COUNT_OF(names) - 1);
+    for (uint32_t i = 0; i < count; i++)
+        if (strcmp(names[i], "frame") == 0)
+            assert_number("frame", numbers[i], 2);
+    assert_string_equal(names[count - 2], "SIZE"); // the newest definition of a name comes first
+    assert_number("SIZE", numbers[count - 2], 5);
+    assert_int_equal(session_frame_numbers(player->session, &arena, names, numbers, 3), 3);
+    arena_free(&arena);
+}
+
 // petri_work includes the work of drawing.
 static void test_work_of_drawing_is_added(void **state) {
     Player *player = *state;
@@ -321,6 +343,7 @@ int main(void) {
         PLAYER_TEST(test_toggles_rewind),
         PLAYER_TEST(test_performance_rewinds),
         PLAYER_TEST(test_draw_memory_is_zeroed_before_frame_0),
+        PLAYER_TEST(test_shaders_get_numbers_of_frame),
         PLAYER_TEST(test_work_of_drawing_is_added),
         PLAYER_TEST(test_null_arguments_are_accepted),
         PLAYER_TEST(test_invalid_levels_have_no_diagnostics),

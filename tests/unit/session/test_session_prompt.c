@@ -77,6 +77,22 @@ static void test_statements_persist(void **state) {
     assert_non_null(strstr(player_diagnostics(player), "unbound name 'k'"));
 }
 
+// The result counts the statements of an input by kind, and names a binding that shadows one of the script.
+static void test_result_counts_statements(void **state) {
+    Player *player = *state;
+    PetriPromptResult done;
+    assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
+    assert_int_equal(
+        petri_prompt(player->session, "1\n2\n3\nlet a=1\nlet b=2\n!node\n", PETRI_NUL_TERMINATED, NULL, NULL, &done),
+        PETRI_OK);
+    assert_int_equal(done.values, 3);
+    assert_int_equal(done.bindings, 2);
+    assert_int_equal(done.nodes, 1);
+    assert_null(done.shadowed);
+    assert_int_equal(petri_prompt(player->session, "let COUNT=1\n", PETRI_NUL_TERMINATED, NULL, NULL, &done), PETRI_OK);
+    assert_string_equal(done.shadowed, "COUNT");
+}
+
 // Names that were bound at the prompt are evaluated in the state after the frame. Names and nodes of the script are
 // evaluated in the state before it, whatever causes the evaluation.
 static void test_frame_values(void **state) {
@@ -256,6 +272,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_values),
         PLAYER_TEST(test_statements_persist),
+        PLAYER_TEST(test_result_counts_statements),
         PLAYER_TEST(test_frame_values),
         PLAYER_TEST(test_typed_system_simulates),
         PLAYER_TEST(test_errors_are_reported),

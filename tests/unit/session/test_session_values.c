@@ -25,6 +25,7 @@ static void test_printed_values(void **state) {
     assert_string_equal(text(player, numbers(some, 3)), "1;:cells;0.1");
     assert_string_equal(text(player, items(mixed, 2)), "'käse';2.5");
     assert_string_equal(text(player, items(only_numbers, 2)), "1;2");
+    assert_string_equal(text(player, items(&(PetriItem){PETRI_NUMBER, {.number = 0}}, 1)), "0");
     assert_string_equal(text(player, (PetriValue){0}), "null");
     assert_null(text(player, (PetriValue){.length = 1}));
     assert_null(text(player, (PetriValue){.length = 1, .numbers = some, .items = mixed}));
@@ -163,6 +164,7 @@ static void test_tree(void **state) {
     player_run(player, "!dish #round #flat size=3;4 name='p'\n    !cell\n    !cell x=1\n12", 1);
     PetriValue tree = petri_tree(session), value;
     assert_int_equal(tree.length, 2);
+    assert_string_equal(text(player, tree), "(!dish);12");
     assert_int_equal(tree.items[1].type, PETRI_NUMBER);
     assert_number("a number", tree.items[1].as.number, 12);
     assert_int_equal(tree.items[0].type, PETRI_NODE);
