@@ -21,7 +21,8 @@ static void view_scene(const Scene *scene, const SceneCamera *camera, const Scen
     Eye eye = scene_eye(scene, camera);
     Matrix view = matrix_view(&eye), projection = matrix_projection(&eye);
     DrawOrder order = draw_order(scene, &eye, &view, &projection, camera->width, boxes);
-    SceneView seen = {scene, &order, boxes, matrix_product(&projection, &view), camera->width, camera->height};
+    SceneView seen = {scene,         &order,         boxes,       matrix_product(&projection, &view),
+                      camera->width, camera->height, .samples = 4};
     if (!(scene_cost(&seen, 0) >= 0) || !(scene_cost(&seen, 1e300) >= 0))
         fuzz_fail("the cost of a view is not a number >= 0");
     for (uint32_t i = 0; i < order.draw_count; i++)
