@@ -1,7 +1,8 @@
 // painter.c: the public functions that draw pictures to pixels and files.
+#include "draw/painter.h"
+
 #include "base/file.h"
 #include "base/heap.h"
-#include "draw/painter.h"
 #include "draw/picture.h"
 #include "draw/render_graph.h"
 
