@@ -130,11 +130,10 @@ NOINLINE static Value report_unbound(Vm *vm, const Instr *instr) {
 
 NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
     vm->met_dynamic = true;
-    if (!vm->is_static)
+    for (uint32_t i = 0; i < instr->count; i++)
+        frame->slots[(uint32_t)instr->d + i] = VALUE_NULL;
+    if (!vm->is_static) // while folding: continue with null, because the result will be discarded
         vm_import(vm, frame, instr, file);
-    else // while folding: continue with null, because the result will be discarded
-        for (uint32_t i = 0; i < instr->count; i++)
-            frame->slots[(uint32_t)instr->d + i] = VALUE_NULL;
 }
 
 #define A slots[instr->a]

@@ -65,7 +65,8 @@ Value vm_eval(Vm *vm, Frame *frame, const Code *code);
 // Executes the CALL instruction `instr`. `values` holds the positional arguments, followed by the named ones.
 Value vm_call(Vm *vm, const Instr *instr, Value callee, const Value *values);
 Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, const Value *defaults);
-// Executes the IMPORT instruction `instr`: stores values of the module at path `file` in registers of `frame`.
+// Executes the IMPORT instruction `instr`: stores values of the module at path `file` in registers of `frame`, which
+// must be null.
 void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 
 // These functions execute instructions that create or look up values (construct.c, eval.c). `slots` are the registers.

@@ -139,8 +139,6 @@ static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr 
 }
 
 void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
-    for (uint32_t i = 0; i < instr->count; i++)
-        frame->slots[(uint32_t)instr->d + i] = VALUE_NULL;
     Str name = value_text(vm->arena, vm->symbols, file);
     Str path = path_join(vm->arena, instr->at->source->directory, name);
     Str reason = {0};

@@ -28,6 +28,9 @@ static void test_imports(void **state) {
         {"import a;none;b;nothing from 'm.fl'\n!r v=a;b;none\n", "!r v=10;2\n",
          "1:1 'm.fl' does not bind 'none' 'nothing' [unknown-import]\n"},
         {"import a from 'gone.fl'\n!r v=a\n", "!r\n", "1:1 cannot import 'gone.fl': no such file [cannot-import]\n"},
+        {"for i in ..2\n    let name='m.fl' if i==0 else 'gone.fl'\n    import a;b from name\n    !r v=a;b\n",
+         "!r v=10;2\n!r\n", "3:5 cannot import 'gone.fl': no such file [cannot-import]\n"},
+        {"func f()\n    import a;b from 'm.fl'\n    a;b\n!r v=f()\n", "!r v=10;2\n", ""},
         {"import a from null\n!r v=a\n", "!r\n", "1:1 cannot import '': no file name [cannot-import]\n"},
         {"import again from 'round.fl'\n!r v=again\n", "!r v=3\n",
          "1:1 circular import of 'round.fl' [circular-import]\n"},
@@ -46,7 +49,33 @@ static void test_imports(void **state) {
     }
 }
 
+// Returns the work of an import of `depth` modules, each of which imports the next.
+static uint64_t import_chain(Runner *runner, uint32_t depth) {
+    Arena *arena = &runner->world.arena;
+    ModuleText *chain = arena_alloc_array(arena, depth, sizeof *chain);
+    for (uint32_t i = 0; i < depth; i++)
+        chain[i] =
+            (ModuleText){str_format(arena, "%u.fl", i).bytes,
+                         i + 1 < depth ? str_format(arena, "import a from '%u.fl'\n", i + 1).bytes : "let a=7\n"};
+    runner->modules = chain;
+    runner->module_count = depth;
+    Budget budget = {.memory_limit = SIZE_MAX};
+    runner->frame.budget = NULL;
+    budget_begin(&budget, UINT64_MAX / 2, NULL);
+    runner->frame.budget = &budget;
+    runner_run(runner, "import a from '0.fl'\n!r v=a\n", 1);
+    assert_text("chain", runner_tree(runner), "!r v=7\n");
+    runner->frame.budget = NULL;
+    return budget.work;
+}
+
+// Each import is charged for the search for a circular import, which takes longer in nested modules.
+static void test_nested_imports_cost_more(void **state) {
+    uint64_t work = import_chain(*state, 100);
+    assert_true(import_chain(*state, 200) > 2 * work);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {RUNNER_TEST(test_imports)};
+    const struct CMUnitTest tests[] = {RUNNER_TEST(test_imports), RUNNER_TEST(test_nested_imports_cost_more)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
