@@ -25,12 +25,14 @@ static const Body bodies[] = {
     {"i**3+i**(z+1)+2**i+(i-9)**(i%3)", false},
     {"(i<7);(i<=z);(i>z);(i>=7);(i==7);(i!=7);not (i<3)", false},
     {"(0/0*i<1);(0/0*i>=1);(0/0*i==0/0*i)", false},
+    {"((x<x);(x>x);(x<=x);(x>=x) where x=0/0*i)", false},
     // elements
     {"vector[i]+vector[i-3]+vector[i/2]+vector[0-i]", false},
     {"vector[i;i+1]", false},
     {"vector[i%4..i%4+2];vector[1..i]", false},
     {"stream[i]+uniform(:t;i)[2];stream[i-70];stream[2*i];stream[9-i]", false},
     {"normal(:t)[i];normal(:t)[i-70];beta(:t)[i];normal(:t)[i*1e17];(normal(:t)[i//7])", false},
+    {"(s[i];(s==stream);s[i+1] where s=uniform(:s;i%3))", false},
     {"mixed[i];nothing[i];(i;2;3)[i]", false},
     {"'x' if mixed[i]==1 else 2", false},
     // built-ins: element-wise, of points, others
@@ -42,6 +44,7 @@ static const Body bodies[] = {
     // vectors
     {"(i;z;1)*(2;i;1)+(i;1)", false},
     {"(b;a;c;d) where a;b=(i;z) c;d=vector[i..i+2]", false},
+    {"(vector[a..a+2] where a=(-2 if i%64==0 else i%4))", false},
     {"(p[1]+hypot(p);-p;+p;p in vector;i in vector) where p=(i;2*i;3)", false},
     {"$(:k;i);$(:k;i;:v)", false},
     {"hypot($(:k;i)) or 7", false},

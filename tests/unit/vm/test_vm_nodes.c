@@ -79,12 +79,29 @@ static void test_many_attributes(void **state) {
                 str_format(&runner->world.arena, "%.*s%s\n", (int)(fifth - tree), tree, fifth + 5).bytes);
 }
 
+// A loop frees the temporary data of each iteration that it adds to a node batch, even after an error was reported.
+static void test_iterations_free_their_data(void **state) {
+    enum { ITERATIONS = 20000, MAX_BYTES = 50 * ITERATIONS };
+    // The inner loop of the second row prevents the execution of several iterations at once.
+    static const char *const attributes[] = {"id=i x=((..100)+i+frame)[5]",
+                                             "id=(i for k in ..1) x=((..100)+i+frame)[5]"};
+    static const char *const before[] = {"null", "(..1e12)"};
+    Runner *runner = *state;
+    symbol_intern_batched(&runner->world.symbols, STR("particle"));
+    for (size_t i = 0; i < COUNT_OF(attributes) * COUNT_OF(before); i++) {
+        Str script = str_format(&runner->world.arena, "let n=%s\n!top v=n\n    for i in ..%d\n        !particle %s\n",
+                                before[i % 2], ITERATIONS, attributes[i / 2]);
+        runner_run(runner, script.bytes, 1);
+        assert_int_equal(runner->vm.reported_count, i % 2);
+        assert_in_range(runner->frame.used, ITERATIONS, MAX_BYTES);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        RUNNER_TEST(test_positions_of_nodes),
-        RUNNER_TEST(test_constant_children_are_shared),
-        RUNNER_TEST(test_node_construction),
-        RUNNER_TEST(test_many_attributes),
+        RUNNER_TEST(test_positions_of_nodes),         RUNNER_TEST(test_constant_children_are_shared),
+        RUNNER_TEST(test_node_construction),          RUNNER_TEST(test_many_attributes),
+        RUNNER_TEST(test_iterations_free_their_data),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
