@@ -57,10 +57,61 @@ static void test_nodes_and_loops(void **state) {
          "global r3 = frame\ncompose r2 = (r3, 1)\nfor loop 0 r0 = r2 to 8\nnode r3 = (v=r0) none a\nyield loop 0 "
          "r3\n"
          "node r3 = () none b\nyield loop 0 r3\nnext loop 0 r0 = to 3\nend loop r1 = loop 0\nreturn r1\n"},
+        {"for i in frame\n    !a\n    !b if i else (i;2)\n",
+         "global r2 = frame\nfor loop 0 r0 = r2 to 10\nnode r4 = () none a\njump false r0 to 6\n"
+         "node r5 = () none b\njump to 7\ncompose r5 = (r0, 2)\ncompose r3 = (r4, r5)\nyield loop 0 r3\n"
+         "next loop 0 r0 = to 2\nend loop r1 = loop 0\nreturn r1\n"},
+        {"for i in frame\n    !a\n    2 if i else 'x'\n",
+         "global r2 = frame\nfor loop 0 r0 = r2 to 9\nnode r3 = () none a\nyield loop 0 r3\njump false r0 to 7\n"
+         "yield loop 0 2\njump to 8\nyield loop 0 'x'\nnext loop 0 r0 = to 2\nend loop r1 = loop 0\nreturn r1\n"},
+    };
+    static const CodeRow simplified[] = {
+        {"for i in frame\n    !a\n    if i\n        !b\n    elif i>1\n        i;2\n    else\n        3\n",
+         "global r2 = frame\nfor loop 0 r0 = r2 to 13\njump false r0 to 5\nmove r4 = (!b)\njump to 10\n"
+         "gt r5 = r0 1\njump false r5 to 9\ncompose r4 = (r0, 2)\njump to 10\nmove r4 = 3\n"
+         "compose r3 = ((!a), r4)\nyield loop 0 r3\nnext loop 0 r0 = to 2\nend loop r1 = loop 0\nreturn r1\n"},
     };
     Desk *desk = *state;
     desk->options.simplify = false;
     check_code(desk, rows, COUNT_OF(rows));
+    desk->options.simplify = true;
+    check_code(desk, simplified, COUNT_OF(simplified));
+}
+
+// Returns the instruction that adds a particle to a node batch, or NULL if the loop creates single nodes. `body` is the
+// body of the loop.
+static const Instr *find_yield_node(Desk *desk, const char *body) {
+    Str script = str_format(&desk->world.arena, "!top\n    for i in ..frame\n        %s\n", body);
+    const Code *code = compile(desk, script.bytes)->code;
+    for (uint32_t i = 0; i < code->count; i++)
+        if (code->instrs[i].op == OP_YIELD_NODE)
+            return &code->instrs[i];
+    return NULL;
+}
+
+// Loops create batches of nodes with at most 12 attributes. An iteration's data can be freed unless an instruction may
+// keep it.
+static void test_node_batches(void **state) {
+    static const struct {
+        const char *body;
+        int frees; // -1: no batch
+    } rows[] = {
+        {"!particle a=i b=2*i", 1},
+        {"!particle a=sin(i)", 1},
+        {"!particle a=i b=1 c=1 d=1 e=1 f=1 g=1 h=1 i=1 j=1 k=1 l=1", 1},
+        {"!particle a=i b=1 c=1 d=1 e=1 f=1 g=1 h=1 i=1 j=1 k=1 l=1 m=1", -1},
+        {"let x=2*i n=(!a v=x)\n        !particle a=len(n)", 0},
+        {"let x=2*i f=func(y) x*y\n        !particle a=f(3)", 0},
+        {"let x=2*i\n        !particle a=debug(x)", 0},
+        {"!other a=i", -1},
+    };
+    Desk *desk = *state;
+    symbol_intern_batched(&desk->world.symbols, STR("particle"));
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        const Instr *instr = find_yield_node(desk, rows[i].body);
+        if ((instr ? instr->d : -1) != rows[i].frees)
+            fail_msg("%s: %d", rows[i].body, instr ? (int)instr->d : -1);
+    }
 }
 
 // Each instruction has a source position, even after the syntax tree was freed (compiling.h overwrites it).
@@ -99,8 +150,8 @@ static void test_memory_per_statement(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {DESK_TEST(test_instructions), DESK_TEST(test_calls),
-                                       DESK_TEST(test_nodes_and_loops), DESK_TEST(test_instruction_positions),
-                                       DESK_TEST(test_memory_per_statement)};
+    const struct CMUnitTest tests[] = {DESK_TEST(test_instructions),          DESK_TEST(test_calls),
+                                       DESK_TEST(test_nodes_and_loops),       DESK_TEST(test_node_batches),
+                                       DESK_TEST(test_instruction_positions), DESK_TEST(test_memory_per_statement)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
