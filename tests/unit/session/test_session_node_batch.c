@@ -66,6 +66,17 @@ static void test_batched_nodes_match_single_nodes(void **state) {
         }
 }
 
+// Scripts see single nodes in the result of a function, and in a test among the children of a node.
+static void test_scripts_see_single_nodes(void **state) {
+    Player *player = *state;
+    player_run(player,
+               "func particles()\n    for i in ..40+0*frame\n        !particle id=i\n"
+               "let many=particles()\n!count v=len(many)\n"
+               "!top\n    if many==((!particle id=i) for i in ..40+0*frame)\n        !equal\n",
+               1);
+    assert_text("tree", player_print(player, PETRI_PRINT_TREE), "!count v=40\n!top\n    !equal\n");
+}
+
 // Adds to *kinds the number of particles in the tree with the root `node`, and to *sum their ids. Reads the tree with
 // petri_tree_*.
 static void count_nodes(const PetriNode *node, int *kinds, double *sum) {
@@ -97,6 +108,21 @@ static void test_host_sees_single_nodes(void **state) {
     assert_true(strstr(player_state(player), "$(:p;999) = 999.05\n") != NULL);
 }
 
+// Nodes in attributes are also single nodes for a host.
+static void test_host_sees_single_nodes_in_attributes(void **state) {
+    Player *player = *state;
+    player_run(player, "!holder n=(!top << ((!particle id=i) for i in ..40+0*frame))\n", 1);
+    PetriValue top = petri_tree(player->session);
+    assert_int_equal(top.length, 1);
+    PetriValue held = petri_tree_get(top.items[0].as.node, "n");
+    assert_int_equal(held.length, 1);
+    int kinds = 0;
+    double sum = 0;
+    count_nodes(held.items[0].as.node, &kinds, &sum);
+    assert_int_equal(kinds, 40);
+    assert_number("ids", sum, 39 * 20);
+}
+
 // Limits the memory per particle: script, state and engine together.
 static void test_memory_per_particle(void **state) {
     enum { COUNT = 100000, EACH = 380 };
@@ -119,7 +145,9 @@ static void test_memory_per_particle(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_batched_nodes_match_single_nodes),
+        PLAYER_TEST(test_scripts_see_single_nodes),
         PLAYER_TEST(test_host_sees_single_nodes),
+        PLAYER_TEST(test_host_sees_single_nodes_in_attributes),
         PLAYER_TEST(test_memory_per_particle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
