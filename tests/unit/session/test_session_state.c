@@ -66,6 +66,7 @@ static void test_invalid_state_files_are_rejected(void **state) {
         {"frame \n", PETRI_INVALID, "", damaged},
         {"frame 1-2\n", PETRI_INVALID, "", damaged},
         {"frame 0\n$(nan) = 1\n", PETRI_INVALID, "", damaged},
+        {"frame 0\n$(:n) =  1\n", PETRI_INVALID, "", damaged}, // a second space
     };
     Player *player = *state;
     Folder folder;
