@@ -426,10 +426,36 @@ static void test_traffic_grows_with_surface(void **state) {
     }
 }
 
+// If no particle is near a particle of the other rank and none moves, a step costs each rank two numbers.
+static void test_empty_halos_send_two_numbers(void **state) {
+    (void)state;
+    enum { RANKS = 2, MIN_FRAMES = 2, MAX_FRAMES = 3 };
+    PetriRankStats stats[MAX_FRAMES + 1];
+    for (int frames = MIN_FRAMES; frames <= MAX_FRAMES; frames++) {
+        uint64_t sent;
+        free(run_world(NULL,
+                       "!physics state=:a dimensions=1 resolution=1/240\n"
+                       "    for i in ..100\n"
+                       "        !particle id=i radius=1 position=3*i+(i%2)*10k\n"
+                       "    !collision strength=9\n",
+                       RANKS, frames, &sent)
+                 .text);
+        stats[frames] = regions;
+        assert_int_equal(regions.decomposition, PETRI_DOMAIN_DECOMPOSED);
+        assert_int_equal(regions.halo, 0);
+        assert_int_equal(regions.step_messages, 0);
+    }
+    uint64_t steps = stats[MAX_FRAMES].steps - stats[MIN_FRAMES].steps;
+    assert_true(steps > 1);
+    assert_int_equal(stats[MAX_FRAMES].reductions - stats[MIN_FRAMES].reductions, steps);
+    assert_int_equal(stats[MAX_FRAMES].step_bytes - stats[MIN_FRAMES].step_bytes, RANKS * steps * 2 * sizeof(double));
+}
+
 int main(int argc, char **argv) {
     scripts_set_folders(argc, argv);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scripts_match_single_process), cmocka_unit_test(test_ranks_match_single_rank),
-        cmocka_unit_test(test_domains_match_single_process), cmocka_unit_test(test_traffic_grows_with_surface)};
+        cmocka_unit_test(test_domains_match_single_process), cmocka_unit_test(test_traffic_grows_with_surface),
+        cmocka_unit_test(test_empty_halos_send_two_numbers)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
