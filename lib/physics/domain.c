@@ -160,8 +160,8 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     return shared;
 }
 
-// Returns true if an owned particle has moved by half the skin, or has grown, since the halo was built. Needed only if
-// a pass has no list, because lists detect this themselves.
+// Returns true if an owned particle has moved by half the skin, has grown, or has become finite or not finite since the
+// halo was built. Needed only if a pass has no list, because lists detect this themselves.
 static bool left_skin(const PhysSystem *system, const Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const double *built = domain->built.bytes;
@@ -172,13 +172,13 @@ static bool left_skin(const PhysSystem *system, const Domain *domain) {
             continue;
         uint32_t at = phys_local_column(domain, c);
         double square = 0;
-        bool finite = true;
+        bool unchanged = true;
         for (size_t k = 0; k < columns->dimensions; k++, built++) {
             double x = columns->position[k * columns->stride + at], d = x - *built;
-            finite &= isfinite(x) || !isfinite(*built);
+            unchanged &= isfinite(x) == isfinite(*built);
             square += d * d;
         }
-        still = finite && !(square > max_square) && !(columns->radius[at] > *built++);
+        still = unchanged && !(square > max_square) && !(columns->radius[at] > *built++);
     }
     return !still;
 }

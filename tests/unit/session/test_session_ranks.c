@@ -328,6 +328,11 @@ static const char *const reaching[] = {
     "        !particle id=1000+i position=0/0 radius=i\n"
     "    !collision strength=100 power=1.5\n"
     "    !buoyancy density=0.3\n",
+    // too many neighbours for lists; some positions become NaN, and finite again in the next frame
+    "!physics state=:a dimensions=1 resolution=1/300 speed_of_light=300\n"
+    "    for i in ..900\n"
+    "        !particle id=i position=200*uniform(:p)[i] velocity=(1/0 if i%90==7 else 5*normal(:v)[i]) charge=1\n"
+    "    !electrostatic strength=0.01 max_distance=60\n",
     // more groups than neighbour lists; particles in groups without a list move fast; one frame without a maximum
     // distance
     "!physics state=:a dimensions=2 resolution=1/240\n"
@@ -426,29 +431,37 @@ static void test_traffic_grows_with_surface(void **state) {
     }
 }
 
-// If no particle is near a particle of the other rank and none moves, a step costs each rank two numbers.
+// If no particle is near a particle of the other rank and none moves, a step costs each rank two numbers. The second
+// system has too many neighbours for lists.
 static void test_empty_halos_send_two_numbers(void **state) {
     (void)state;
-    enum { RANKS = 2, MIN_FRAMES = 2, MAX_FRAMES = 3 };
-    PetriRankStats stats[MAX_FRAMES + 1];
-    for (int frames = MIN_FRAMES; frames <= MAX_FRAMES; frames++) {
-        uint64_t sent;
-        free(run_world(NULL,
-                       "!physics state=:a dimensions=1 resolution=1/240\n"
-                       "    for i in ..100\n"
-                       "        !particle id=i radius=1 position=3*i+(i%2)*10k\n"
-                       "    !collision strength=9\n",
-                       RANKS, frames, &sent)
-                 .text);
-        stats[frames] = regions;
-        assert_int_equal(regions.decomposition, PETRI_DOMAIN_DECOMPOSED);
-        assert_int_equal(regions.halo, 0);
-        assert_int_equal(regions.step_messages, 0);
+    enum { RANKS = 2, MIN_FRAMES = 3, MAX_FRAMES = 4 };
+    static const char *const resting[] = {
+        "!physics state=:a dimensions=1 resolution=1/240\n"
+        "    for i in ..100\n"
+        "        !particle id=i radius=1 position=3*i+(i%2)*10k\n"
+        "    !collision strength=9\n",
+        "!physics state=:a dimensions=1 resolution=1/240\n"
+        "    for i in ..900\n"
+        "        !particle id=i position=i/10+(i%2)*10k\n"
+        "    !electrostatic strength=0.01 max_distance=60\n",
+    };
+    for (size_t i = 0; i < sizeof resting / sizeof *resting; i++) {
+        PetriRankStats stats[MAX_FRAMES + 1];
+        for (int frames = MIN_FRAMES; frames <= MAX_FRAMES; frames++) {
+            uint64_t sent;
+            free(run_world(NULL, resting[i], RANKS, frames, &sent).text);
+            stats[frames] = regions;
+            assert_int_equal(regions.decomposition, PETRI_DOMAIN_DECOMPOSED);
+            assert_int_equal(regions.halo, 0);
+            assert_int_equal(regions.step_messages, 0);
+        }
+        uint64_t steps = stats[MAX_FRAMES].steps - stats[MIN_FRAMES].steps;
+        assert_true(steps > 1);
+        assert_int_equal(stats[MAX_FRAMES].reductions - stats[MIN_FRAMES].reductions, steps);
+        assert_int_equal(stats[MAX_FRAMES].step_bytes - stats[MIN_FRAMES].step_bytes,
+                         RANKS * steps * 2 * sizeof(double));
     }
-    uint64_t steps = stats[MAX_FRAMES].steps - stats[MIN_FRAMES].steps;
-    assert_true(steps > 1);
-    assert_int_equal(stats[MAX_FRAMES].reductions - stats[MIN_FRAMES].reductions, steps);
-    assert_int_equal(stats[MAX_FRAMES].step_bytes - stats[MIN_FRAMES].step_bytes, RANKS * steps * 2 * sizeof(double));
 }
 
 int main(int argc, char **argv) {
