@@ -176,6 +176,32 @@ static void check_changes(size_t dimensions, const PhysOptions *options) {
     phys_free(twins.listed);
 }
 
+// While no particle moves, lists are not rebuilt, with and without reordered columns.
+static void test_resting_particles_keep_lists(void **state) {
+    (void)state;
+    enum { DISTANT = 200, STEPS = 20 };
+    for (int linked = 0; linked <= 1; linked++) {
+        PhysSystem *system = phys_new();
+        phys_set_options(system,
+                         &(PhysOptions){.threads = 2, .cpu = cpu_detected.level, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
+        phys_begin(system, 2);
+        for (uint32_t i = 0; i < DISTANT; i++)
+            phys_add_particle(system, 0,
+                              &(PhysParticle){.position = VEC(i % 20 * 1.1, i / 20 * 1.1), .radius = 0.5, .mass = 1});
+        PhysForce collision = force_of(PHYS_COLLISION), link = force_of(PHYS_DISTANCE);
+        link.strength = 0;
+        link.to = 1;
+        phys_add_force(system, 0, &collision);
+        if (linked)
+            phys_add_force(system, 0, &link);
+        assert_int_equal(run_until(system, STEPS, 1).steps, STEPS);
+        assert_int_equal(system->in_cell_order, !linked);
+        assert_true(system->lists[0].built);
+        assert_int_equal(system->lists[0].age, STEPS);
+        phys_free(system);
+    }
+}
+
 static void test_all_levels(void **state) {
     (void)state;
     for (int cpu = 0; cpu <= (int)cpu_detected.level; cpu++)
@@ -222,6 +248,7 @@ static void test_chunks(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels), cmocka_unit_test(test_kept_forces),
+                                       cmocka_unit_test(test_resting_particles_keep_lists),
                                        cmocka_unit_test(test_chunks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
