@@ -252,9 +252,38 @@ static void test_chunks(void **state) {
     phys_free(systems[0]);
 }
 
+// Sparse systems in strips that are two cells wide. Consecutive particles can be several rows of cells apart.
+static void test_strips(void **state) {
+    (void)state;
+    enum { MANY = 48, SEEDS = 200 };
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+        PhysSystem *systems[2];
+        for (int s = 0; s < 2; s++) {
+            Dice dice = {seed};
+            systems[s] = phys_new();
+            phys_set_options(systems[s],
+                             &(PhysOptions){.threads = 1,
+                                            .cpu = cpu_detected.level,
+                                            .neighbours = s ? PHYS_NEIGHBOURS_ALWAYS : PHYS_NEIGHBOURS_NEVER});
+            phys_begin(systems[s], 2);
+            for (uint32_t i = 0; i < MANY; i++) {
+                double y = dice_between(&dice, 0, 30), x = dice_between(&dice, y < 2 ? 1.5 : 0, 3);
+                phys_add_particle(systems[s], 0, &(PhysParticle){.position = VEC(x, y), .radius = 0.5, .mass = 1});
+            }
+            PhysForce collision = force_of(PHYS_COLLISION);
+            phys_add_force(systems[s], 0, &collision);
+            one_step(systems[s]);
+        }
+        for (uint32_t i = 0; i < MANY; i++)
+            assert_memory_equal(phys_position(systems[0], i), phys_position(systems[1], i), 4 * sizeof(double));
+        phys_free(systems[0]);
+        phys_free(systems[1]);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels), cmocka_unit_test(test_kept_forces),
                                        cmocka_unit_test(test_resting_particles_keep_lists),
-                                       cmocka_unit_test(test_chunks)};
+                                       cmocka_unit_test(test_chunks), cmocka_unit_test(test_strips)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
