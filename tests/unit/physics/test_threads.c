@@ -9,6 +9,25 @@
 
 enum { JOBS = 3000 };
 
+// Linked with --wrap, to count the threads that have not been joined.
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *context);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *context);
+int __real_pthread_join(pthread_t thread, void **result);
+int __wrap_pthread_join(pthread_t thread, void **result);
+
+static atomic_int running;
+
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *context) {
+    int result = __real_pthread_create(thread, attributes, run, context);
+    atomic_fetch_add(&running, result == 0);
+    return result;
+}
+
+int __wrap_pthread_join(pthread_t thread, void **result) {
+    atomic_fetch_sub(&running, 1);
+    return __real_pthread_join(thread, result);
+}
+
 typedef struct Job {
     atomic_int done[PHYS_MAX_CHUNKS];
     atomic_int wrong;
@@ -41,7 +60,9 @@ static void test_each_chunk_runs_once(void **state) {
         run_jobs(system, JOBS);
         nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL); // long enough for the worker threads to fall asleep
         run_jobs(system, 10);
+        assert_int_equal(atomic_load(&running), threads - 1);
         phys_free(system);
+        assert_int_equal(atomic_load(&running), 0);
     }
 }
 
