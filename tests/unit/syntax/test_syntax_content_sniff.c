@@ -13,7 +13,10 @@ static const char *reports_of(World *world, const char *name, const char *path, 
         const Diag *diag = &diags.items[i];
         if (diag->source)
             text_add_format(&out, "%u: ", source_locate(diag->source, diag->span.start).line);
-        text_add_format(&out, "%.*s\n", (int)diag->text.len, diag->text.bytes);
+        text_add_format(&out, "%.*s", (int)diag->text.len, diag->text.bytes);
+        if (diag->hint.len)
+            text_add_format(&out, " | %.*s", (int)diag->hint.len, diag->hint.bytes);
+        text_add_char(&out, '\n');
     }
     diag_sink_free(&diags);
     return text_c(&out);
@@ -29,6 +32,7 @@ static void test_other_encodings_are_named(void **state) {
     check_bytes(world, STR("\xfe\xff\0!\0n\0\n"), "'x.fl' is UTF-16 text: save it as UTF-8\n");
     check_bytes(world, STR("!\0n\0 \0a\0=\0001\0\n\0"), "'x.fl' is UTF-16 text: save it as UTF-8\n");
     check_bytes(world, STR("\0!\0n\0 \0a\0=\0001\0\n"), "'x.fl' is UTF-16 text: save it as UTF-8\n");
+    check_bytes(world, STR("1\0\n\0"), "'x.fl' is UTF-16 text: save it as UTF-8\n"); // the shortest text
     check_bytes(world, STR("\xff\xfe\0\0!\0\0\0"), "'x.fl' is UTF-32 text: save it as UTF-8\n");
     check_bytes(world, STR("\xef\xbb\xbf!n a=1\n"), "");
 }
@@ -57,6 +61,15 @@ static void test_other_text_gives_one_error(void **state) {
     Str begun = STR("#!/usr/bin/env petri\n)\n)\n)\n");
     assert_text("a hashbang marks a script", reports_of(world, "tool", "/bin/tool", begun),
                 "2: unexpected ')'\n3: unexpected ')'\n4: unexpected ')'\n");
+    assert_text("a hashbang of another program", reports_of(world, "tool", "/bin/tool", STR("#!/bin/sh\n)\n)\n)\n")),
+                "2: is this a Flitter script? 3 of 4 lines are invalid; the first error: unexpected ')'\n");
+    assert_text("the hint of the first error is omitted",
+                reports_of(world, "passwd", "/etc/passwd", STR("x = 1\ny = 2\nz = 3\n")),
+                "1: is this a Flitter script? 3 of 3 lines are invalid; the first error: unexpected '='\n");
+    assert_text(
+        "half of the lines", reports_of(world, "old", "/old", STR("!a )\n!b\n!c )\n!d\n!e\n!f )\n")),
+        "1: is this a Flitter script? 3 of 6 lines are invalid; the first error: unexpected ')', expected end of "
+        "line or '<<'\n");
     Str few = STR("!a\n!b )\n!c\n!d )\n!e\n!f )\n!g\n!h\n!i )\n");
     assert_text("too few errors are kept", reports_of(world, "old.fl.bak", "/old.fl.bak", STR("!a )\n!b )\n!c\n")),
                 "1: unexpected ')', expected end of line or '<<'\n2: unexpected ')', expected end of line or '<<'\n");

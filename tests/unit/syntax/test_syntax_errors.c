@@ -82,8 +82,20 @@ static void test_common_mistakes_have_hints(void **state) {
         {"\ufeff!a )", "1:4: unexpected ')', expected end of line or '<<'"},
         {"!a\n\t!b\n    !c\n", "3:5: this line's indentation matches none of the lines above | do not mix tabs "
                                "and spaces: a tab counts as eight spaces"},
+        // Only tabs and spaces at the start of lines are mixed indentation.
+        {"!a\n    !b\tx=1\n  !c\n", "3:3: this line's indentation matches none of the lines above"},
+        {"!a\n\t\t!b\n\t!c\n", "3:2: this line's indentation matches none of the lines above"},
+        {"\t!a\n    !b\n  !c\n", "3:3: this line's indentation matches none of the lines above | do not mix tabs "
+                                 "and spaces: a tab counts as eight spaces"},
         {"if x\n    !a (\nelse\n    !b )\n!c",
          "4:5: unexpected node !b | the parenthesis opened at line 2, column 8 is not closed"},
+        {"let y=a for x = 3", "1:15: unexpected '=', expected 'in' | "
+                              "write '==' to compare, or 'let NAME=…' to name a value"},
+        // A comment at the error does not hide the hint.
+        {"1;2;-- c",
+         "1:5: unexpected end of line, expected an expression | remove the semicolon; a statement ends with its "
+         "line"},
+        {"!a x=a^b", "1:7: unexpected character '^' (U+005E) | write 'x**2' for a power"},
         {"for x of y\n    !a\n!b\n", "1:7: unexpected name of, expected 'in' | write a loop as 'for i in ..10'"},
     };
     check_complaints(*state, rows, COUNT_OF(rows));

@@ -153,6 +153,10 @@ static void test_high_trees_are_rejected(void **state) {
         assert_claim(rows[i][0], strstr(found, "nested too deeply: the limit is 2000 levels") != NULL);
         assert_claim(rows[i][0], strchr(found, '\n') == NULL);
     }
+    // The error is at the innermost expression that is too high: 2000 signs and a number have height 2001.
+    nested(&text, "+", 3000, "");
+    assert_text("3000 signs", complaints(world, text_str(&text)),
+                "1:1001: nested too deeply: the limit is 2000 levels");
     // A long vector gives a low tree; a long sum gives a high one.
     text.len = 0;
     for (int i = 0; i < 50000; i++)
