@@ -141,6 +141,8 @@ static void test_tokens(void **state) {
         {"!a x=)\nfor i in 3\n !b\n",
          "!0-2 n3-4 o4-5 o5-6 ;6-6 k7-10 n11-12 k13-15 116-17 ;17-17 >19-19 !19-21 ;21-21 <22-22 "},
         {"!a ?\n!b\n", "!0-2 ?3-4 ;4-4 !5-7 ;7-7 "},
+        {"%pragma fps 20\n", "k0-7 n8-11 112-14 ;14-14 "},
+        {") 2 's'\n!b\n", "o0-1 12-3 s4-7 ;7-7 !8-10 ;10-10 "}, // the rest of the line after an error in line 1
     };
     Player *player = *state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -180,6 +182,13 @@ static void test_bindings(void **state) {
         {"let a=1\n!n x=)\n!m x=a\n", "l4[7-22] 20=4 "},
         {"let a=1\nfunc f()\n    let b=\na\n", "l4[7-30] f13[21-30] 28=4 "},
         {"let a=1\nlet b=\n!m x=a\nlet c=", "l4[7-29] 20=4 "},
+        {"let a=1\n!n x=a )\n!m x=a\n", "l4[7-24] 22=4 "},
+        {"let a=1\n!n x=(a\n", "l4[7-16] "},
+        {"if x\n!m y=a\n", "10? "},
+        {"let f='x'\nimport a from f\n", "l4[9-26] 24=4 i17[26-26] "},
+        // Names of arguments are uses only if the called function is known.
+        {"let f=func(x) x\nf(x=1)\n", "p11[14-15] 14=11 l4[15-23] 16=4 18=11 "},
+        {"let f=(x;y)[0]\nf(x=1)\n", "7? 9? l4[14-22] 15=4 "},
     };
     Player *player = *state;
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -187,6 +196,36 @@ static void test_bindings(void **state) {
         note(&player->printed, "", 0);
         assert_int_equal(
             petri_bindings(player->session, rows[i].text, PETRI_NUL_TERMINATED, note_name, &player->printed), PETRI_OK);
+        assert_string_equal(player->printed.text, rows[i].names);
+    }
+}
+
+static void note_value(void *host, const PetriBinding *name) {
+    char line[60];
+    int len = snprintf(line, sizeof line, "%zu-%zu[%zu-%zu]%u%s ", name->start, name->end, name->value_start,
+                       name->value_end, name->depth, name->is_sole ? "!" : "");
+    if (name->kind != PETRI_NAME_USE)
+        note(host, line, (size_t)len);
+}
+
+// Each binding is written with its value and depth. `!` follows if the value is bound to this name only.
+static void test_bindings_have_values(void **state) {
+    static const struct {
+        const char *text;
+        const char *names;
+    } rows[] = {
+        {"let ab=1 c;d=2;3\n", "4-6[7-8]0! 9-10[13-16]0 11-12[13-16]0 "},
+        {"func f(x, y=2)\n    let z=x\n    z\n", "5-6[0-33]0! 7-8[7-8]1! 10-11[10-13]1! 23-24[25-26]2! "},
+        {"for i;j in ..4\n    i\n", "4-5[11-14]0 6-7[11-14]0 "},
+        {"import a from 'f'\n", "7-8[14-17]0! "},
+        {"!n x=a where a=2\n", "13-14[15-16]0! "},
+    };
+    Player *player = *state;
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        player->printed.len = 0;
+        assert_int_equal(
+            petri_bindings(player->session, rows[i].text, PETRI_NUL_TERMINATED, note_value, &player->printed),
+            PETRI_OK);
         assert_string_equal(player->printed.text, rows[i].names);
     }
 }
@@ -508,6 +547,7 @@ int main(void) {
         cmocka_unit_test(test_colour_is_only_in_rendered),
         PLAYER_TEST(test_tokens),
         PLAYER_TEST(test_bindings),
+        PLAYER_TEST(test_bindings_have_values),
         cmocka_unit_test(test_diagnostics_have_node_positions),
         cmocka_unit_test(test_loop_error_is_reported_once),
         cmocka_unit_test(test_builtins_and_numbers),

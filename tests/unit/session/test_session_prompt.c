@@ -194,6 +194,7 @@ static void test_completeness(void **state) {
         {"1 + \\\n2\n", PETRI_COMPLETE},
         {"1+\n", PETRI_COMPLETE},   // invalid, whatever may follow
         {")(\n", PETRI_COMPLETE},   //
+        {"?'''\n", PETRI_COMPLETE}, //
         {"'abc\n", PETRI_COMPLETE}, //
         {"\xff\n", PETRI_COMPLETE}, //
         {"\n", PETRI_COMPLETE},
