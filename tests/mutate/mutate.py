@@ -32,8 +32,8 @@ SUITES = {
     'lib/program': ['program', 'vm', 'session', 'simplifier', 'memory', 'repl_sessions', 'cli'],
     'lib/state': ['state', 'session', 'scene', 'memory', 'repl_sessions', 'cli'],
     'lib/session': ['session', 'state', 'scene', 'memory', 'repl_sessions', 'cli'],
-    'grammar': ['syntax', 'program', 'vm', 'memory', 'repl_sessions', 'cli'],
-    'lib/syntax': ['syntax', 'program', 'vm', 'memory', 'repl_sessions', 'cli'],
+    'grammar': ['syntax', 'program', 'vm', 'session', 'memory', 'repl_sessions', 'cli'],
+    'lib/syntax': ['syntax', 'program', 'vm', 'session', 'memory', 'repl_sessions', 'cli'],
     'lib/draw': ['draw', 'pictures', 'canvas', 'gl', 'memory'],
 }
 CORPORA = 'scripts'
