@@ -185,6 +185,7 @@ static void test_bindings(void **state) {
         {"let a=1\n!n x=a )\n!m x=a\n", "l4[7-24] 22=4 "},
         {"let a=1\n!n x=(a\n", "l4[7-16] "},
         {"if x\n!m y=a\n", "10? "},
+        {") a\n!m x=b\n", "9? "},
         {"let f='x'\nimport a from f\n", "l4[9-26] 24=4 i17[26-26] "},
         // Names of arguments are uses only if the called function is known.
         {"let f=func(x) x\nf(x=1)\n", "p11[14-15] 14=11 l4[15-23] 16=4 18=11 "},

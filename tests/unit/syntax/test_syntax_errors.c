@@ -95,6 +95,10 @@ static void test_common_mistakes_have_hints(void **state) {
         {"1;2;-- c",
          "1:5: unexpected end of line, expected an expression | remove the semicolon; a statement ends with its "
          "line"},
+        {"!a x=#ff0000", "1:6: unexpected tag #ff0000 | a colour is r;g;b, each from 0 to 1: 1;0;0"},
+        {"!a x=0x00ff00", "1:14: unexpected end of line, expected '=' | a colour is r;g;b, each from 0 to 1: 0;1;0"},
+        // Of four tokens that could follow, the message lists none.
+        {"!a x=y where z 3", "1:16: unexpected number 3"},
         {"!a x=a^b", "1:7: unexpected character '^' (U+005E) | write 'x**2' for a power"},
         {"for x of y\n    !a\n!b\n", "1:7: unexpected name of, expected 'in' | write a loop as 'for i in ..10'"},
     };
@@ -118,6 +122,9 @@ static void test_each_mistake_is_reported_once(void **state) {
         {"!a x=1 2\n    !b\n        !c 3 4\n    !d\n!e 5 6\n", "1:8: unexpected number 2\n"
                                                                "3:12: unexpected number 3\n"
                                                                "5:4: unexpected number 5"},
+        // The grammar cannot recover from an error in a pragma.
+        {"%pragma fps\n!a )\n", "1:12: unexpected end of line, expected an expression\n"
+                                "2:4: unexpected ')', expected end of line or '<<'"},
         {"!a ! b\n!c 'x\n!d 1__0\n!e @\n",
          "1:4: '!' must be directly followed by a name | write 'not' to negate a value\n"
          "2:4: unterminated string | close the string on its line, or use ''' or \"\"\" for several lines\n"

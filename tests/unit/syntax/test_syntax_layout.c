@@ -54,6 +54,7 @@ static void test_indentation_makes_blocks(void **state) {
         {"#!/usr/bin/env petri\n!a\n", "(node a)"},
         {"  #! x\n    !a\n!b\n", TWO},
         {"#!only", ""},
+        {"  #!only", ""},
         {"!a\n#!b\n", "rejected"},
         {"-- c\n#!b\n", "rejected"},
         // Form feeds and no-break spaces are not white space.
