@@ -360,10 +360,7 @@ literal: NUMBER | TIMECODE | STRING | SYMBOL | NODE;
 
 bool gr_accepts(const gr_pstate *parser, int token) {
     yysymbol_kind_t symbol = YYTRANSLATE(token);
-    int at = yypact[*parser->yyssp];
-    if (yypact_value_is_default(at))
-        return false;
-    at += symbol;
+    int at = yypact[*parser->yyssp] + symbol;
     return at >= 0 && at <= YYLAST && yycheck[at] == symbol && !yytable_value_is_error(yytable[at]);
 }
 
