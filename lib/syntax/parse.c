@@ -108,8 +108,8 @@ static void report_unexpected(ParseContext *context, const Unexpected *unexpecte
     Str word = token_text(context, span);
     text_add_c(&text, "unexpected ");
     bool layout = strncmp(found, "end of", 6) == 0 || strcmp(found, "indentation") == 0;
-    if (found[0] != '\'' && !layout && word.len > 0 && word.len <= 40 && !memchr(word.bytes, '\n', word.len)) {
-        // A name, literal or keyword is shown as written.
+    if (!layout && word.len > 0 && word.len <= 40 && !memchr(word.bytes, '\n', word.len)) {
+        // A name, literal, keyword or operator is shown as written.
         bool described = strcmp(found, "name") == 0 || strcmp(found, "node") == 0 || strcmp(found, "symbol") == 0 ||
                          strcmp(found, "tag") == 0 || strcmp(found, "number") == 0 || strcmp(found, "string") == 0 ||
                          strcmp(found, "time code") == 0;
@@ -256,9 +256,9 @@ static void resolve_keyword(const ParseContext *context, Layout *layout, const g
         resize_token(layout, token, '%', 1);
     } else if (token->kind == NAME && token->keyword && gr_accepts(parser, token->keyword)) {
         token->kind = token->keyword;
-    } else if (token->kind == NAME && !gr_accepts(parser, NAME)) {
-        // If only `in` or `from` can follow, the keyword is also recognised as the prefix of a word: `for x in1;2`
-        // means `for x in 1;2` (K11).
+    } else if (token->kind == NAME) {
+        // After a list of names, where no name can follow, `in` or `from` is also recognised as the prefix of a word:
+        // `for x in1;2` means `for x in 1;2` (K11).
         if (gr_accepts(parser, IN) && !gr_accepts(parser, AND) && str_starts_with(text, STR("in")))
             resize_token(layout, token, IN, 2);
         else if (gr_accepts(parser, FROM) && str_starts_with(text, STR("from")))
