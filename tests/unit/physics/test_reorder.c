@@ -225,8 +225,10 @@ static void test_chunks(void **state) {
     PhysSystem *systems[SYSTEMS];
     for (int s = 0; s < SYSTEMS; s++) {
         systems[s] = phys_new();
-        phys_set_options(systems[s],
-                         &(PhysOptions){.threads = s < 2 ? 1 : 4, .keep_forces = s % 2, .cpu = cpu_detected.level});
+        phys_set_options(systems[s], &(PhysOptions){.threads = s < 2 ? 1 : 4,
+                                                    .keep_forces = s % 2,
+                                                    .cpu = cpu_detected.level,
+                                                    .neighbours = PHYS_NEIGHBOURS_ALWAYS});
         phys_begin(systems[s], 2);
         Dice dice = {5};
         for (uint32_t i = 0; i < MANY; i++) {
