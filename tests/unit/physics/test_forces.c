@@ -326,6 +326,28 @@ static void test_speed_of_light(void **state) {
     phys_free(system);
 }
 
+// A particle's new force and ramp time apply from the next frame on.
+static void test_changed_force(void **state) {
+    (void)state;
+    PhysSystem *system = phys_new();
+    phys_begin(system, 1);
+    PhysParticle p = {.mass = 1, .force = VEC(8), .ease = 4};
+    phys_add_particle(system, 0, &p);
+    PhysTime time = {.last = 0, .now = 1, .clock = 1, .resolution = 1, .performance = 1};
+    assert_int_equal(phys_simulate(system, &time).status, PHYS_OK);
+    assert_same(phys_velocity(system, 0)[0], 8 / 4.0);
+    p.force = VEC(16);
+    p.ease = 8;
+    phys_update_particle(system, 0, &p, (PhysPreserve){.position = true});
+    assert_int_equal(phys_simulate(system, &time).status, PHYS_OK);
+    assert_same(phys_velocity(system, 0)[0], 16 / 8.0);
+    p.ease = 2;
+    phys_update_particle(system, 0, &p, (PhysPreserve){.position = true});
+    assert_int_equal(phys_simulate(system, &time).status, PHYS_OK);
+    assert_same(phys_velocity(system, 0)[0], 16 / 2.0);
+    phys_free(system);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_distance),
@@ -343,6 +365,7 @@ int main(void) {
         cmocka_unit_test(test_own_force),
         cmocka_unit_test(test_ease),
         cmocka_unit_test(test_random),
+        cmocka_unit_test(test_changed_force),
         cmocka_unit_test(test_speed_of_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
