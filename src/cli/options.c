@@ -289,6 +289,14 @@ int command_run(const Command *command, const CommandContext *host, int argc, ch
     return status;
 }
 
+uint64_t options_work_limit(const Options *options) {
+    return options->work > 0 ? options->work : petri_default_options().work_limit;
+}
+
+size_t options_memory_limit(const Options *options) {
+    return options->memory > 0 ? options->memory : petri_default_options().memory_limit;
+}
+
 int options_open(const Options *options, const CommandContext *host,
                  void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
                  PetriSession **session) {
@@ -304,8 +312,8 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.keep_forces = options->prompt;
     wanted.rollback_frames = options->prompt || options->state_file; // a partly computed frame must not be saved
     wanted.profile = options->profile;
-    wanted.memory_limit = options->memory > 0 ? options->memory : wanted.memory_limit;
-    wanted.work_limit = options->work > 0 ? options->work : wanted.work_limit;
+    wanted.memory_limit = options_memory_limit(options);
+    wanted.work_limit = options_work_limit(options);
     wanted.read_folders = (const char *const *)options->read_folders.items;
     wanted.write_folders = (const char *const *)options->write_folders.items;
     wanted.no_files = options->no_files;

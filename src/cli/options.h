@@ -41,6 +41,10 @@ enum { OPTIONS_READ = -1 }; // success, from functions that otherwise return an 
 // computed since `start`, a time of the monotonic clock in seconds.
 bool options_due(const Options *options, int64_t frames, double start, double fps);
 
+// Return the limits of a session: those of the options, or the defaults.
+uint64_t options_work_limit(const Options *options);
+size_t options_memory_limit(const Options *options);
+
 // Opens a session with the options and defines the names of -D. Returns OPTIONS_READ. On failure, sets *session to NULL
 // and returns an exit status after a message.
 int options_open(const Options *options, const CommandContext *host,

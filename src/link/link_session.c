@@ -71,8 +71,7 @@ static void render_if_needed(LinkSession *link_session) {
 static bool exceeds_limit(LinkSession *link_session) {
     Frames *frames = &link_session->frames;
     const Linked *linked = &link_session->linked;
-    uint64_t frame_limit = frames->options->work, work = petri_work(frames->session);
-    uint64_t limit = link_work_limit(frame_limit > 0 ? frame_limit : petri_default_options().work_limit);
+    uint64_t work = petri_work(frames->session), limit = link_work_limit(options_work_limit(frames->options));
     int64_t number = petri_frame(frames->session).number;
     if (work <= limit || number >= linked->frame)
         return false;

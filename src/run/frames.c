@@ -152,10 +152,9 @@ void frames_set_interruptible(Frames *frames, bool begins) {
 
 // Reports that a frame exceeded a limit. How much it needs is not known.
 static void report_limit(const Frames *frames, int64_t number) {
-    PetriOptions defaults = petri_default_options();
-    uint64_t memory = frames->options->memory > 0 ? frames->options->memory : defaults.memory_limit;
-    uint64_t work = frames->options->work > 0 ? frames->options->work : defaults.work_limit;
-    uint64_t more = ((frames->memory_exceeded ? memory : work) >> 20) * 4;
+    uint64_t limit =
+        frames->memory_exceeded ? options_memory_limit(frames->options) : options_work_limit(frames->options);
+    uint64_t more = (limit >> 20) * 4;
     more = more > 0 ? more : 4;
     bool in_g = more > 1024;
     message("stopped in frame %" PRId64 "; to allow four times as much, use %s %" PRIu64 "%s", number,
