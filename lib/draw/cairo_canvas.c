@@ -207,7 +207,7 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
     Page page = page_of(painter, picture, false);
     draw_limit(painter, picture);
     result = draw_on(painter, &page, surface, false, width, height, faults);
-    draw_report_needed(painter, faults);
+    draw_report_needed(painter, picture, faults);
     cairo_surface_destroy(page.pixels);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
@@ -250,7 +250,7 @@ static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool p
         cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
     draw_limit(painter, page->picture);
     PetriStatus result = draw_on(painter, page, surface, true, width, height, faults);
-    draw_report_needed(painter, faults);
+    draw_report_needed(painter, page->picture, faults);
     cairo_surface_finish(surface);
     if (result == PETRI_OK)
         result = result_of(cairo_surface_status(surface));

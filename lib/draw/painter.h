@@ -22,7 +22,6 @@ struct PetriPainter {
     Gl *gl;                 // opened when first needed; NULL: not open
     const char *gl_problem; // why `gl` cannot be opened (borrowed); NULL if `gl` is open or has not been needed yet
     bool lacks_memory;      // true if the memory limit was reported since draw_limit
-    size_t session_memory;  // memory limit of the session whose picture is drawn
     PetriShaderTest *shader_test; // tests the shaders of scripts; NULL: they are not tested
     void *shader_test_data;
     bool on_window;   // true if `gl` is the context of the host's window
@@ -47,7 +46,7 @@ void draw_test_shaders(PetriPainter *painter);
 // Sets the painter's limits for memory and work to those of the picture.
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture);
 // After drawing, reports the limits that suffice for what was left out because of a limit.
-void draw_report_needed(PetriPainter *painter, DiagSink *faults);
+void draw_report_needed(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults);
 // Reports that drawing was aborted because of a limit. Returns PETRI_INVALID, or PETRI_OUT_OF_MEMORY if there is no
 // memory for the report.
 PetriStatus draw_report_limit(DiagSink *faults);

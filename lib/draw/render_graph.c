@@ -494,6 +494,6 @@ PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture
     if (walk.gpu)
         gl_leave(painter->gl);
     *shown = end == ARENA_OK ? walk.shown : NULL;
-    draw_report_needed(painter, faults);
+    draw_report_needed(painter, picture, faults);
     return end == ARENA_OK ? PETRI_OK : end == ARENA_MEMORY_LIMIT ? draw_report_limit(faults) : PETRI_OUT_OF_MEMORY;
 }

@@ -112,7 +112,6 @@ double draw_fit(double width, double height, double box_width, double box_height
 
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
     painter->budget.memory_limit = picture->memory;
-    painter->session_memory = picture->session_memory;
     painter->lacks_memory = false;
     // Drawing has a separate work limit. Its work is not charged to the frame.
     budget_begin(&painter->budget, budget_drawing_limit(picture->work), NULL);
@@ -121,6 +120,7 @@ void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
 // The context of report_needed, which is called through arena_protect.
 typedef struct Needed {
     PetriPainter *painter;
+    const CanvasPicture *picture;
     DiagSink *faults;
 } Needed;
 
@@ -132,11 +132,11 @@ static void report_needed(void *context) {
                     budget_suggest_work(&painter->budget));
     if (painter->lacks_memory)
         draw_report(needed->faults, NULL, DIAG_NOTE, "memory-limit", "--memory %.0fM suffices to draw everything",
-                    budget_suggest_memory(&painter->budget, painter->session_memory));
+                    budget_suggest_memory(&painter->budget, needed->picture->session_memory));
 }
 
-void draw_report_needed(PetriPainter *painter, DiagSink *faults) {
-    Needed needed = {painter, faults};
+void draw_report_needed(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    Needed needed = {painter, picture, faults};
     (void)arena_protect(&faults->arena, 1, report_needed, &needed); // without memory, the note is left out
 }
 

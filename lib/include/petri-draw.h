@@ -318,7 +318,7 @@ PETRI_API PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *pa
 PETRI_API PetriStatus petri_picture_encode(PetriPicture *picture, PetriPainter *painter, const char *suffix,
                                            PetriWriteCallback *write, void *user_data);
 
-// Returns true if a shader of the last drawing was left out because it crashed the driver or exceeded a limit.
+// Returns true if a shader was left out of the picture because it is invalid, crashed the driver or exceeded a limit.
 PETRI_API bool petri_picture_lacks_shader(const PetriPicture *picture);
 
 // Reports the diagnostics of drawing and saving a picture to the session's on_diagnostic, each once per load. Must be

@@ -330,7 +330,7 @@ typedef struct PetriFrame {
 PETRI_API PetriFrame petri_frame(const PetriSession *session);
 
 // Returns the units of work (PetriOptions.work_limit) of all calls since the session was opened. They include constant
-// folding and the pictures that petri_picture_report has reported. With it, a host can limit a whole run.
+// folding, and each petri_picture_render that petri_picture_report has followed. With it, a host can limit a whole run.
 PETRI_API uint64_t petri_work(const PetriSession *session);
 
 // User input, for scripts with `!pointer` and `!key` nodes in a `!window`. Report input when it happens. The next frame
