@@ -149,15 +149,15 @@ static bool skip_system(Unchecked *rest, uint64_t texts) {
     return skip_bytes(rest, NULL, system.particles * 8); // anchor flags
 }
 
-// Returns true if a block contains a valid frame. Adds the number of its strings to *texts, the number of strings of
-// the earlier frames of the run. A hash does not suffice, because anyone can compute it.
-static bool check_frame(const char *block, uint64_t length, uint64_t *texts) {
+// Reads the start of a block, and returns true if the block contains a valid frame. Adds the number of its strings to
+// *texts, the number of strings of the earlier frames of the run. A hash does not suffice, because anyone can compute
+// it.
+static bool read_frame(const char *block, uint64_t length, Hdf5Frame *frame, uint64_t *texts) {
     Unchecked rest = {block, length};
-    Hdf5Frame frame;
-    if (!skip_bytes(&rest, &frame, sizeof frame) || !skip_texts(&rest, frame.text_bytes, frame.text_count))
+    if (!skip_bytes(&rest, frame, sizeof *frame) || !skip_texts(&rest, frame->text_bytes, frame->text_count))
         return false;
-    *texts += frame.text_count;
-    for (uint64_t i = 0; i < frame.system_count; i++)
+    *texts += frame->text_count;
+    for (uint64_t i = 0; i < frame->system_count; i++)
         if (!skip_system(&rest, *texts))
             return false;
     return rest.length == 0;
@@ -174,10 +174,7 @@ bool spool_next(Spool *spool, int64_t after, Hdf5Head *head, char **block) {
     if (!read_at(spool, at, *block, head->bytes) || hash_bytes(head->command, *block, head->bytes) != entry.hash)
         return false;
     if (head->command == HDF5_ADD) {
-        if (!check_frame(*block, head->bytes, &texts))
-            return false;
-        memcpy(&frame, *block, sizeof frame);
-        if (frame.number > after)
+        if (!read_frame(*block, head->bytes, &frame, &texts) || frame.number > after)
             return false;
         spool->has_frames = true;
     } else {
