@@ -218,6 +218,19 @@ void fuzz_put(const char *name, const void *bytes, size_t length) {
         fuzz_fail("cannot write %s", fuzz_file(name));
 }
 
+void fuzz_put_parts(const char *name, FuzzText *head, const uint8_t *data, size_t size, FuzzAddPart *add) {
+    const char *at = (const char *)data, *end = at + size, *part;
+    size_t length;
+    if (size > 0 && at[0] == '#') {
+        fuzz_put(name, at + 1, size - 1);
+    } else {
+        while (fuzz_next_part(&at, end, &part, &length))
+            add(head, part, length);
+        fuzz_put(name, head->bytes, head->length);
+    }
+    free(head->bytes);
+}
+
 void fuzz_put_state(const char *name, const void *text, size_t length) {
     FuzzText all = {0};
     char end[40];

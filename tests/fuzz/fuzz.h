@@ -49,6 +49,12 @@ bool fuzz_texts_equal(const FuzzText *a, const FuzzText *b);
 // start of the part after it. Returns false if *at is `end`.
 bool fuzz_next_part(const char **at, const char *end, const char **part, size_t *length);
 
+// Appends a part to a file, for fuzz_put_parts.
+typedef void FuzzAddPart(FuzzText *file, const char *part, size_t length);
+// Writes a file in the harness's folder (fuzz_put). If the first byte of the input is '#', the rest is the file.
+// Otherwise, the file consists of `head`, which is freed, and of what `add` appends for each part (fuzz_next_part).
+void fuzz_put_parts(const char *name, FuzzText *head, const uint8_t *data, size_t size, FuzzAddPart *add);
+
 // Returns the path of a file in this process's temporary folder. The string stays valid for the next three calls.
 const char *fuzz_file(const char *name);
 // Writes a file in that folder.

@@ -26,21 +26,12 @@ static void add_result(FuzzText *journal, const char *result, size_t length) {
     fuzz_append(journal, result + used, length - used);
 }
 
-static void put_journal(const Sweep *sweep, const char *data, size_t size) {
+static void put_journal(const Sweep *sweep, const uint8_t *data, size_t size) {
     FuzzText journal = {0};
-    const char *at = data, *part;
-    size_t length;
-    if (size > 0 && data[0] == '#') {
-        fuzz_append(&journal, data + 1, size - 1);
-    } else {
-        fuzz_append(&journal, "petri sweep 1 ", 14);
-        fuzz_append(&journal, sweep->identity, strlen(sweep->identity));
-        fuzz_append(&journal, "\n", 1);
-        while (fuzz_next_part(&at, data + size, &part, &length))
-            add_result(&journal, part, length);
-    }
-    fuzz_put("table.csv.part", journal.bytes ? journal.bytes : "", journal.length);
-    free(journal.bytes);
+    fuzz_append(&journal, "petri sweep 1 ", 14);
+    fuzz_append(&journal, sweep->identity, strlen(sweep->identity));
+    fuzz_append(&journal, "\n", 1);
+    fuzz_put_parts("table.csv.part", &journal, data, size, add_result);
 }
 
 // Calls the functions that print results, which need a result for each run.
@@ -68,7 +59,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (!design_make(&sweep.design, &options, &context))
         fuzz_fail("cannot plan the runs");
     sweep.results = calloc(sweep.design.run_count, sizeof *sweep.results);
-    put_journal(&sweep, (const char *)data, size);
+    put_journal(&sweep, data, size);
     const char *output = fuzz_file("table.csv");
     if (journal_open(&journal, &sweep, output) == STATUS_DONE) {
         print_results(&sweep);

@@ -41,22 +41,6 @@ static void add_message(FuzzText *all, const char *message, size_t length) {
     fuzz_append(all, message, length);
 }
 
-static void put_messages(const char *data, size_t size) {
-    static const char first[] = "{\"id\":0,\"method\":\"initialize\",\"params\":{}}";
-    FuzzText all = {0};
-    const char *at = data, *part;
-    size_t length;
-    if (size > 0 && data[0] == '#') {
-        fuzz_append(&all, data + 1, size - 1);
-    } else {
-        add_message(&all, first, sizeof first - 1);
-        while (fuzz_next_part(&at, data + size, &part, &length))
-            add_message(&all, part, length);
-    }
-    fuzz_put("sent", all.bytes ? all.bytes : "", all.length);
-    free(all.bytes);
-}
-
 static int serve(const CommandContext *context, Options *options) {
     options->work = 1 << 20;
     options->memory = 64 << 20;
@@ -66,12 +50,15 @@ static int serve(const CommandContext *context, Options *options) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const CommandContext context = {
         .program = "petri", .invoked_as = "petri", .stack_bytes = 1 << 20, .run_lsp = serve};
+    static const char first[] = "{\"id\":0,\"method\":\"initialize\",\"params\":{}}";
+    FuzzText messages = {0};
     if (asked == 0) {
         fuzz_put("part.fl", "let part=3\nfunc twice(x)\n    2*x\n", 33);
         if (chdir(fuzz_file("")) != 0)
             fuzz_fail("cannot enter the harness's folder");
     }
-    put_messages((const char *)data, size);
+    add_message(&messages, first, sizeof first - 1);
+    fuzz_put_parts("sent", &messages, data, size, add_message);
     int file = open(fuzz_file("sent"), O_RDONLY);
     if (file < 0 || dup2(file, STDIN_FILENO) < 0)
         fuzz_fail("cannot redirect the input");

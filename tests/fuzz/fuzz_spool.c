@@ -18,21 +18,6 @@ static void add_block(FuzzText *file, const char *bytes, size_t length) {
     fuzz_append(file, bytes, length);
 }
 
-static void put_spool(const char *data, size_t size) {
-    FuzzText file = {0};
-    const char *at = data, *part;
-    size_t length;
-    if (size > 0 && data[0] == '#') {
-        fuzz_append(&file, data + 1, size - 1);
-    } else {
-        fuzz_append(&file, "petri way 1 is whole \n", 22);
-        while (fuzz_next_part(&at, data + size, &part, &length))
-            add_block(&file, part, length);
-    }
-    fuzz_put("t.h5.part", file.bytes ? file.bytes : "", file.length);
-    free(file.bytes);
-}
-
 static void read_frames(Spool *spool, Store *store) {
     TrajectoryFile file;
     Hdf5Head head;
@@ -48,9 +33,11 @@ static void read_frames(Spool *spool, Store *store) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    FuzzText file = {0};
     Spool spool;
     Store store;
-    put_spool((const char *)data, size);
+    fuzz_append(&file, "petri way 1 is whole \n", 22);
+    fuzz_put_parts("t.h5.part", &file, data, size, add_block);
     const char *path = fuzz_file("t.h5");
     bool opened = spool_open(&spool, path, false);
     if (opened && store_begin(&store, path, false)) {
