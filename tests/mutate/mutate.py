@@ -90,17 +90,16 @@ class Checkout:
         self.folder = root / f'build-mutate/{number}'
         self.build = self.folder / 'build'
 
-    def prepare(self, root, targets):
-        """Copies the sources and compiles the targets without a fault; ends the program if that fails."""
-        if self.folder != self.first:
-            shutil.rmtree(self.folder, ignore_errors=True)
-            shutil.copytree(self.first, self.folder, symlinks=True)
-            return
+    def copy_first(self):
+        """Replaces this checkout by a copy of the first."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+        shutil.copytree(self.first, self.folder, symlinks=True)
+
+    def prepare(self, root):
+        """Copies the sources and configures the build if necessary; ends the program if that fails."""
         copy_sources(root, self.folder)
         if not (self.build / 'build.ninja').exists():
             self.call('meson', 'setup', self.build, self.folder, '--buildtype=plain', '--optimization=1')
-        if targets:
-            self.call('ninja', '-C', self.build, *targets)
 
     @staticmethod
     def call(*command):
@@ -114,10 +113,15 @@ class Checkout:
         return subprocess.run(['ninja', '-C', self.build, *targets], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                               check=False).returncode == 0
 
-    def objects(self, path):
-        """Returns the object files of a C source, relative to the build."""
+    def objects(self):
+        """Returns the contents of the compiled object files of each C source: {source: {object: bytes}}, with relative paths."""
         commands = json.loads((self.build / 'compile_commands.json').read_text(encoding='utf8'))
-        return [c['output'] for c in commands if (self.build / c['file']).resolve() == (self.folder / path).resolve()]
+        found = {}
+        for command in commands:
+            source, compiled = os.path.relpath(self.build / command['file'], self.folder), self.build / command['output']
+            if compiled.exists():
+                found.setdefault(source, {})[command['output']] = compiled.read_bytes()
+        return found
 
     def tests(self, suites):
         """Returns the tests with these names or in these suites."""
@@ -125,14 +129,13 @@ class Checkout:
                                check=True)
         shown = json.loads(shown.stdout.replace(f'{self.first}/', f'{self.folder}/'))
         files = {t['id']: [os.path.relpath(f, self.build) for f in t['filename']] for t in shown['targets']}
-        found = []
+        known, found = set(itertools.chain(*files.values())), []
         for test in shown['tests']:
             names = {part.split(':')[-1] for part in test['suite']}
             targets = [f for t in test['depends'] if t in files for f in files[t]]
             targets += [os.path.relpath(c, self.build) for c in test['cmd'] if c.startswith(f'{self.build}/')]
             if 'src/petri' in targets:
                 targets.append('src/petri-pictures')
-            known = set(itertools.chain(*files.values()))
             found.append(Test(test['name'], test['cmd'], test['env'], test['workdir'] or str(self.build), names,
                               sorted(known & set(targets))))
         return [t for t in found if suites & (t.suites | {t.name})]
@@ -168,17 +171,15 @@ class Worker:
 
     def __init__(self, checkout, groups, limits):
         self.checkout, self.groups, self.limits = checkout, groups, limits
-        self.originals = {}  # contents of object files without a fault
+        self.originals = checkout.objects()  # without a fault
 
     def changes_code(self, mutant):
         """Compiles the mutant alone; returns whether its object code differs, None if it does not compile."""
-        objects = self.checkout.objects(mutant.path)
-        for name in objects:
-            self.originals.setdefault(name, (self.checkout.build / name).read_bytes())
+        objects = self.originals.get(mutant.path, {})
         (self.checkout.folder / mutant.path).write_text(plant(mutant.text, mutant.fault), encoding='utf8')
         if objects and not self.checkout.compiles(objects):
             return None
-        return not objects or any(self.originals[o] != (self.checkout.build / o).read_bytes() for o in objects)
+        return not objects or any((self.checkout.build / o).read_bytes() != old for o, old in objects.items())
 
     def judge(self, mutant):
         """Returns the name of the test that catches the mutant, 'survived', 'not compiled' or 'same code'."""
@@ -295,15 +296,18 @@ def main():
         options.count = len(wanted)
     own, suites = suites_of(paths)
     first = Checkout(root, 1)
-    first.prepare(root, [])
+    first.prepare(root)
     tests = first.tests(suites)
+    if not any(CORPORA not in test.suites for test in tests):
+        sys.exit(f'mutate: no suite tests {", ".join(paths)}')
     targets = sorted({t for test in tests for t in test.targets})
-    first.prepare(root, targets)
+    first.call('ninja', '-C', first.build, *targets)
     groups, limits = measure(tests, own, bool(options.only))
     workers = []
     for number in range(1, (os.cpu_count() or 1) + 1):
         checkout = Checkout(root, number)
-        checkout.prepare(root, targets)
+        if number > 1:
+            checkout.copy_first()
         tests = {t.name: t for t in checkout.tests(suites)}
         workers.append(Worker(checkout, [[tests[name] for name in group] for group in groups], limits))
     survey = Survey(mutants, options.count)
