@@ -42,6 +42,16 @@ static inline void player_report(void *user_data, const PetriDiagnostic *diagnos
     note(&player->diagnostics, line, (size_t)len < sizeof line ? (size_t)len : sizeof line - 1);
 }
 
+static inline void player_ignore_token(void *user_data, const PetriToken *token) {
+    (void)user_data;
+    (void)token;
+}
+
+static inline void player_ignore_name(void *user_data, const PetriBinding *name) {
+    (void)user_data;
+    (void)name;
+}
+
 static inline PetriOptions player_options(Player *player) {
     PetriOptions options = petri_default_options();
     options.on_diagnostic = player_report;

@@ -155,6 +155,24 @@ static void test_tokens(void **state) {
     }
 }
 
+typedef struct NamesRow {
+    const char *text;
+    const char *names;
+} NamesRow;
+
+// Checks what `note_binding` writes for all names of each text.
+static void check_names(Player *player, const NamesRow *rows, size_t count,
+                        void (*note_binding)(void *host, const PetriBinding *name)) {
+    for (size_t i = 0; i < count; i++) {
+        player->printed.len = 0;
+        note(&player->printed, "", 0);
+        assert_int_equal(
+            petri_bindings(player->session, rows[i].text, PETRI_NUL_TERMINATED, note_binding, &player->printed),
+            PETRI_OK);
+        assert_string_equal(player->printed.text, rows[i].names);
+    }
+}
+
 static void note_name(void *host, const PetriBinding *name) {
     char line[60];
     int len = name->kind != PETRI_NAME_USE ? snprintf(line, sizeof line, "%c%zu[%zu-%zu] ", "?lfpxi"[name->kind],
@@ -168,10 +186,7 @@ static void note_name(void *host, const PetriBinding *name) {
 // Each name is written with its binding or its scope (language.md L8.2). After a syntax error, only the names of the
 // erroneous statement are missing.
 static void test_bindings(void **state) {
-    static const struct {
-        const char *text;
-        const char *names;
-    } rows[] = {
+    static const NamesRow rows[] = {
         {"let a=a\n!n x=a\n", "6? l4[7-15] 13=4 "},
         {"let a=1 b=a\n", "l4[7-12] 10=4 l8[11-12] "},
         {"func f(x, y=x)\n    f(x)\nf(1, y=2)\n", "12? f5[19-34] p7[19-24] p10[19-24] 19=5 21=7 24=5 29=10 "},
@@ -191,14 +206,7 @@ static void test_bindings(void **state) {
         {"let f=func(x) x\nf(x=1)\n", "p11[14-15] 14=11 l4[15-23] 16=4 18=11 "},
         {"let f=(x;y)[0]\nf(x=1)\n", "7? 9? l4[14-22] 15=4 "},
     };
-    Player *player = *state;
-    for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        player->printed.len = 0;
-        note(&player->printed, "", 0);
-        assert_int_equal(
-            petri_bindings(player->session, rows[i].text, PETRI_NUL_TERMINATED, note_name, &player->printed), PETRI_OK);
-        assert_string_equal(player->printed.text, rows[i].names);
-    }
+    check_names(*state, rows, COUNT_OF(rows), note_name);
 }
 
 static void note_value(void *host, const PetriBinding *name) {
@@ -211,24 +219,14 @@ static void note_value(void *host, const PetriBinding *name) {
 
 // Each binding is written with its value and depth. `!` follows if the value is bound to this name only.
 static void test_bindings_have_values(void **state) {
-    static const struct {
-        const char *text;
-        const char *names;
-    } rows[] = {
+    static const NamesRow rows[] = {
         {"let ab=1 c;d=2;3\n", "4-6[7-8]0! 9-10[13-16]0 11-12[13-16]0 "},
         {"func f(x, y=2)\n    let z=x\n    z\n", "5-6[0-33]0! 7-8[7-8]1! 10-11[10-13]1! 23-24[25-26]2! "},
         {"for i;j in ..4\n    i\n", "4-5[11-14]0 6-7[11-14]0 "},
         {"import a from 'f'\n", "7-8[14-17]0! "},
         {"!n x=a where a=2\n", "13-14[15-16]0! "},
     };
-    Player *player = *state;
-    for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        player->printed.len = 0;
-        assert_int_equal(
-            petri_bindings(player->session, rows[i].text, PETRI_NUL_TERMINATED, note_value, &player->printed),
-            PETRI_OK);
-        assert_string_equal(player->printed.text, rows[i].names);
-    }
+    check_names(*state, rows, COUNT_OF(rows), note_value);
 }
 
 static const char profiled_script[] = "let a=frame\n\n!b x=a\n!counter state=:c rate=1\n";

@@ -99,16 +99,6 @@ static void test_work_is_summed(void **state) {
     assert_in_range(petri_work(player->session), loaded + 2 * frame + (1 << 27), loaded + 3 * frame + (1 << 27));
 }
 
-static void ignore_token(void *host, const PetriToken *token) {
-    (void)host;
-    (void)token;
-}
-
-static void ignore_name(void *host, const PetriBinding *name) {
-    (void)host;
-    (void)name;
-}
-
 // Reading the names of a text is limited like a frame. Besides the work of the parser, which petri_tokenise also does,
 // each node of the syntax tree is one unit of work.
 static void test_bindings_count_as_work(void **state) {
@@ -116,9 +106,9 @@ static void test_bindings_count_as_work(void **state) {
     char text[2 * 5000];
     for (size_t i = 0; i < sizeof text; i++)
         text[i] = i % 2 ? ';' : '1';
-    assert_int_equal(petri_tokenise(player->session, text, sizeof text - 1, ignore_token, NULL), PETRI_OK);
+    assert_int_equal(petri_tokenise(player->session, text, sizeof text - 1, player_ignore_token, NULL), PETRI_OK);
     uint64_t parsing = petri_work(player->session);
-    assert_int_equal(petri_bindings(player->session, text, sizeof text - 1, ignore_name, NULL), PETRI_OK);
+    assert_int_equal(petri_bindings(player->session, text, sizeof text - 1, player_ignore_name, NULL), PETRI_OK);
     assert_in_range(petri_work(player->session), 2 * parsing + 5000, 2 * parsing + 6000);
 }
 

@@ -256,24 +256,14 @@ static PetriStatus act_dump(Stage *stage) {
                               : status;
 }
 
-static void ignore_token(void *host, const PetriToken *token) {
-    (void)host;
-    (void)token;
-}
-
-static void ignore_name(void *host, const PetriBinding *name) {
-    (void)host;
-    (void)name;
-}
-
 static PetriStatus act_names(Stage *stage) {
     return petri_bindings(stage->player.session, "let other_name=(1;'two';:three)\nfunc g(x)\n    x\n",
-                          PETRI_NUL_TERMINATED, ignore_name, NULL);
+                          PETRI_NUL_TERMINATED, player_ignore_name, NULL);
 }
 
 static PetriStatus act_tokens(Stage *stage) {
     return petri_tokenise(stage->player.session, "let new_name=(1;'two';:three) -- four\n", PETRI_NUL_TERMINATED,
-                          ignore_token, NULL);
+                          player_ignore_token, NULL);
 }
 
 static PetriStatus act_prompt_check(Stage *stage) {

@@ -13,16 +13,6 @@ static const char *const KEYS = "!physics state=:a dimensions=2 time=beat\n    !
                                 "!physics state=:b dimensions=1 time=beat\n    !particle id=1\n"
                                 "!window\n    !key name=:space state=:space\n    !pointer state=:mouse\n";
 
-static void ignore_name(void *host, const PetriBinding *name) {
-    (void)host;
-    (void)name;
-}
-
-static void ignore_token(void *host, const PetriToken *token) {
-    (void)host;
-    (void)token;
-}
-
 // Strings stay valid as long as petri.h documents, whatever functions are called in the meantime.
 static void test_texts_stay_valid(void **state) {
     Player *player = *state;
@@ -210,11 +200,11 @@ static void test_null_arguments_are_accepted(void **state) {
         petri_profile(session, 0, NULL, NULL),
         petri_dump(none, PETRI_DUMP_AST, note, &player->printed),
         petri_dump(session, PETRI_DUMP_AST, NULL, NULL),
-        petri_tokenise(none, "1", 1, ignore_token, NULL),
-        petri_tokenise(session, NULL, 0, ignore_token, NULL),
+        petri_tokenise(none, "1", 1, player_ignore_token, NULL),
+        petri_tokenise(session, NULL, 0, player_ignore_token, NULL),
         petri_tokenise(session, "1", 1, NULL, NULL),
-        petri_bindings(none, "1", 1, ignore_name, NULL),
-        petri_bindings(session, NULL, 0, ignore_name, NULL),
+        petri_bindings(none, "1", 1, player_ignore_name, NULL),
+        petri_bindings(session, NULL, 0, player_ignore_name, NULL),
         petri_bindings(session, "1", 1, NULL, NULL),
         petri_prompt(none, "1", 1, NULL, NULL, &done),
         petri_prompt(session, NULL, 0, NULL, NULL, &done),
