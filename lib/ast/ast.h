@@ -2,8 +2,7 @@
 //
 // Nodes are allocated in an arena, are immutable once built and store their location in the source. ast_list.h lists
 // the children of each kind.
-#ifndef PETRI_AST_AST_H
-#define PETRI_AST_AST_H
+#pragma once
 
 #include "base/source.h"
 #include "value/value.h"
@@ -49,5 +48,3 @@ Ast *ast_literal(Arena *arena, Span span, Value value);
 const char *ast_kind_name(AstKind kind);
 // Appends the tree as indented text with line numbers, for --dump=ast.
 void ast_print(Text *out, const SymbolTable *symbols, const Source *source, const Ast *ast);
-
-#endif

@@ -1,6 +1,5 @@
 // literal.h: the values of literal tokens (spec language.md L2.5 to L2.8).
-#ifndef PETRI_AST_LITERAL_H
-#define PETRI_AST_LITERAL_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/str.h"
@@ -17,5 +16,3 @@ const char *literal_string(Arena *arena, Str token, Str *text);
 bool literal_parse_number(Str text, double *x);
 // Parses a string as a timecode. Returns false if the whole string is not a timecode.
 bool literal_parse_timecode(Str text, double *x);
-
-#endif

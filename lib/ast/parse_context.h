@@ -1,7 +1,6 @@
 // parse_context.h: data shared by the grammar's actions and the driver of the parser (syntax/parse.c). The actions
 // record errors here, and the driver reports them.
-#ifndef PETRI_AST_PARSE_CONTEXT_H
-#define PETRI_AST_PARSE_CONTEXT_H
+#pragma once
 
 #include "ast/ast.h"
 #include "ast/token.h"
@@ -39,5 +38,3 @@ typedef struct ParseContext {
     ParseTokenCallback *on_token; // called with each token; NULL: none
     void *user_data;              // passed to on_token
 } ParseContext;
-
-#endif

@@ -1,6 +1,5 @@
 // token.h: tokens, and the interface of the lexer (grammar/lexer.re).
-#ifndef PETRI_AST_TOKEN_H
-#define PETRI_AST_TOKEN_H
+#pragma once
 
 #include "base/source.h"
 #include "value/value.h"
@@ -24,5 +23,3 @@ Lexer lexer_new(const Source *source);
 // subsequent blank and comment lines and the indentation of the next line. At the end of the source, every call returns
 // END.
 Token lexer_next(Lexer *lexer);
-
-#endif

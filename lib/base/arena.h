@@ -5,8 +5,7 @@
 // is exhausted, it escapes: it jumps (longjmp) to the enclosing arena_protect, which returns the reason. Public
 // functions, such as those that load a script or compute a frame, convert the reason to a status. If no arena_protect
 // encloses the call, which is a bug in petri, the process is aborted.
-#ifndef PETRI_BASE_ARENA_H
-#define PETRI_BASE_ARENA_H
+#pragma once
 
 #include "base/budget.h"
 
@@ -151,5 +150,3 @@ _Noreturn void arena_escape(const Arena *arena, ArenaOutcome end);
 ArenaMark arena_mark(const Arena *arena);
 // Drops all allocations made since the mark. Pointers to them become invalid.
 void arena_rewind(Arena *arena, ArenaMark mark);
-
-#endif

@@ -4,8 +4,7 @@
 // of sixteen numbers. An operation charges its work before doing it, through the arena from which it allocates
 // (arena.h). Large operations charge in chunks, because an interrupt is noticed only when work is charged. A block of
 // memory is charged from its allocation until it is freed, even while none of it is in use.
-#ifndef PETRI_BASE_BUDGET_H
-#define PETRI_BASE_BUDGET_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -72,5 +71,3 @@ size_t budget_memory_left(const Budget *budget);
 bool budget_reserve(Budget *budget, size_t bytes);
 // Releases memory that budget_reserve has charged.
 void budget_release(Budget *budget, size_t bytes);
-
-#endif

@@ -1,6 +1,5 @@
 // cpu.h: detection of vector instructions and of the number of processors.
-#ifndef PETRI_BASE_CPU_H
-#define PETRI_BASE_CPU_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -22,5 +21,3 @@ const char *cpu_name(CpuLevel level);
 
 // Returns the number of processors that this process may run on, at least 1.
 int cpu_count(void);
-
-#endif

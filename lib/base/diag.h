@@ -2,8 +2,7 @@
 //
 // Code in lib/ reports errors and warnings to a sink; only src/ prints them. The sink stores them in its arena. A
 // diagnostic with the same text and location is stored once, because a script is evaluated up to 60 times a second.
-#ifndef PETRI_BASE_DIAG_H
-#define PETRI_BASE_DIAG_H
+#pragma once
 
 #include "base/hash_index.h"
 #include "base/source.h"
@@ -44,5 +43,3 @@ Str diag_text(const Diag *diag);
 void diag_format(Text *out, const Diag *diag, bool colour);
 // Returns `text (FILE:LINE)`, the format used in the `?` section of a printed frame.
 Str diag_one_line(Arena *arena, const Diag *diag);
-
-#endif

@@ -1,6 +1,5 @@
 // file.h: functions that read and write whole files.
-#ifndef PETRI_BASE_FILE_H
-#define PETRI_BASE_FILE_H
+#pragma once
 
 #include "base/file_access.h"
 
@@ -34,5 +33,3 @@ bool file_resolve(const char *path, char resolved[PATH_MAX]);
 // Returns a NUL-terminated path with symbolic links, "." and ".." resolved. A path that does not exist is copied
 // unchanged. If the host provides the files (FileAccess.read_file), the path is only normalised.
 Str file_canonical(Arena *arena, const FileAccess *file_access, const char *path);
-
-#endif

@@ -3,8 +3,7 @@
 // A script may use only files below certain folders. A path is first made canonical: symbolic links, "." and
 // ".." are resolved. The canonical path must be below one of the folders. The file is then opened relative to that
 // folder without following links, so that a link created in the meantime cannot redirect it.
-#ifndef PETRI_BASE_FILE_ACCESS_H
-#define PETRI_BASE_FILE_ACCESS_H
+#pragma once
 
 #include "base/replace.h"
 #include "base/str.h"
@@ -57,5 +56,3 @@ bool file_access_replace(const FileAccess *file_access, const char *path, Replac
 bool file_access_make_folders(const FileAccess *file_access, const char *path);
 // Returns why access to a path is denied and which option would allow it, as a constant string or one in the arena.
 const char *file_access_reason(Arena *arena, const FileAccess *file_access, FileAccessKind kind, const char *path);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // The owner stores its entries in an array, in order of insertion. The index maps hashes to positions in that array, so
 // entries stay dense and ordered. It is used for symbols, state keys and diagnostics.
-#ifndef PETRI_BASE_HASH_INDEX_H
-#define PETRI_BASE_HASH_INDEX_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -41,5 +40,3 @@ void hash_index_remove(HashIndex *index, uint64_t hash, uint32_t entry);
 uint64_t hash_bytes(uint64_t seed, const void *bytes, size_t len);
 // Returns x mixed by SplitMix64.
 uint64_t hash_mix(uint64_t x);
-
-#endif

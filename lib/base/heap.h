@@ -3,8 +3,7 @@
 // Memory comes from the C library or from the functions set by petri_set_allocator. All libraries allocate through this
 // file, which tests/lint/check_allocators.sh enforces. Blocks are aligned to 16 bytes. Allocations return NULL if out
 // of memory. Any thread may call these functions, except heap_set_allocator.
-#ifndef PETRI_BASE_HEAP_H
-#define PETRI_BASE_HEAP_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -34,5 +33,3 @@ char *heap_strndup(const char *bytes, size_t length);
 // Ensures that the heap array *array can hold at least count + 1 elements of `size` bytes each. Updates *capacity if
 // the array grows. Returns false, with nothing changed, if out of memory.
 bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
-
-#endif

@@ -1,6 +1,5 @@
 // number.h: locale-independent conversion between doubles and text.
-#ifndef PETRI_BASE_NUMBER_H
-#define PETRI_BASE_NUMBER_H
+#pragma once
 
 #include "base/str.h"
 
@@ -46,5 +45,3 @@ static inline bool numbers_finite(const double *numbers, size_t n, size_t stride
         finite &= numbers[k * stride] - numbers[k * stride] == 0;
     return finite;
 }
-
-#endif

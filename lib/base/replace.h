@@ -5,8 +5,7 @@
 // either the complete old file or the complete new one, even after a crash or kill -9. Owner and permissions are kept.
 // A symbolic link is kept and its target is replaced. A target is written to directly if it is not a regular file (a
 // device, a pipe) or if it is the file to which stdout or stderr is connected.
-#ifndef PETRI_BASE_REPLACE_H
-#define PETRI_BASE_REPLACE_H
+#pragma once
 
 #include <limits.h>
 #include <stdbool.h>
@@ -44,5 +43,3 @@ bool replace_end(Replacement *replacement);
 void replace_abort(Replacement *replacement);
 // Flushes a file or folder to disk. Also returns true if the file system does not support this.
 bool replace_sync(int file);
-
-#endif

@@ -1,6 +1,5 @@
 // sha256.h: incremental SHA-256 (FIPS 180-4).
-#ifndef PETRI_BASE_SHA256_H
-#define PETRI_BASE_SHA256_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -17,5 +16,3 @@ Sha256 sha256_new(void);
 void sha256_add(Sha256 *hash, const char *text, size_t length);
 // Writes the hash as hexadecimal digits without a NUL byte. `hash` must not be used after this call.
 void sha256_end(Sha256 *hash, char digits[SHA256_DIGITS]);
-
-#endif

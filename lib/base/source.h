@@ -1,8 +1,7 @@
 // source.h: source files and positions in them.
 //
 // Tokens and syntax nodes store only byte offsets. Line and column are computed when a diagnostic needs them.
-#ifndef PETRI_BASE_SOURCE_H
-#define PETRI_BASE_SOURCE_H
+#pragma once
 
 #include "base/str.h"
 
@@ -46,5 +45,3 @@ uint32_t source_line(const Source *source, uint32_t offset);
 Str path_directory(Str path);
 // Returns `path` if it is absolute or `directory` is empty, else both joined by a slash.
 Str path_join(Arena *arena, Str directory, Str path);
-
-#endif

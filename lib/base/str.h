@@ -1,6 +1,5 @@
 // str.h: string views, a growing string buffer, and UTF-8.
-#ifndef PETRI_BASE_STR_H
-#define PETRI_BASE_STR_H
+#pragma once
 
 #include "base/arena.h"
 
@@ -88,5 +87,3 @@ size_t utf8_encode(uint32_t code_point, char bytes[UTF8_MAX]);
 size_t utf8_find_error(Str text);
 // Returns the number of code points. Each ill-formed byte counts as one.
 size_t utf8_length(Str text);
-
-#endif

@@ -4,8 +4,7 @@
 // categories Cc Cf Cs Co Cn Zl Zp Zs above U+007F as of Unicode 14.0, except characters that are Alphabetic or digits
 // in 16.0.
 // clang-format off
-#ifndef PETRI_BASE_UNICODE_TABLES_H
-#define PETRI_BASE_UNICODE_TABLES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -304,5 +303,3 @@ static const UnicodeRange unprintable[] = {
     {0x2a6e0, 0x2a6ff}, {0x2b73a, 0x2b73f}, {0x2b81e, 0x2b81f}, {0x2cea2, 0x2ceaf}, {0x2ebe1, 0x2ebef},
     {0x2ee5e, 0x2f7ff}, {0x2fa1e, 0x2ffff}, {0x3134b, 0x3134f}, {0x323b0, 0xe00ff}, {0xe01f0, 0x10ffff},
 };
-
-#endif

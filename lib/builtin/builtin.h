@@ -4,8 +4,7 @@
 // its arguments in the order of the parameters; a missing argument is VALUE_ABSENT. It returns the specified value, or
 // null for arguments of the wrong form. If the spec calls this a *bad call*, it also reports the call with
 // builtin_error.
-#ifndef PETRI_BUILTIN_BUILTIN_H
-#define PETRI_BUILTIN_BUILTIN_H
+#pragma once
 
 #include "base/file_access.h"
 #include "value/node.h"
@@ -65,5 +64,3 @@ Value builtin_error(BuiltinContext *context, const char *name, const char *forma
 // Looks up a predefined constant (L4.2): true false null inf nan pi π tau 𝜏. Returns false if the name is not a
 // constant.
 bool builtin_constant(Str name, Value *value);
-
-#endif

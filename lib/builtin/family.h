@@ -1,6 +1,5 @@
 // family.h: helpers shared by the built-ins; private to lib/builtin.
-#ifndef PETRI_BUILTIN_FAMILY_H
-#define PETRI_BUILTIN_FAMILY_H
+#pragma once
 
 #include "base/cpu.h"
 #include "builtin/builtin.h"
@@ -68,5 +67,3 @@ size_t builtin_scan_digits(Str text);
 // Returns true if the text is an integer: digits as in builtin_scan_digits, with an optional sign and surrounding white
 // space.
 bool builtin_is_integer(Str text);
-
-#endif

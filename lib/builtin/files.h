@@ -3,8 +3,7 @@
 // Each combination of a path and a parser has one entry with its own arena. Failures are also cached: a missing file is
 // reported only once, and is read when it appears. Built-ins return copies of cached data, because any later call can
 // evict entries.
-#ifndef PETRI_BUILTIN_FILES_H
-#define PETRI_BUILTIN_FILES_H
+#pragma once
 
 #include "builtin/builtin.h"
 
@@ -24,5 +23,3 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
 
 // For parsers: returns true if the bytes are UTF-8, else sets *problem.
 bool file_is_text(const char *bytes, size_t len, const char **problem);
-
-#endif

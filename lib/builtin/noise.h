@@ -2,8 +2,7 @@
 //
 // A script uses the same few seeds in every frame, often for one point at a time. Shuffling 256 numbers in each call
 // would take longer than computing the noise. The cache is optional.
-#ifndef PETRI_BUILTIN_NOISE_H
-#define PETRI_BUILTIN_NOISE_H
+#pragma once
 
 #include "builtin/builtin.h"
 
@@ -14,5 +13,3 @@ void noise_cache_free(NoiseCache *cache);
 // Sets to[i] to the noise at the point (x[i], y[i]) of the plane, for each i below `count`.
 void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
                           double *to);
-
-#endif

@@ -1,6 +1,5 @@
 // noise_point.h: classic OpenSimplex noise at one point; private to lib/builtin.
-#ifndef PETRI_BUILTIN_NOISE_POINT_H
-#define PETRI_BUILTIN_NOISE_POINT_H
+#pragma once
 
 #include "maths/arrays.h"
 
@@ -14,5 +13,3 @@ double noise_point_4(const uint8_t *permutation, const double *c);
 
 // Returns the constants with which maths_plane_noise_array computes the same results as noise_point_2.
 PlaneNoise noise_plane(void);
-
-#endif

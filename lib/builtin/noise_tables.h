@@ -1,8 +1,7 @@
 // noise_tables.h: constants, gradients and vertices of classic OpenSimplex noise (spec noise_tables.txt, B10).
 //
 // Included by noise_point.c alone.
-#ifndef PETRI_BUILTIN_NOISE_TABLES_H
-#define PETRI_BUILTIN_NOISE_TABLES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -127,5 +126,3 @@ static const NoiseVertex NOISE_EXT4_CORNER2[16][3] = {
     [10] = {{{0, 1, 0, 1}, {0}, 2}, {{0, 1, 0, 1}, {0, 1, 0, 0}, 3}, {{0, 1, 0, 2}, {0}, 3}},
     [12] = {{{0, 0, 1, 1}, {0}, 2}, {{0, 0, 1, 1}, {0, 0, 1, 0}, 3}, {{0, 0, 1, 2}, {0}, 3}},
 };
-
-#endif

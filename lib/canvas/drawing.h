@@ -3,8 +3,7 @@
 //
 // The tree is translated and checked in the session's thread. The code that draws, perhaps in another thread, never
 // sees symbols or values of the language.
-#ifndef PETRI_CANVAS_DRAWING_H
-#define PETRI_CANVAS_DRAWING_H
+#pragma once
 
 #include "schema/reader.h"
 
@@ -52,5 +51,3 @@ static inline bool draw_pair(const DrawNode *node, AttrName name, double pair[2]
     pair[1] = attr ? attr->as.numbers[1] : 0;
     return attr;
 }
-
-#endif

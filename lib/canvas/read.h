@@ -1,6 +1,5 @@
 // read.h: translates the nodes of a window to a drawing.
-#ifndef PETRI_CANVAS_READ_H
-#define PETRI_CANVAS_READ_H
+#pragma once
 
 #include "canvas/drawing.h"
 
@@ -16,5 +15,3 @@ bool canvas_window_has_picture(const Schema *schema, const Node *window);
 
 // Copies a `!window` or `!offscreen` into the arena. Unknown, misplaced and malformed nodes are reported and left out.
 const DrawNode *canvas_read(Schema *schema, Arena *arena, const Node *window);
-
-#endif

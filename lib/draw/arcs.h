@@ -1,6 +1,5 @@
 // arcs.h: conversion of elliptical arcs to Bézier curves.
-#ifndef PETRI_DRAW_ARCS_H
-#define PETRI_DRAW_ARCS_H
+#pragma once
 
 enum { ARCS_MAX = 10 };
 // Converts the arc with the PATH_ARC operands `n` to Bézier curves and returns the number of curves. Each curve has two
@@ -10,5 +9,3 @@ int arcs_of_ellipse(const double n[6], double scale, double start[2], double cur
 // Like arcs_of_ellipse, for an arc that starts at `from` and has the PATH_ARC_TO operands `n`. If the result is 0, the
 // caller must draw a straight line to the end point.
 int arcs_to_point(const double from[2], const double n[7], double curves[ARCS_MAX][6]);
-
-#endif

@@ -7,8 +7,7 @@
 // The view of a system is chosen in the first frame that has particles. If particles leave the view later, the view
 // grows around its centre; it never shrinks. The view depends only on the particles of the frames for which auto_frame
 // was called. Axes through the origin and a labelled scale bar provide orientation.
-#ifndef PETRI_DRAW_AUTOMATIC_H
-#define PETRI_DRAW_AUTOMATIC_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/str.h"
@@ -74,5 +73,3 @@ typedef struct AutoPicture {
 void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system);
 // Creates the lines of the scale bar for system->frame and stores them in system->scale.
 void auto_scale(Arena *arena, AutoSystem *system);
-
-#endif

@@ -3,8 +3,7 @@
 //
 // A picture is plain data and is not modified while it is drawn. A painter caches fonts and images between pictures.
 // A picture or painter must be used by only one thread at a time. There is no global state.
-#ifndef PETRI_DRAW_CAIRO_CANVAS_H
-#define PETRI_DRAW_CAIRO_CANVAS_H
+#pragma once
 
 #include "base/diag.h"
 #include "base/file_access.h"
@@ -70,5 +69,3 @@ const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *p
 // Encodes the file of one record.
 PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
                                CanvasFormat format, Encoded *out, DiagSink *faults);
-
-#endif

@@ -4,8 +4,7 @@
 //
 // All references are indices; DISPLAY_NONE is the null reference. display_list_build allocates the list from the arena
 // that it is given. After that, the list does not change. The strings of the list are borrowed from the nodes.
-#ifndef PETRI_DRAW_DISPLAY_LIST_H
-#define PETRI_DRAW_DISPLAY_LIST_H
+#pragma once
 
 #include "canvas/drawing.h"
 
@@ -223,5 +222,3 @@ typedef struct DisplayListSizes {
 // Builds the display list of a canvas in the arena. Reads initial capacities from *sizes, then stores the new array
 // lengths there.
 const DisplayList *display_list_build(Arena *arena, const DrawNode *canvas, DisplayListSizes *sizes);
-
-#endif

@@ -1,6 +1,5 @@
 // display_list_build.h: internal declarations of the files that translate nodes to a display list.
-#ifndef PETRI_DRAW_DISPLAY_LIST_BUILD_H
-#define PETRI_DRAW_DISPLAY_LIST_BUILD_H
+#pragma once
 
 #include "draw/display_list.h"
 
@@ -36,5 +35,3 @@ void display_list_build_transform(DisplayMatrix *matrix, const DrawNode *node, b
 uint32_t display_list_build_paint(DisplayListBuild *build, const GraphicsState *state);
 // Reads the paint and font attributes of a node into the state. Returns false if the node has none.
 bool display_list_build_read_state(GraphicsState *state, const DrawNode *node);
-
-#endif

@@ -1,6 +1,5 @@
 // draw.h: internal declarations of the files that draw with Cairo.
-#ifndef PETRI_DRAW_DRAW_H
-#define PETRI_DRAW_DRAW_H
+#pragma once
 
 #include "draw/painter.h"
 
@@ -172,5 +171,3 @@ cairo_surface_t *draw_read_jpeg(Str bytes, size_t memory, const char **problem);
 
 // automatic.c
 void draw_automatic(Canvas *canvas, const AutoPicture *picture);
-
-#endif

@@ -1,6 +1,5 @@
 // encode.h: encoders for PNG and JPEG files.
-#ifndef PETRI_DRAW_ENCODE_H
-#define PETRI_DRAW_ENCODE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -20,5 +19,3 @@ bool encode_add(Encoded *out, const void *bytes, size_t length);
 // shows the picture over black. Returns false if out of memory or if the library fails.
 bool encode_png_pixels(Encoded *out, const uint32_t *pixels, int width, int height, bool alpha);
 bool encode_jpeg_pixels(Encoded *out, const uint32_t *pixels, int width, int height, int quality);
-
-#endif

@@ -1,6 +1,5 @@
 // float_image.h: floating-point images, for filters and for canvases of more than 8 bits per channel.
-#ifndef PETRI_DRAW_FLOAT_IMAGE_H
-#define PETRI_DRAW_FLOAT_IMAGE_H
+#pragma once
 
 #include "draw/draw.h"
 
@@ -31,5 +30,3 @@ void float_image_recolor(FloatImage *image, const double *matrix);
 // Combines s with d and stores the result in d: k[0] s d + k[1] s + k[2] d + k[3]. If k is NULL, composites s onto d
 // with `mode` instead.
 void float_image_combine(FloatImage *d, const FloatImage *s, const double *k, CompositeMode mode);
-
-#endif

@@ -1,7 +1,6 @@
 // hdr_composite.h: HDR canvases, which have more than 8 bits per channel (spec canvas.md 1.5). Cairo renders only 8-bit
 // coverage masks; hdr_paint.h computes colours, and this file composites them as linear floats.
-#ifndef PETRI_DRAW_HDR_COMPOSITE_H
-#define PETRI_DRAW_HDR_COMPOSITE_H
+#pragma once
 
 #include "draw/float_image.h"
 #include "draw/hdr_paint.h"
@@ -13,5 +12,3 @@ void hdr_composite(Canvas *canvas, const FloatImage *image, double x, double y, 
 // Begins a layer and returns the image below it. hdr_end_layer composites the layer over that image.
 FloatImage hdr_begin_layer(Canvas *canvas);
 void hdr_end_layer(Canvas *canvas, FloatImage below, double alpha);
-
-#endif

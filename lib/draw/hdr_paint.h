@@ -1,7 +1,6 @@
 // hdr_paint.h: paint sources of HDR canvases, computed in floats: colours, gradients, blends and images (spec canvas.md
 // 5, 8.2).
-#ifndef PETRI_DRAW_HDR_PAINT_H
-#define PETRI_DRAW_HDR_PAINT_H
+#pragma once
 
 #include "draw/draw.h"
 
@@ -20,5 +19,3 @@ typedef struct HdrPaint {
 bool hdr_paint_from_source(Canvas *canvas, uint32_t source, double alpha, HdrPaint *shade);
 // Returns the premultiplied colour at a point of the target.
 void hdr_paint_at(const HdrPaint *shade, double x, double y, float color[4]);
-
-#endif

@@ -1,6 +1,5 @@
 // layer_composite.h: compositing of pictures on the CPU, without shaders (spec pictures.md 3.5, 3.6).
-#ifndef PETRI_DRAW_LAYER_COMPOSITE_H
-#define PETRI_DRAW_LAYER_COMPOSITE_H
+#pragma once
 
 #include "draw/texture.h"
 
@@ -20,5 +19,3 @@ typedef struct LayerComposite {
 // Returns a new picture, or another reference to the only input if the result would equal that input. Returns NULL if
 // out of memory.
 Texture *layer_composite(const LayerComposite *mix);
-
-#endif

@@ -1,6 +1,5 @@
 // outline.h: paths as lists of lines and curves, and path effects on them (spec canvas.md 7).
-#ifndef PETRI_DRAW_OUTLINE_H
-#define PETRI_DRAW_OUTLINE_H
+#pragma once
 
 #include "draw/display_list.h"
 
@@ -33,5 +32,3 @@ bool outline_has_dashes(const DisplayList *list, uint32_t effect);
 Outline outline_apply(const DisplayList *list, uint32_t effect, Outline from, bool lines);
 // Adds a path of the list. Arcs are converted to curves.
 void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *path);
-
-#endif

@@ -1,6 +1,5 @@
 // painter.h: a painter, and the functions that builds with Cairo (draw.h) and without it (no_cairo.c) share.
-#ifndef PETRI_DRAW_PAINTER_H
-#define PETRI_DRAW_PAINTER_H
+#pragma once
 
 #include "draw/display_list.h"
 #include "draw/render_graph.h"
@@ -77,5 +76,3 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
 // NULL. If the file cannot be loaded, reports this and returns NULL.
 Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
                             DiagSink *faults);
-
-#endif

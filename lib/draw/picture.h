@@ -1,6 +1,5 @@
 // picture.h: a picture: a copy of the visible nodes of a frame (picture.c), ready to be drawn (painter.c).
-#ifndef PETRI_DRAW_PICTURE_H
-#define PETRI_DRAW_PICTURE_H
+#pragma once
 
 #include "draw/cairo_canvas.h"
 
@@ -20,5 +19,3 @@ struct PetriPicture {
 static inline bool picture_is_good_size(double width, double height) {
     return width >= 1 && height >= 1 && width <= PETRI_MAX_PICTURE_SIDE && height <= PETRI_MAX_PICTURE_SIDE;
 }
-
-#endif

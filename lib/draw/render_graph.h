@@ -3,8 +3,7 @@
 // Each node produces one picture, after its children. A picture with an id can be referenced by later nodes of the same
 // frame and by nodes of the next frame. Therefore a painter keeps the pictures of the last frame. If a script has such
 // references (petri_needs_history), one painter must render all frames in order.
-#ifndef PETRI_DRAW_RENDER_GRAPH_H
-#define PETRI_DRAW_RENDER_GRAPH_H
+#pragma once
 
 #include "draw/cairo_canvas.h"
 
@@ -39,5 +38,3 @@ bool render_graph_scalable(const DrawNode *node);
 int render_graph_pixels(int side, double detail);
 // Returns true if the node only composites its children, without a custom shader or an effect.
 bool render_graph_is_plain(const DrawNode *node);
-
-#endif

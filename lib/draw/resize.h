@@ -1,6 +1,5 @@
 // resize.h: resizing of images (spec pictures.md 5.1).
-#ifndef PETRI_DRAW_RESIZE_H
-#define PETRI_DRAW_RESIZE_H
+#pragma once
 
 #include "draw/texture.h"
 
@@ -10,5 +9,3 @@
 // filter on colours that are not premultiplied. `flip` is FLIP_NOT and so on. Returns NULL if out of memory.
 Texture *resize_pixels(Budget *budget, const uint32_t *pixels, int width, int height, size_t stride, bool alpha,
                        int new_width, int new_height, int flip);
-
-#endif

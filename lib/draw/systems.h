@@ -1,6 +1,5 @@
 // systems.h: the particle systems of a session's last frame, copied for the automatic picture.
-#ifndef PETRI_DRAW_SYSTEMS_H
-#define PETRI_DRAW_SYSTEMS_H
+#pragma once
 
 #include "draw/automatic.h"
 #include "session/draw_access.h"
@@ -13,5 +12,3 @@ AutoPicture auto_copy(const DrawAccess *shown, Arena *arena, AutoFrame *frames, 
 // Chooses or extends the views of all systems in `frames`, without making a picture. Temporary data is allocated from
 // the arena.
 void auto_follow(const DrawAccess *shown, Arena *arena, AutoFrame *frames);
-
-#endif

@@ -1,6 +1,5 @@
 // texture.h: pictures of a render graph (spec pictures.md 1): premultiplied red, green, blue and alpha.
-#ifndef PETRI_DRAW_TEXTURE_H
-#define PETRI_DRAW_TEXTURE_H
+#pragma once
 
 #include "gl/gl.h"
 
@@ -63,5 +62,3 @@ typedef struct Sampler {
 } Sampler;
 // Computes the colour at u, v. u runs from 0 to 1 from left to right, v from top to bottom.
 void texture_sample(const Texture *texture, const Sampler *sampler, double u, double v, float color[4]);
-
-#endif

@@ -1,6 +1,5 @@
 // draw_order.h: the visible instances of a scene, and the order in which they are drawn (spec canvas3d.md 2.6).
-#ifndef PETRI_GL_DRAW_ORDER_H
-#define PETRI_GL_DRAW_ORDER_H
+#pragma once
 
 #include "gl/scene.h"
 
@@ -41,5 +40,3 @@ typedef struct DrawOrder {
 // i.
 DrawOrder draw_order(const Scene *scene, const Eye *eye, const Matrix *view, const Matrix *projection, int width,
                      const SceneBox *boxes);
-
-#endif

@@ -1,6 +1,5 @@
 // effect.h: effect nodes, which process the pictures inside them on the GPU (spec pictures.md 3, 6, 7).
-#ifndef PETRI_GL_EFFECT_H
-#define PETRI_GL_EFFECT_H
+#pragma once
 
 #include "canvas/drawing.h"
 #include "gl/gl.h"
@@ -30,5 +29,3 @@ double gl_effect_cost(const GlEffect *effect);
 // Runs the shader of a node. Returns the resulting picture, which the caller owns. On failure, reports the problem and
 // returns an image with texture 0.
 GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);
-
-#endif

@@ -4,8 +4,7 @@
 // call the other functions. Until this thread calls gl_leave, gl_enter blocks in all other threads, even for another
 // Gl. Files that need more of OpenGL include <epoxy/gl.h> and call it directly. Machines without a GPU use Mesa's
 // llvmpipe. Shaders are also valid in WebGL 2.
-#ifndef PETRI_GL_GL_H
-#define PETRI_GL_GL_H
+#pragma once
 
 #include "base/diag.h"
 
@@ -112,5 +111,3 @@ bool gl_present_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int
 // Draws premultiplied ARGB32 pixels, top row first; x, y is the bottom left corner. If `over`, composites the pixels
 // over the window's content; otherwise, they replace it.
 bool gl_present_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over);
-
-#endif

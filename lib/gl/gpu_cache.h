@@ -1,6 +1,5 @@
 // gpu_cache.h: GPU resources that are kept between scenes: triangles of models, buffers and render targets.
-#ifndef PETRI_GL_GPU_CACHE_H
-#define PETRI_GL_GPU_CACHE_H
+#pragma once
 
 #include "gl/draw_order.h"
 #include "gl/internal.h"
@@ -57,5 +56,3 @@ typedef struct SceneRecord {
     float cofactors[9];
     SceneSurface surface;
 } SceneRecord;
-
-#endif

@@ -1,7 +1,6 @@
 // input_composite.h: generates the part of a fragment shader that reads and composites the input pictures (spec
 // pictures.md 1.5, 3.3, 3.5).
-#ifndef PETRI_GL_INPUT_COMPOSITE_H
-#define PETRI_GL_INPUT_COMPOSITE_H
+#pragma once
 
 #include "gl/effect.h"
 
@@ -26,5 +25,3 @@ bool gl_add_input_composite(Text *out, const GlEffect *effect, GlEdge edge);
 static inline bool gl_fits(const GlEffect *effect, GlImage image) {
     return image.width == effect->width && image.height == effect->height;
 }
-
-#endif

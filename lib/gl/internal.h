@@ -1,6 +1,5 @@
 // internal.h: internal declarations of lib/gl.
-#ifndef PETRI_GL_INTERNAL_H
-#define PETRI_GL_INTERNAL_H
+#pragma once
 
 #include "gl/gl.h"
 
@@ -63,5 +62,3 @@ static inline bool gl_is_refused(const Gl *gl) {
 }
 void gl_programs_close(Gl *gl);
 void gpu_cache_close(Gl *gl);
-
-#endif

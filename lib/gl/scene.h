@@ -1,7 +1,6 @@
 // scene.h: 3-D scenes (`!canvas3d`, spec canvas3d.md). The nodes are read into groups, lights, cameras and instances of
 // models, and each camera's view is rendered on the GPU.
-#ifndef PETRI_GL_SCENE_H
-#define PETRI_GL_SCENE_H
+#pragma once
 
 #include "base/diag.h"
 #include "base/file_access.h"
@@ -153,5 +152,3 @@ typedef struct ScenePictures {
 // Renders a camera's view and returns the picture, which the caller owns. On failure, reports the problem and returns
 // an image with texture 0.
 GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures);
-
-#endif

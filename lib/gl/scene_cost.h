@@ -1,6 +1,5 @@
 // scene_cost.h: estimates how long a view of a scene takes to draw, so that it can be charged before it is drawn.
-#ifndef PETRI_GL_SCENE_COST_H
-#define PETRI_GL_SCENE_COST_H
+#pragma once
 
 #include "gl/draw_order.h"
 
@@ -18,5 +17,3 @@ typedef struct SceneView {
 // Returns the time in nanoseconds. If a rough upper bound is at most `enough`, returns this bound; it is quick to
 // compute.
 double scene_cost(const SceneView *view, double enough);
-
-#endif

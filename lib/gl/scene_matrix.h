@@ -1,7 +1,6 @@
 // scene_matrix.h: matrices and cameras of scenes (spec canvas3d.md 1.4, 6.1). Vectors are columns, and matrices are
 // column-major.
-#ifndef PETRI_GL_SCENE_MATRIX_H
-#define PETRI_GL_SCENE_MATRIX_H
+#pragma once
 
 #include "canvas/drawing.h"
 
@@ -40,5 +39,3 @@ Matrix matrix_projection(const Eye *eye);
 double vector_dot(const double a[3], const double b[3]);
 void vector_cross(const double a[3], const double b[3], double out[3]);
 bool vector_normalise(double a[3]); // returns false, and changes nothing, if the vector has no direction
-
-#endif

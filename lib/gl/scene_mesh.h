@@ -1,7 +1,6 @@
 // scene_mesh.h: the triangles of models (spec canvas3d.md 6 to 8), created on the CPU without OpenGL. Corners are
 // counter-clockwise when seen from outside.
-#ifndef PETRI_GL_SCENE_MESH_H
-#define PETRI_GL_SCENE_MESH_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/str.h"
@@ -57,5 +56,3 @@ const double *mesh_hull(Arena *arena, const double *vertices, uint32_t count, ui
 // each.
 bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbers, const double *faces,
                      uint32_t face_numbers, const double *uv, uint32_t uv_numbers, Mesh *mesh, const char **problem);
-
-#endif

@@ -1,6 +1,5 @@
 // shader.h: custom shaders of scripts (spec pictures.md 8), and the functions that they share with effects.
-#ifndef PETRI_GL_SHADER_H
-#define PETRI_GL_SHADER_H
+#pragma once
 
 #include "gl/effect.h"
 
@@ -24,5 +23,3 @@ typedef struct GlPass {
 bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out);
 int gl_downsample(const DrawNode *node);
 void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem);
-
-#endif

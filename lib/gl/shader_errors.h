@@ -1,6 +1,5 @@
 // shader_errors.h: finds the position in a script that a shader compiler's message refers to.
-#ifndef PETRI_GL_SHADER_ERRORS_H
-#define PETRI_GL_SHADER_ERRORS_H
+#pragma once
 
 #include "canvas/drawing.h"
 #include "gl/gl.h"
@@ -9,5 +8,3 @@
 // position of the error within the literal. Otherwise, reports the position of the attribute, and adds the line number
 // in the shader to the message.
 void gl_report_shader_error(DiagSink *faults, const DrawNode *node, const GlShaderError *fault);
-
-#endif

@@ -5,8 +5,7 @@
 // and normal of the sphere's surface at this point. A disc of 64 corners has 62 triangles. A sphere of 64 segments has
 // 2048, and most of them are smaller than the blocks of pixels that GPUs shade. If earlier draws have written depth,
 // the shader also writes the sphere's depth, once for all samples of a pixel.
-#ifndef PETRI_GL_SPHERE_IMPOSTOR_H
-#define PETRI_GL_SPHERE_IMPOSTOR_H
+#pragma once
 
 #include "gl/scene.h"
 
@@ -20,5 +19,3 @@ typedef struct SphereImpostor {
 // Computes the disc for a sphere of radius 1 that is transformed by `place`. Returns false if the transformed sphere is
 // an ellipsoid or mirrored, is clipped by the near or far plane, or almost touches the camera.
 bool sphere_impostor(const Eye *eye, const Matrix *view, const Matrix *place, SphereImpostor *disc);
-
-#endif

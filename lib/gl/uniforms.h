@@ -1,6 +1,5 @@
 // uniforms.h: sets the uniforms of shaders by name (spec pictures.md 8.3).
-#ifndef PETRI_GL_UNIFORMS_H
-#define PETRI_GL_UNIFORMS_H
+#pragma once
 
 #include "gl/effect.h"
 
@@ -16,5 +15,3 @@ typedef struct GlState {
 } GlState;
 
 void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state);
-
-#endif

@@ -1,8 +1,7 @@
 // arrays.h: elementary functions of arrays. Each element gets exactly the result of the scalar function in maths.h.
 //
 // `to` may be the same array as the input. `level` selects the vector instructions; the result does not depend on it.
-#ifndef PETRI_MATHS_ARRAYS_H
-#define PETRI_MATHS_ARRAYS_H
+#pragma once
 
 #include "base/cpu.h"
 
@@ -29,5 +28,3 @@ typedef struct PlaneNoise {
 // random order.
 void maths_plane_noise_array(CpuLevel level, const PlaneNoise *noise, const uint8_t *permutation, const double *x,
                              const double *y, size_t count, double *to);
-
-#endif

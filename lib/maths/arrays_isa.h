@@ -1,6 +1,5 @@
 // arrays_isa.h: the table of functions that arrays_isa.c provides for each instruction set.
-#ifndef PETRI_MATHS_ARRAYS_ISA_H
-#define PETRI_MATHS_ARRAYS_ISA_H
+#pragma once
 
 #include "maths/arrays.h"
 
@@ -20,5 +19,3 @@ typedef struct ArraysIsa {
 } ArraysIsa;
 
 extern const ArraysIsa maths_arrays_plain, maths_arrays_pair, maths_arrays_avx2, maths_arrays_avx512;
-
-#endif

@@ -1,6 +1,5 @@
 // double_bits.h: access to the bits of doubles. Calls no function of the C library.
-#ifndef PETRI_MATHS_DOUBLE_BITS_H
-#define PETRI_MATHS_DOUBLE_BITS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -63,5 +62,3 @@ static inline int double_exponent(double x) {
     double_split(x, &exponent);
     return exponent + 52;
 }
-
-#endif

@@ -2,8 +2,7 @@
 //
 // Each function has a fast path, compiled once per instruction set (maths_isa.c). If the fast path cannot round the
 // result with certainty, it calls the exact_ function (exact.c), which handles all arguments.
-#ifndef PETRI_MATHS_FAST_H
-#define PETRI_MATHS_FAST_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -45,5 +44,3 @@ double fast_atan_near(double q);
 // Finds n, high and low such that x equals n pi/512 + high + low modulo 2 pi, with |high| ≤ pi/1024. The error is at
 // most 2^-110. x must be finite with |x| ≥ 1.
 void exact_reduction(double x, uint64_t *n, double *high, double *low);
-
-#endif

@@ -25,8 +25,7 @@
 // tan = sine / cosine, with the quotient corrected once. The error is the sum of both relative errors and 2^-100. At
 // most one of sine and cosine can have n = 1 or 255 (fast_sincos.h) or be smaller than 2^-12. So the sum is 2^-67.1 +
 // 2^-67.8 + 2^-69, where the last term is due to the absolute error of the smaller function.
-#ifndef PETRI_MATHS_FAST_ARC_H
-#define PETRI_MATHS_FAST_ARC_H
+#pragma once
 
 #include "maths/double_bits.h"
 #include "maths/fast_sincos.h"
@@ -180,5 +179,3 @@ KERNEL bool tan_fast(const ReducedArgument *turn, double *result) {
     bool large = real_absolute(sh) > 0x1p-26 && real_absolute(ch) > 0x1p-26;
     return lanes_decide(q, rest, real_absolute(q) * TAN_ERROR, result) && large;
 }
-
-#endif

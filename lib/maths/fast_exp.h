@@ -14,8 +14,7 @@
 //   table        both parts together                                           2^-107
 // The total is below 2^-67.2, so EXP_ERROR is large enough. 2^(i/128) is below 2, so the absolute
 // error of high + low is below 2 EXP_ERROR.
-#ifndef PETRI_MATHS_FAST_EXP_H
-#define PETRI_MATHS_FAST_EXP_H
+#pragma once
 
 #include "maths/lanes.h"
 #include "maths/maths_tables.h"
@@ -50,5 +49,3 @@ KERNEL Lanes exp_lanes(Real x, Real *result) {
     *result = real_of(bits_of(*result) + exponent);
     return good;
 }
-
-#endif

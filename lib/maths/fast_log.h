@@ -16,8 +16,7 @@
 //                  roundings of terms below 1.1 u |high| + 2^-34 cost 2^-104 |high|
 // The total is below 7.5 u |c| + 2^-96 |high|. The generator asserts |z|^3 ≤ 2^-15.9 |ln x| in each row, and |c| is at
 // most 0.34 |z|^3. So the error is below 2^-67.6 |ln x|. LOG_ERROR covers this and the 2^-104 that log2 and log10 add.
-#ifndef PETRI_MATHS_FAST_LOG_H
-#define PETRI_MATHS_FAST_LOG_H
+#pragma once
 
 #include "maths/fast_exp.h"
 
@@ -96,5 +95,3 @@ KERNEL Lanes pow_lanes(Real x, Real y, Real *result) {
     *result = real_of(bits_of(*result) + exponent);
     return good;
 }
-
-#endif

@@ -1,7 +1,6 @@
 // fast_noise.h: vectorised two-dimensional noise (arrays.h). The operations and their order are those of
 // lib/builtin/noise_point.c, but values are selected by masks instead of branches.
-#ifndef PETRI_MATHS_FAST_NOISE_H
-#define PETRI_MATHS_FAST_NOISE_H
+#pragma once
 
 #include "maths/arrays.h"
 #include "maths/lanes.h"
@@ -73,5 +72,3 @@ KERNEL Real noise_lanes(const PlaneNoise *noise, const double *permutation, Real
                          bits_choose(beyond, (far & one) - step, other), real_choose(~(beyond ^ far), 2 * squish, 0));
     return value / real_set(noise->scale);
 }
-
-#endif

@@ -1,6 +1,5 @@
 // fast_random.h: the generator of raw random numbers (random.h), vectorised.
-#ifndef PETRI_MATHS_FAST_RANDOM_H
-#define PETRI_MATHS_FAST_RANDOM_H
+#pragma once
 
 #include "maths/lanes.h"
 
@@ -18,5 +17,3 @@ KERNEL Bits raw_lanes(Bits key, Bits item) {
     x = bits_swap_halves(t);
     return t ^ ((x * x + y) >> 32);
 }
-
-#endif

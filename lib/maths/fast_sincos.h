@@ -15,8 +15,7 @@
 //   C r, S       exact up to 2^-104
 // The total is below 3.5 · 2^-70 S + 2^-76 |sin x| + 2^-95. S / |sin x| is at most 2 (for n = 1, r = -pi/1024) and
 // smaller for larger n. So the error is below 2^-67.1 |sin x| + 2^-95.
-#ifndef PETRI_MATHS_FAST_SINCOS_H
-#define PETRI_MATHS_FAST_SINCOS_H
+#pragma once
 
 #include "maths/lanes.h"
 #include "maths/maths_tables.h"
@@ -121,5 +120,3 @@ KERNEL Lanes sin_cos_lanes(Real x, Real *sine, Real *cosine) {
     good &= sincos_decide(high, low, cosine);
     return LANES_BOTH(good, lanes_less(real_absolute(x), real_set(SINCOS_MAX)));
 }
-
-#endif

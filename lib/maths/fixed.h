@@ -3,8 +3,7 @@
 // A Fixed is a two's complement integer in units of 2^-(64 size), called ulps here. It has `size` 64-bit limbs of
 // fraction, lowest first, and one limb for the sign and the integer part. All numbers of a computation must have the
 // same size. Nothing is allocated. A result may be assigned to one of the arguments.
-#ifndef PETRI_MATHS_FIXED_H
-#define PETRI_MATHS_FIXED_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -66,5 +65,3 @@ Fixed fixed_log(double m, int exponent, int size);
 Fixed fixed_atan(const Fixed *b, const Fixed *a);
 // Returns x - q pi/2 for a finite x and the integer q nearest to x / (pi/2). Sets *quadrant to q modulo 4.
 Fixed fixed_reduce(double x, int size, int *quadrant);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // The including file defines LANES as 1, 2, 4 or 8 (default: 1). With one lane a Real is a double, so the same source
 // also compiles to the scalar functions. Arithmetic is written with C operators; each is one IEEE operation per lane.
-#ifndef PETRI_MATHS_LANES_H
-#define PETRI_MATHS_LANES_H
+#pragma once
 
 #include <stdint.h>
 #include <string.h>
@@ -288,5 +287,3 @@ KERNEL Real real_steps(Real x, double step, Bits *number) {
     *number = bits_of(shifted) - bits_of(real_set(REAL_ROUNDER));
     return shifted - real_set(REAL_ROUNDER);
 }
-
-#endif

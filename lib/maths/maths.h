@@ -6,8 +6,7 @@
 //
 // The methods are described in fast.h, exact.c (Ziv's method), fast_exp.h, fast_log.h, fast_sincos.h, fast_arc.h and
 // fixed.h.
-#ifndef PETRI_MATHS_H
-#define PETRI_MATHS_H
+#pragma once
 
 double maths_sin(double x);
 double maths_cos(double x);
@@ -24,5 +23,3 @@ double maths_pow(double x, double y);
 // Returns sqrt(x^2 + y^2) without intermediate overflow. The result is not correctly rounded,
 // but bit-identical on every machine.
 double maths_hypot(double x, double y);
-
-#endif

@@ -1,8 +1,7 @@
 // maths_tables.h: the constants of lib/maths. Written by generate_tables.py; do not edit.
 //
 // clang-format off
-#ifndef PETRI_MATHS_TABLES_H
-#define PETRI_MATHS_TABLES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -1225,4 +1224,3 @@ static const uint64_t fixed_two_over_pi[31] = {
 };
 
 // clang-format on
-#endif

@@ -1,8 +1,7 @@
 // random.h: counter-based random numbers and trigonometry in turns (spec builtins.md B1.2 and B9).
 //
 // A stream is a 64-bit key. Its items can be computed independently, in any order and on any thread.
-#ifndef PETRI_MATHS_RANDOM_H
-#define PETRI_MATHS_RANDOM_H
+#pragma once
 
 #include "base/cpu.h"
 
@@ -34,5 +33,3 @@ double random_normal(uint64_t key, uint64_t i);
 // Computes random_normal for items first to first + count - 1, much faster than separate calls. `level` is
 // described in arrays.h.
 void random_normals(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to);
-
-#endif

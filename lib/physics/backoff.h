@@ -4,8 +4,7 @@
 // its processor for milliseconds, while the caller waits. Sometimes no helper arrives at all. When this has cost more
 // time than helpers have saved, the caller works alone for a pause. The pause is much longer than the lost time, so the
 // loss hardly matters. This affects only speed, never results.
-#ifndef PETRI_PHYSICS_BACKOFF_H
-#define PETRI_PHYSICS_BACKOFF_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -63,5 +62,3 @@ void phys_tuner_learn(PhysTuner *tuner, bool helped, double nanoseconds);
 bool phys_backoff_pauses(const PhysBackoff *backoff, uint64_t now);
 // Records a job that was offered to helpers.
 void phys_backoff_learn(PhysBackoff *backoff, const PhysJobTimes *job);
-
-#endif

@@ -10,8 +10,7 @@
 // The halo is valid until a particle has moved by half the skin (neighbour_list.h). Then particles migrate, and halos
 // and lists are rebuilt on all ranks together. At the end of a frame all ranks receive all rows. The columns of the
 // whole system are not updated then, because they are not used while the decomposition continues.
-#ifndef PETRI_PHYSICS_DOMAIN_H
-#define PETRI_PHYSICS_DOMAIN_H
+#pragma once
 
 #include "physics/grid.h"
 
@@ -156,5 +155,3 @@ static inline const uint32_t *phys_transfer(const Transfers *transfers, size_t r
 static inline size_t phys_transfer_count(const Transfers *transfers, size_t rank) {
     return transfers->start[rank + 1] - transfers->start[rank];
 }
-
-#endif

@@ -15,8 +15,7 @@
 //
 // The order of the rows does not matter: forces act in the order of the script. The node and attributes of a force are
 // in schema/schema_list.h, under the same KIND.
-#ifndef PETRI_PHYSICS_FORCE_LIST_H
-#define PETRI_PHYSICS_FORCE_LIST_H
+#pragma once
 
 // clang-format off
 #define PHYS_FORCES(AS_PAIR, AS_LINK, AS_SINGLE, AS_BARRIER)                                                           \
@@ -35,5 +34,3 @@
 
 // Argument of PHYS_FORCES for the kinds that a use ignores.
 #define PHYS_NO_ROW(...)
-
-#endif

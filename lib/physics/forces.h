@@ -1,6 +1,5 @@
 // forces.h: the rows of force_list.h as structs. If the kind is a compile-time constant, so are all fields of its row.
-#ifndef PETRI_PHYSICS_FORCES_H
-#define PETRI_PHYSICS_FORCES_H
+#pragma once
 
 #include "physics/system.h"
 
@@ -43,5 +42,3 @@ static inline ForceRow phys_force_row(PhysForceKind kind) {
     };
     return rows[kind];
 }
-
-#endif

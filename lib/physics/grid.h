@@ -1,6 +1,5 @@
 // grid.h: the grid into whose cells particles are sorted when neighbour lists are built.
-#ifndef PETRI_PHYSICS_GRID_H
-#define PETRI_PHYSICS_GRID_H
+#pragma once
 
 #include "physics/neighbour_list.h"
 
@@ -65,5 +64,3 @@ bool phys_grid_layout(const PairPass *pass, NeighbourList *list, double max, Gri
 // of memory, or if the lists would not pay off.
 bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy,
                       NeighbourList *list);
-
-#endif

@@ -1,6 +1,5 @@
 // integrate.h: the second half of a step: single-particle forces, barriers and motion, in one pass over a group.
-#ifndef PETRI_PHYSICS_INTEGRATE_H
-#define PETRI_PHYSICS_INTEGRATE_H
+#pragma once
 
 #include "physics/internal.h"
 #include "physics/kernels.h"
@@ -48,5 +47,3 @@ void phys_integrate_rows(const Integrator *integrator, size_t first, size_t end)
 void phys_integrate_end(const Integrator *integrator);
 // Reflects particle i, which has just moved, at all barriers. `before` is its velocity before the move.
 void phys_integrate_reflect(const IntegratePass *pass, size_t i, const double *before);
-
-#endif

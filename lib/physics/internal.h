@@ -13,8 +13,7 @@
 //   - the forces that one group declares for one stage are contiguous.
 //
 // Kernels use columns rather than rows, because each SIMD lane processes a different particle.
-#ifndef PETRI_PHYSICS_INTERNAL_H
-#define PETRI_PHYSICS_INTERNAL_H
+#pragma once
 
 #include "base/arena.h"
 #include "physics/forces.h"
@@ -287,5 +286,3 @@ static inline ForceRange phys_forces(const PhysSystem *system, uint32_t group, S
 static inline uint32_t phys_next_above(const Group *groups, uint32_t group, Stage stage) {
     return group ? groups[groups[group].parent].nearest[stage] : NO_GROUP;
 }
-
-#endif

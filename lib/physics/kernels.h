@@ -9,8 +9,7 @@
 //   - a term that does not apply does not change the sum. Adding +0.0 would change a sum of -0.0. So the old sum is
 //     selected, or the neutral zero of the operation is used: x + -0.0 and x - +0.0 are x for all x;
 //   - nothing is contracted, reassociated or approximated.
-#ifndef PETRI_PHYSICS_KERNELS_H
-#define PETRI_PHYSICS_KERNELS_H
+#pragma once
 
 #include "physics/system.h"
 
@@ -129,5 +128,3 @@ extern const Kernels phys_kernels_avx512;
 
 // The one-lane variant of kernel_integrate.c, which supports any number of dimensions.
 void integrate_all_one(struct IntegratePass *pass, size_t first, size_t end);
-
-#endif

@@ -4,8 +4,7 @@
 // a formula gives bit-identical results for every width. 8 lanes use AVX-512 and 4 use AVX2. 2 lanes use the vector
 // extension of gcc and clang, which compiles to SSE2, NEON or SIMD128. One lane is plain C, for cases without vectors:
 // any number of dimensions, groups of a few particles, links and reflections.
-#ifndef PETRI_PHYSICS_LANES_H
-#define PETRI_PHYSICS_LANES_H
+#pragma once
 
 #include "maths/lanes.h"
 
@@ -368,5 +367,3 @@ KERNEL size_t mask_compress(Mask mask, const uint32_t *from, uint32_t except, ui
 }
 
 #endif // LANES > 1
-
-#endif

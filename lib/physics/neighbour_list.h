@@ -7,8 +7,7 @@
 //
 // Particles are sorted by grid cell. The index of a particle in that order is its sorted index: regular particles come
 // first, then the few particles that are much larger than the others, then idle particles, which have no partners.
-#ifndef PETRI_PHYSICS_NEIGHBOUR_LIST_H
-#define PETRI_PHYSICS_NEIGHBOUR_LIST_H
+#pragma once
 
 #include "physics/internal.h"
 #include "physics/kernels.h"
@@ -123,5 +122,3 @@ static inline uint64_t phys_ranges_total(const PassRanges *ranges) {
         total += ranges->at[r].count;
     return total;
 }
-
-#endif

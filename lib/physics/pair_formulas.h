@@ -7,8 +7,7 @@
 //
 // The target (`from`) receives + f and the partner − f, whichever of the two comes first in the pass. Every K is
 // symmetric: if the two are exchanged, d, u and f change only their signs, and K stays the same.
-#ifndef PETRI_PHYSICS_PAIR_FORMULAS_H
-#define PETRI_PHYSICS_PAIR_FORMULAS_H
+#pragma once
 
 #include "physics/forces.h"
 #include "physics/kernels.h"
@@ -129,5 +128,3 @@ KERNEL Mask pair_apply(const Pairs *pairs, bool contact_only, Real *k) {
     double bound = pairs->term->bound;
     return bound < INFINITY ? real_less_where(applies, pairs->geometry->length, real_set(bound)) : applies;
 }
-
-#endif

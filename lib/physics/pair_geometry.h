@@ -1,7 +1,6 @@
 // pair_geometry.h: distances and directions of LANES pairs. Each lane has its own target. The partner is the same in
 // all lanes, or each lane has its own.
-#ifndef PETRI_PHYSICS_PAIR_GEOMETRY_H
-#define PETRI_PHYSICS_PAIR_GEOMETRY_H
+#pragma once
 
 #include "physics/pair_formulas.h"
 
@@ -115,5 +114,3 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
 KERNEL Mask pair_in_contact(const PairGeometry *pair) {
     return real_less_where(pair->valid, pair->length, pair->reach);
 }
-
-#endif

@@ -1,6 +1,5 @@
 // pair_sum.h: adds the terms of pairs to the sums of forces.
-#ifndef PETRI_PHYSICS_PAIR_SUM_H
-#define PETRI_PHYSICS_PAIR_SUM_H
+#pragma once
 
 #include "physics/pair_geometry.h"
 
@@ -57,5 +56,3 @@ KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *
         add_term(shape, pair, applies, coefficient, sum, tile ? tile->rest[t] : NULL, k);
     }
 }
-
-#endif

@@ -1,6 +1,5 @@
 // pair_wavefront.h: computes all pairs of a pass on several threads or ranks, or row by row.
-#ifndef PETRI_PHYSICS_PAIR_WAVEFRONT_H
-#define PETRI_PHYSICS_PAIR_WAVEFRONT_H
+#pragma once
 
 #include "physics/internal.h"
 #include "physics/kernels.h"
@@ -46,5 +45,3 @@ void phys_pair_wavefront(const PhysSystem *system, const PairRegion *pairs, int 
 bool phys_ranks_should_split(const PhysSystem *system, uint64_t pairs);
 // Computes a region on all ranks.
 void phys_pair_ranks(PhysSystem *system, const PairRegion *pairs);
-
-#endif

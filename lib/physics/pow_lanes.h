@@ -1,6 +1,5 @@
 // pow_lanes.h: displacement^power as spec physics.md 4.1 defines it, for LANES numbers at once.
-#ifndef PETRI_PHYSICS_POW_LANES_H
-#define PETRI_PHYSICS_POW_LANES_H
+#pragma once
 
 #include "maths/arrays.h"
 #include "physics/lanes.h"
@@ -29,5 +28,3 @@ KERNEL Real real_pow(bool plain, Mask mask, Real base, double power) {
         return base * base;
     return plain || power <= 0 ? real_set(1) : pow_by_lane(mask, base, power);
 }
-
-#endif

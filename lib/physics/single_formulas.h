@@ -1,7 +1,6 @@
 // single_formulas.h: formulas for single particles, LANES at once (spec physics.md): forces (4.2), motion (4.3) and
 // soft boundaries of barriers (4.4). Symbols: v velocity, p position, r radius, m mass, q charge, S strength.
-#ifndef PETRI_PHYSICS_SINGLE_FORMULAS_H
-#define PETRI_PHYSICS_SINGLE_FORMULAS_H
+#pragma once
 
 #include "maths/random.h"
 #include "physics/integrate.h"
@@ -256,5 +255,3 @@ KERNEL void move_particles(size_t n, Block *block, double delta, double speed_of
         block->position[k * block->step] = position_component(block, k) + *velocity * real_set(delta);
     }
 }
-
-#endif

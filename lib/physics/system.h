@@ -5,8 +5,7 @@
 // simulates it frame by frame. Between frames it changes particles and forces with phys_update_particle,
 // phys_begin_forces and phys_set_key, or describes the system again. All arithmetic is IEEE double in the order that
 // the specification fixes. Therefore results do not depend on storage order or on the number of threads.
-#ifndef PETRI_PHYSICS_SYSTEM_H
-#define PETRI_PHYSICS_SYSTEM_H
+#pragma once
 
 #include "base/budget.h"
 #include "base/cpu.h"
@@ -248,5 +247,3 @@ uint32_t phys_force_count(const PhysSystem *system);
 // Copies force applier or barrier `number`, counted from 0 in the order of the calls. Returns false if there is no such
 // force.
 bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force);
-
-#endif

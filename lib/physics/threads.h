@@ -3,8 +3,7 @@
 // A job is divided into chunks, which idle threads and the caller claim in turn. The caller waits only for chunks that
 // other threads have claimed. After long waits it works alone for a while (backoff.h). A chunk's work depends only on
 // its number. Idle threads spin briefly before they sleep. Short jobs use only spinning threads.
-#ifndef PETRI_PHYSICS_THREADS_H
-#define PETRI_PHYSICS_THREADS_H
+#pragma once
 
 #include "physics/system.h"
 
@@ -45,5 +44,3 @@ int phys_chunk_count(const PhysSystem *system, size_t count, size_t min_count);
 static inline size_t phys_chunk_begin(size_t count, int chunk, int chunks) {
     return (size_t)((unsigned long long)count * (unsigned)chunk / (unsigned)chunks);
 }
-
-#endif

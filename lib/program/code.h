@@ -13,8 +13,7 @@
 //                                       node     r4 = particle (r0, r3)
 //
 // Instructions are in the order of evaluation. The compiler neither reorders nor removes them.
-#ifndef PETRI_PROGRAM_CODE_H
-#define PETRI_PROGRAM_CODE_H
+#pragma once
 
 #include "builtin/builtin.h"
 #include "program/program.h"
@@ -137,5 +136,3 @@ struct Code {
 // Stores in `reads` the operands that `instr` reads, and returns their number. An instruction in the body of a loop
 // with a BatchPlan has at most CODE_MAX_READ operands. `operands` is Code.operands of the code that contains `instr`.
 uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int32_t *reads);
-
-#endif

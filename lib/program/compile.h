@@ -1,6 +1,5 @@
 // compile.h: internal declarations of the compiler: expressions (compile.c) and names (scope.c).
-#ifndef PETRI_PROGRAM_COMPILE_H
-#define PETRI_PROGRAM_COMPILE_H
+#pragma once
 
 #include "program/expr.h"
 
@@ -146,5 +145,3 @@ void lint_negation(Compiler *compiler, const Ast *ast);
 void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr);
 void lint_import(Compiler *compiler, const Ast *ast, const Expr *file);
 void lint_pragma(Compiler *compiler, const Ast *pragma);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // The compiler creates expressions, the simplifier (fold.c) replaces some of them, and lowering (lower.c) translates
 // them to code. After that, the expressions are freed.
-#ifndef PETRI_PROGRAM_EXPR_H
-#define PETRI_PROGRAM_EXPR_H
+#pragma once
 
 #include "program/code.h"
 
@@ -49,5 +48,3 @@ struct Expr {
 static inline bool expr_only_binds(const Expr *expr) {
     return expr->kind == EXPR_BIND || expr->kind == EXPR_LET || expr->kind == EXPR_IMPORT;
 }
-
-#endif

@@ -1,7 +1,6 @@
 // lower.h: lowering of expressions to code (lower.c), of loops and nodes (lower_node.c), and batch plans
 // (lower_batch.c).
-#ifndef PETRI_PROGRAM_LOWER_H
-#define PETRI_PROGRAM_LOWER_H
+#pragma once
 
 #include "program/code.h"
 #include "program/expr.h"
@@ -83,5 +82,3 @@ void lower_yield(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at);
 const BatchPlan *lower_batch(const Lowering *lowering, uint32_t start);
 // Emits a NODE, DECORATE or APPEND.
 void lower_node(Lowering *lowering, const Expr *expr, int32_t d);
-
-#endif

@@ -3,8 +3,7 @@
 // A program is immutable code (code.h) in one arena. A reload replaces the whole program. The intermediate expressions
 // (expr.h) are freed after compilation. Each function, module and main program has its own slots. A nested function
 // accesses outer values only through captures, which are copied when it is defined (spec language.md L9.1).
-#ifndef PETRI_PROGRAM_PROGRAM_H
-#define PETRI_PROGRAM_PROGRAM_H
+#pragma once
 
 #include "ast/ast.h"
 #include "base/diag.h"
@@ -118,5 +117,3 @@ bool engine_name_exists(Str name);
 
 // Appends the code of a program as text, for --dump=code.
 void program_print(Text *out, const SymbolTable *symbols, const Program *program);
-
-#endif

@@ -3,8 +3,7 @@
 // The host reports input at any time. The state is written between two frames, so that a frame sees consistent input. A
 // key that was pressed and released between two frames counts as pressed for one frame. Nothing is written before the
 // first report.
-#ifndef PETRI_SCENE_INPUT_BIND_H
-#define PETRI_SCENE_INPUT_BIND_H
+#pragma once
 
 #include "schema/reader.h"
 #include "state/state.h"
@@ -87,5 +86,3 @@ typedef struct InputUndo {
 // Stores the changes in `undo`.
 void input_write(Input *input, State *state, Arena *arena, double beat, InputUndo *undo);
 void input_undo_write(Input *input, State *state, const InputUndo *undo);
-
-#endif

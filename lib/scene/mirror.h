@@ -46,8 +46,7 @@
 //   OPEN     A description was begun and not finished: some entries reference the previous description.
 //   CURRENT  Rows and entries are in sync, and the description matches the last frame's tree. Only differences of the
 //            next tree must be passed to the engine: none if the tree is the same.
-#ifndef PETRI_SCENE_MIRROR_H
-#define PETRI_SCENE_MIRROR_H
+#pragma once
 
 #include "physics/system.h"
 #include "state/state.h"
@@ -110,5 +109,3 @@ bool mirror_can_lend(const PhysicsTree *tree);
 // Stores the frame's results in the state. `simulated` is false if nothing was simulated, so that there are no new
 // results.
 void mirror_store(PhysicsTree *tree, bool simulated);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // After each evaluation, scene_update processes the frame's top-level nodes in document order. Systems read and write
 // the state dictionary. In `!window` nodes, only the bindings of user input are read.
-#ifndef PETRI_SCENE_SCENE_H
-#define PETRI_SCENE_SCENE_H
+#pragma once
 
 #include "physics/system.h"
 #include "scene/input_bind.h"
@@ -75,5 +74,3 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
 bool scene_clear_exhausted(Scene *scene);
 // If the budget stopped the last update half-way, returns true once and sets *end to the reason.
 bool scene_clear_stopped(Scene *scene, ArenaOutcome *end);
-
-#endif

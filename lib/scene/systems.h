@@ -1,6 +1,5 @@
 // systems.h: internal declarations of lib/scene.
-#ifndef PETRI_SCENE_SYSTEMS_H
-#define PETRI_SCENE_SYSTEMS_H
+#pragma once
 
 #include "base/hash_index.h"
 #include "scene/input_bind.h"
@@ -147,5 +146,3 @@ enum { PHYSICS_SYSTEM_BYTES = 24 << 10 };
 // Update one `!physics` or `!counter`. physics_update returns the number of steps taken.
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame);
 void counter_update(Scene *scene, const Node *node, const SceneFrame *frame);
-
-#endif

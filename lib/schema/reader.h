@@ -3,8 +3,7 @@
 //
 // Attributes of systems, counters and input nodes are read into the record of the node's kind (records.h). Attributes
 // of drawing nodes are read into a list, in the order in which they were written.
-#ifndef PETRI_SCHEMA_READER_H
-#define PETRI_SCHEMA_READER_H
+#pragma once
 
 #include "base/diag.h"
 #include "base/file_access.h"
@@ -107,5 +106,3 @@ typedef struct AttrValue {
 bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count);
 // Stores an attribute in the record of its kind. Does nothing if its row names no field.
 void schema_store(const AttrValue *attr, void *record);
-
-#endif

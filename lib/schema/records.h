@@ -1,6 +1,5 @@
 // records.h: the structs that a node's attributes are read into. The rows of schema_list.h name their fields.
-#ifndef PETRI_SCHEMA_RECORDS_H
-#define PETRI_SCHEMA_RECORDS_H
+#pragma once
 
 #include "physics/system.h"
 #include "value/value.h"
@@ -97,5 +96,3 @@ typedef struct GraphicsState3D {
     bool monochrome;
     double tint[3];
 } GraphicsState3D;
-
-#endif

@@ -1,6 +1,5 @@
 // table.h: the rows of schema_list.h as tables: kinds of nodes, attributes, types and words.
-#ifndef PETRI_SCHEMA_TABLE_H
-#define PETRI_SCHEMA_TABLE_H
+#pragma once
 
 #include "base/str.h"
 #include "physics/system.h"
@@ -165,5 +164,3 @@ NodeKind schema_kind_of_force(PhysForceKind force);
 bool schema_can_contain(NodeKind kind, PlaceKind children);
 // Returns true for nodes that Flitter draws but petri does not.
 bool schema_is_unsupported(Str name);
-
-#endif

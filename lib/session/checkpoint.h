@@ -2,8 +2,7 @@
 //
 // Snapshots, state files and the rollback of aborted frames share this code. Restoring is atomic: the new data is built
 // completely before it replaces the current data.
-#ifndef PETRI_SESSION_CHECKPOINT_H
-#define PETRI_SESSION_CHECKPOINT_H
+#pragma once
 
 #include "petri.h"
 #include "scene/scene.h"
@@ -43,5 +42,3 @@ bool checkpoint_save(Checkpoint *checkpoint, PetriSession *session);
 void checkpoint_read_state(const Checkpoint *checkpoint, Arena *arena, State *state);
 // Restores a checkpoint. On failure nothing changes.
 PetriStatus checkpoint_restore(PetriSession *session, const Checkpoint *checkpoint);
-
-#endif

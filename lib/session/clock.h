@@ -1,6 +1,5 @@
 // clock.h: frame numbers, time and beat, in lockstep or in real time. Only clock.c modifies a clock.
-#ifndef PETRI_SESSION_CLOCK_H
-#define PETRI_SESSION_CLOCK_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -62,5 +61,3 @@ void clock_follow_frame(Clock *clock);
 double clock_seconds_until_due(const Clock *clock);
 // Implements petri_resync_clock.
 void clock_resync(Clock *clock);
-
-#endif

@@ -1,6 +1,5 @@
 // diagnostics.h: reporting of diagnostics to the host, each once per load. Only diagnostics.c modifies this data.
-#ifndef PETRI_SESSION_DIAGNOSTICS_H
-#define PETRI_SESSION_DIAGNOSTICS_H
+#pragma once
 
 #include "base/diag.h"
 #include "base/hash_index.h"
@@ -39,5 +38,3 @@ void session_report_keyed(PetriSession *session, const Diag *diag, Str key);
 void session_report_text(PetriSession *session, DiagLevel level, const char *code, Str text);
 // Reports all diagnostics of a sink.
 void session_report_all(PetriSession *session, const DiagSink *sink);
-
-#endif

@@ -1,6 +1,5 @@
 // draw_access.h: the internal interface through which lib/draw reads the last frame.
-#ifndef PETRI_SESSION_DRAW_ACCESS_H
-#define PETRI_SESSION_DRAW_ACCESS_H
+#pragma once
 
 #include "canvas/read.h"
 #include "petri.h"
@@ -50,5 +49,3 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
 // as "the frame") was aborted. For a limit, the report gives the position in the script, if known. If the call was
 // interrupted, clears the interrupt. Returns `status`.
 PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what);
-
-#endif

@@ -1,6 +1,5 @@
 // frame.h: the results of the last frame. Modified only by frame.c, and by prompt.c for statements of the prompt.
-#ifndef PETRI_SESSION_FRAME_H
-#define PETRI_SESSION_FRAME_H
+#pragma once
 
 #include "base/diag.h"
 #include "petri.h"
@@ -39,5 +38,3 @@ void session_evaluate(PetriSession *session, const State *state);
 // Evaluates the prompt's bindings again, with the state after the frame. Does nothing if names_current is set. Names
 // that the script binds keep their values.
 PetriStatus session_update_names(PetriSession *session);
-
-#endif

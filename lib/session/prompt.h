@@ -1,6 +1,5 @@
 // prompt.h: statements retained by the prompt, in immutable lists that configurations share.
-#ifndef PETRI_SESSION_PROMPT_H
-#define PETRI_SESSION_PROMPT_H
+#pragma once
 
 #include "session/unit.h"
 
@@ -39,5 +38,3 @@ void prompt_list_free(PromptList *list);
 typedef enum PromptChoice { PROMPT_ALL, PROMPT_BINDINGS, PROMPT_NONE } PromptChoice;
 void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,
                          PromptList **result);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // Each part of a session is modified by only one file: config.c, load.c, clock.c, frame.c, prompt.c, diagnostics.c,
 // checkpoint.c. Every public function that allocates does so within session_protect.
-#ifndef PETRI_SESSION_SESSION_H
-#define PETRI_SESSION_SESSION_H
+#pragma once
 
 #include "builtin/files.h"
 #include "builtin/noise.h"
@@ -156,5 +155,3 @@ void session_set_globals(const PetriSession *session, Vm *vm);
 // Warns about top-level nodes that have no effect and are probably misspelled: their kind resembles a kind with an
 // effect. Called within a protected call.
 void session_lint_top_nodes(PetriSession *session);
-
-#endif

@@ -1,6 +1,5 @@
 // text_sink.h: text output to a callback of the host, in chunks.
-#ifndef PETRI_SESSION_TEXT_SINK_H
-#define PETRI_SESSION_TEXT_SINK_H
+#pragma once
 
 #include "base/sha256.h"
 #include "petri.h"
@@ -26,5 +25,3 @@ void text_sink_end_line(TextSink *out);
 void text_sink_add_tree(TextSink *out, const SymbolTable *symbols, const Node *node);
 // Returns the status of the whole output, and reports an error if a tree was truncated. Called after the last flush.
 PetriStatus text_sink_finish(PetriSession *session, const TextSink *out);
-
-#endif

@@ -1,6 +1,5 @@
 // unit.h: source files and their compiled programs. Only load.c modifies units and the loader.
-#ifndef PETRI_SESSION_UNIT_H
-#define PETRI_SESSION_UNIT_H
+#pragma once
 
 #include "base/diag.h"
 #include "petri.h"
@@ -88,5 +87,3 @@ const Program *session_module(void *host, Str path, Str *reason);
 void session_clear_files(PetriSession *session);
 // Frees retired modules.
 void session_free_retired(PetriSession *session);
-
-#endif

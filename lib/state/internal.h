@@ -1,6 +1,5 @@
 // internal.h: internal declarations of lib/state.
-#ifndef PETRI_STATE_INTERNAL_H
-#define PETRI_STATE_INTERNAL_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/hash_index.h"
@@ -59,5 +58,3 @@ static inline StateEntry *state_entry(const State *state, StateSlot slot) {
 void state_start_keys(Arena *keys, Budget *budget);
 // Sets *copy to a copy of a key in the arena. Returns false if out of memory.
 bool state_copy_key(Arena *keys, Value *copy, Value key);
-
-#endif

@@ -5,8 +5,7 @@
 // values can be computed from that of the first. A range of any length therefore uses constant memory until one of its
 // keys is requested. Other keys are stored as separate entries (state.c). A write that does not fit this pattern
 // converts the range to entries.
-#ifndef PETRI_STATE_KEY_RANGE_H
-#define PETRI_STATE_KEY_RANGE_H
+#pragma once
 
 #include "state/state.h"
 
@@ -50,5 +49,3 @@ bool key_range_reference(KeyRange *range, StateSlot slot, StateOwner owner, cons
 static inline bool key_range_references(const KeyRange *range, StateSlot slot, StateOwner owner) {
     return slot - range->first < range->referenced && range->owner == owner;
 }
-
-#endif

@@ -3,8 +3,7 @@
 // Maps key vectors to non-null vectors for the lifetime of the session. Scripts only read it; physics systems and other
 // parts of the engine write it between evaluations. Entries keep the order in which their slots were created. A slot is
 // a stable number, so a system looks up a key once and then accesses the slot without hashing.
-#ifndef PETRI_STATE_STATE_H
-#define PETRI_STATE_STATE_H
+#pragma once
 
 #include "value/value.h"
 
@@ -83,5 +82,3 @@ uint32_t state_count(const State *state);
 
 // Returns true if a function ran out of memory since the last call of this function.
 bool state_clear_exhausted(State *state);
-
-#endif

@@ -1,7 +1,6 @@
 // bindings.h: name resolution for editors. The rules are those of the compiler (lib/program/compile.c), but incomplete
 // syntax trees are accepted, too.
-#ifndef PETRI_SYNTAX_BINDINGS_H
-#define PETRI_SYNTAX_BINDINGS_H
+#pragma once
 
 #include "ast/ast.h"
 
@@ -24,5 +23,3 @@ typedef struct BindingInfo {
 typedef void BindingCallback(void *user_data, const BindingInfo *info);
 // Calls `callback` for each name that is bound or used, in the order of evaluation.
 void bindings_read(Arena *arena, const Source *source, const Ast *ast, BindingCallback *callback, void *user_data);
-
-#endif

@@ -1,6 +1,5 @@
 // content_sniff.h: detection of files that are not scripts, so that one error is reported instead of one per line.
-#ifndef PETRI_SYNTAX_CONTENT_SNIFF_H
-#define PETRI_SYNTAX_CONTENT_SNIFF_H
+#pragma once
 
 #include "base/diag.h"
 
@@ -11,5 +10,3 @@ const char *content_sniff_encoding(const Source *source);
 // binary file is not a script. Nor is a text in which at least three lines and at least half of all lines are
 // invalid, unless its name or hashbang line shows that it is meant to be one.
 void content_sniff_report(const Source *source, DiagSink *diags);
-
-#endif

@@ -3,8 +3,7 @@
 // The layout filters the tokens between lexer and parser. Inside parentheses it removes newline tokens. Elsewhere it
 // compares the indentation of the next line with a stack of indentations, and inserts an INDENT or DEDENTs if they
 // differ.
-#ifndef PETRI_SYNTAX_LAYOUT_H
-#define PETRI_SYNTAX_LAYOUT_H
+#pragma once
 
 #include "ast/token.h"
 #include "base/arena.h"
@@ -38,5 +37,3 @@ void layout_resume(Layout *layout, uint32_t offset);
 // Recovers from a syntax error at `token`: closes all parentheses, so that the next line is parsed normally. If
 // `token` is an INDENT, its DEDENT will be omitted.
 void layout_recover(Layout *layout, const Token *token);
-
-#endif

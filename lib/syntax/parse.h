@@ -1,6 +1,5 @@
 // parse.h: the parser, which converts source code to a syntax tree.
-#ifndef PETRI_SYNTAX_PARSE_H
-#define PETRI_SYNTAX_PARSE_H
+#pragma once
 
 #include "ast/parse_context.h"
 
@@ -21,5 +20,3 @@ typedef enum ParseCompleteness {
 } ParseCompleteness;
 // Returns the completeness of a source. Reports no errors. Temporary data is allocated in the arena.
 ParseCompleteness parse_completeness(Arena *arena, SymbolTable *symbols, const Source *source);
-
-#endif

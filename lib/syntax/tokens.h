@@ -1,6 +1,5 @@
 // tokens.h: tokens for syntax highlighting and other editor features. Comments are included.
-#ifndef PETRI_SYNTAX_TOKENS_H
-#define PETRI_SYNTAX_TOKENS_H
+#pragma once
 
 #include "syntax/parse.h"
 
@@ -25,5 +24,3 @@ typedef void TokenCallback(void *user_data, TokenKind kind, Span span);
 // Calls `callback` for each token in order. Returns the result of parse_tolerant.
 const Ast *tokens_read(Arena *arena, SymbolTable *symbols, const Source *source, TokenCallback *callback,
                        void *user_data);
-
-#endif

@@ -1,6 +1,5 @@
 // format.h: conversion of values and trees to text (spec language.md L18, cli.md 3.1 and 3.2).
-#ifndef PETRI_VALUE_FORMAT_H
-#define PETRI_VALUE_FORMAT_H
+#pragma once
 
 #include "value/node.h"
 
@@ -22,5 +21,3 @@ bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int de
 // Compares state keys in canonical order (L18.4), element by element. Symbols sort before numbers, and numbers before
 // strings. A prefix sorts before the longer key.
 int format_key_compare(const SymbolTable *symbols, Value a, Value b);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // Every operation returns a new node and does not modify its operand. Children and attribute values are shared. To read
 // the children of a node, use node_children (value/node_batch.h), because some children may be stored as batches.
-#ifndef PETRI_VALUE_NODE_H
-#define PETRI_VALUE_NODE_H
+#pragma once
 
 #include "base/source.h"
 #include "value/value.h"
@@ -98,5 +97,3 @@ Value value_add_tag(Arena *arena, Value v, const Symbol *tag);
 // If a node would exceed NODE_MAX_HEIGHT, the next two functions keep it unchanged and set *too_high.
 Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count, bool *too_high);
 Value value_append(Arena *arena, Value v, const NodeList *list, bool *too_high);
-
-#endif

@@ -6,8 +6,7 @@
 // that has the attributes of the first node. Batches occur only in `children`, never in a vector visible to scripts.
 // They have no children themselves. node_children converts rows to nodes; for large batches, node_batch_row reads one
 // row at a time.
-#ifndef PETRI_VALUE_NODE_BATCH_H
-#define PETRI_VALUE_NODE_BATCH_H
+#pragma once
 
 #include "value/node.h"
 
@@ -67,5 +66,3 @@ const Node *const *node_children(Arena *arena, const Node *node, uint32_t *count
 uint64_t node_child_count(const Node *node);
 // Returns a vector whose nodes contain no batches. Returns v itself if it contains none.
 Value value_expand_batches(Arena *arena, Value v);
-
-#endif

@@ -1,6 +1,5 @@
 // ops.h: the operators of spec language.md L5.1 to L5.3, used by constant folding and by the virtual machine.
-#ifndef PETRI_VALUE_OPS_H
-#define PETRI_VALUE_OPS_H
+#pragma once
 
 #include "value/value.h"
 
@@ -28,5 +27,3 @@ OpRange op_range_bounds(Value start, Value stop, Value step, bool *too_long);
 static inline double op_range_number(const OpRange *range, uint32_t i) {
     return range->start + range->step * i;
 }
-
-#endif

@@ -3,8 +3,7 @@
 // Every name in a program (variables, attributes, tags, node kinds, symbols) is interned once per session, so names are
 // compared as pointers. The value of a symbol is a number computed from its name (spec language.md L4.3). A number that
 // equals the value of a registered symbol is that symbol.
-#ifndef PETRI_VALUE_SYMBOL_H
-#define PETRI_VALUE_SYMBOL_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/hash_index.h"
@@ -41,5 +40,3 @@ const Symbol *symbol_register(SymbolTable *table, Str name);
 const Symbol *symbol_intern_batched(SymbolTable *table, Str name);
 // Returns the registered symbol with this number, or NULL.
 const Symbol *symbol_of_number(const SymbolTable *table, double number);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // A traversal charges for each visited node. After many visits it caches the results for recently visited nodes in the
 // arena. Each traversal starts with a zero-initialised TreeMemo.
-#ifndef PETRI_VALUE_TREE_MEMO_H
-#define PETRI_VALUE_TREE_MEMO_H
+#pragma once
 
 #include "value/node.h"
 
@@ -23,5 +22,3 @@ typedef struct TreeMemo {
 bool tree_memo_find(TreeMemo *memo, Arena *arena, const Node *a, const Node *b, uint64_t *value);
 // Caches the result for a node or a pair of nodes.
 void tree_memo_store(TreeMemo *memo, const Node *a, const Node *b, uint64_t value);
-
-#endif

@@ -8,8 +8,7 @@
 // Invariants: A vector of length 0 is VALUE_NUMBERS (null) or VALUE_STREAM. A vector that contains only numbers is
 // always VALUE_NUMBERS, so a VALUE_MIXED has at least one element that is not a number. A single number is stored
 // inline.
-#ifndef PETRI_VALUE_VALUE_H
-#define PETRI_VALUE_VALUE_H
+#pragma once
 
 #include "base/arena.h"
 #include "base/str.h"
@@ -169,5 +168,3 @@ static inline void vector_add_part(Vector *vector, const Value *part) {
 void vector_add_number(Vector *vector, double x);
 void vector_add_item(Vector *vector, Item item);
 Value vector_finish(Vector *vector);
-
-#endif

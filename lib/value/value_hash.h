@@ -1,7 +1,6 @@
 // value_hash.h: hashes of seeds (spec builtins.md B9.2), which are used as keys of streams and noise, and the items of
 // streams.
-#ifndef PETRI_VALUE_VALUE_HASH_H
-#define PETRI_VALUE_VALUE_HASH_H
+#pragma once
 
 #include "value/value.h"
 
@@ -16,5 +15,3 @@ void value_stream_items(Value stream, const double *at, uint32_t count, double *
 // Returns the position in a stream for an index x: x rounded down to a signed 64-bit integer, converted to unsigned
 // (B9.3).
 uint64_t value_stream_position(double x);
-
-#endif

@@ -5,8 +5,7 @@
 // selected. When iterations take different branches, those that skip the next instructions are removed from the
 // selection. They are selected again at the instruction at which they continue. Arithmetic and other frequent
 // instructions process arrays. Other instructions are executed as in vm_eval, once per selected iteration.
-#ifndef PETRI_VM_BATCH_COLUMNS_H
-#define PETRI_VM_BATCH_COLUMNS_H
+#pragma once
 
 #include "vm/machine.h"
 
@@ -78,5 +77,3 @@ bool vm_batch_try_operator(LoopBatch *batch, const Instr *instr);
 bool vm_batch_try_op(LoopBatch *batch, const Instr *instr);
 // Executes any instruction except jumps and yields for all selected iterations, one by one if necessary.
 void vm_batch_run_instr(LoopBatch *batch, const Instr *instr);
-
-#endif

@@ -1,6 +1,5 @@
 // machine.h: internal declarations of the virtual machine.
-#ifndef PETRI_VM_MACHINE_H
-#define PETRI_VM_MACHINE_H
+#pragma once
 
 #include "program/code.h"
 #include "value/node_batch.h"
@@ -152,5 +151,3 @@ static inline bool vm_can_call(Vm *vm, const Builtin *builtin, const Origin *at,
     vm_charge(vm, at, 1 + numbers / BUDGET_NUMBERS);
     return true;
 }
-
-#endif

@@ -3,8 +3,7 @@
 // The VM reports each change of line, and the time since the last change is charged to the previous line. The time of a
 // call is charged to the lines of the called function. Returning to the calling line does not count as another hit of
 // that line.
-#ifndef PETRI_VM_PROFILE_H
-#define PETRI_VM_PROFILE_H
+#pragma once
 
 #include "base/source.h"
 
@@ -59,5 +58,3 @@ static inline void vm_profile_at(Profile *profile, const Source *source, uint32_
     if (line != profile->position.line || source != profile->position.source)
         vm_profile_move(profile, source, line);
 }
-
-#endif

@@ -4,8 +4,7 @@
 // through the host (spec language.md L15). An exceeded depth limit is such an error, too. Results are allocated in the
 // frame's arena, which is charged for work and memory. If the arena's budget is exceeded, the arena escapes with a
 // longjmp (base/arena.h). Vm.at is then the position of the operation that exceeded the budget.
-#ifndef PETRI_VM_VM_H
-#define PETRI_VM_VM_H
+#pragma once
 
 #include "base/diag.h"
 #include "builtin/builtin.h"
@@ -89,5 +88,3 @@ Value vm_run(Vm *vm, const Program *program, const Value *arguments, Value *expo
 // Evaluates the code of an expression at load time. The value is allocated in `arena`. Returns false and sets *value to
 // null if the code is dynamic (L17.2) or reports an error. Only for VMs initialised with `is_static`.
 bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value);
-
-#endif

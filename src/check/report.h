@@ -1,6 +1,5 @@
 // report.h: diagnostics in machine-readable formats.
-#ifndef PETRI_SRC_CHECK_REPORT_H
-#define PETRI_SRC_CHECK_REPORT_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
@@ -17,5 +16,3 @@ typedef struct Report {
 void report_add(Report *report, const PetriDiagnostic *diagnostic);
 // Writes the report to standard output and frees it. Returns `status`, or STATUS_FAILED after a write error.
 int report_end(Report *report, int status);
-
-#endif

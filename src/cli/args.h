@@ -2,8 +2,7 @@
 //
 // Options and operands can be in any order. After `--`, all arguments are operands. The value of an option can be
 // written as `--name value`, `--name=value`, `-x value` or `-xvalue`.
-#ifndef PETRI_SRC_ARGS_H
-#define PETRI_SRC_ARGS_H
+#pragma once
 
 #include "cli/cli.h"
 
@@ -23,5 +22,3 @@ typedef struct Args {
 
 // Reads the next argument and returns its kind (ARG_...). Prints a message before it returns ARG_INVALID.
 int args_next(Args *args);
-
-#endif

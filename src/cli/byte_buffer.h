@@ -1,8 +1,7 @@
 // byte_buffer.h: growable buffers, lists of strings, and memory allocation for the command.
 //
 // If memory runs out, these functions print a message and exit. They never return NULL.
-#ifndef PETRI_SRC_BYTE_BUFFER_H
-#define PETRI_SRC_BYTE_BUFFER_H
+#pragma once
 
 #include "base/str.h"
 
@@ -56,5 +55,3 @@ void texts_free(TextList *list);
 // `SCOPED_TEXT name = memory_strdup(path);`.
 #define SCOPED_BYTE_BUFFER __attribute__((cleanup(byte_buffer_free))) ByteBuffer
 #define SCOPED_TEXT __attribute__((cleanup(memory_free_text))) char *
-
-#endif

@@ -1,6 +1,5 @@
 // cli.h: common declarations of all commands: exit codes, messages, options and the table of commands.
-#ifndef PETRI_SRC_CLI_H
-#define PETRI_SRC_CLI_H
+#pragma once
 
 #include "base/str.h"
 
@@ -107,5 +106,3 @@ StrNearest nearest_start(const char *word);
 // Compares a candidate with the word. Returns true if it is the most similar one so far; nearest->found then points to
 // the NUL-terminated `name`.
 bool nearest_offer(StrNearest *nearest, const char *name);
-
-#endif

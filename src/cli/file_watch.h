@@ -4,8 +4,7 @@
 // reported when the file has been stable for a moment. While inotify shows that a process has not closed the file after
 // writing, the file must be stable for longer. A missing file is reported when it exists again. On Linux, inotify wakes
 // the caller. All files are also polled about once per second, because inotify misses changes on some file systems.
-#ifndef PETRI_SRC_FILE_WATCH_H
-#define PETRI_SRC_FILE_WATCH_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -24,5 +23,3 @@ bool file_watch_changed(FileWatch *watch);
 // Returns a descriptor for poll that is readable when file_watch_changed should be called. Returns -1 if there is none
 // (not Linux, or no free descriptors). In this case, call file_watch_changed a few times per second.
 int file_watch_descriptor(const FileWatch *watch);
-
-#endif

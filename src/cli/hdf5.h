@@ -2,8 +2,7 @@
 //
 // petri sends the data through a socket. If a signal terminates petri, petri-hdf5 detects the end of the stream and
 // finishes the file, so the file is always valid.
-#ifndef PETRI_SRC_HDF5_H
-#define PETRI_SRC_HDF5_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -85,5 +84,3 @@ enum { HDF5_NUMBERS = 5 }; // eight-byte values per particle besides position an
 static inline size_t hdf5_padded(size_t length) {
     return (length + 8) / 8 * 8;
 }
-
-#endif

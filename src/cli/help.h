@@ -1,6 +1,5 @@
 // help.h: formatting of help texts for standard output.
-#ifndef PETRI_SRC_HELP_H
-#define PETRI_SRC_HELP_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
@@ -45,5 +44,3 @@ extern const char FORMULA_LETTERS[]; // explains the symbols in formulas
 bool topics_print(ByteBuffer *text, const char *topic);
 // Passes all names that topics_print knows to nearest_offer.
 void topics_offer(StrNearest *nearest);
-
-#endif

@@ -1,8 +1,7 @@
 // helper_exec.h: execution of helper programs such as petri-pictures and petri-ranks.
 //
 // petri itself links few libraries. If a command needs other libraries, a helper program replaces the process (exec).
-#ifndef PETRI_SRC_HELPER_EXEC_H
-#define PETRI_SRC_HELPER_EXEC_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -21,5 +20,3 @@ int helper_exec_lsp(char **argv);
 int helper_exec_ranks(char **argv, bool needed);
 // Replaces the calling process with a helper program. Returns only on failure: the value of errno.
 int helper_exec(const char *name, char **argv);
-
-#endif

@@ -10,8 +10,7 @@
 // changed configuration discards the frames after that past frame.
 // If the session follows the wall clock, a frame is recomputed at its recorded time. In this case, a step from a past
 // frame computes the next frame at the current time, and discards the old frames after the past frame.
-#ifndef PETRI_SRC_CLI_HISTORY_H
-#define PETRI_SRC_CLI_HISTORY_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
@@ -75,5 +74,3 @@ PetriStatus history_recompute(FrameHistory *history, PetriSession *session);
 // Goes to the frame at which history_start was called, even if its keyframe was dropped. Keeps the current
 // configuration.
 PetriStatus history_reset(FrameHistory *history, PetriSession *session);
-
-#endif

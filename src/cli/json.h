@@ -1,6 +1,5 @@
 // json.h: functions that write JSON.
-#ifndef PETRI_SRC_JSON_H
-#define PETRI_SRC_JSON_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
@@ -11,5 +10,3 @@ void json_add_text(ByteBuffer *out, const char *text);
 const char *level_word(PetriLevel level);
 // Adds a diagnostic as an object on one line.
 void json_add_diagnostic(ByteBuffer *out, const PetriDiagnostic *diagnostic);
-
-#endif

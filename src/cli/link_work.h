@@ -1,6 +1,5 @@
 // link_work.h: the limit of work for opening a link, used by `petri open`, `petri link` and the playground.
-#ifndef PETRI_SRC_LINK_WORK_H
-#define PETRI_SRC_LINK_WORK_H
+#pragma once
 
 #include <stdint.h>
 
@@ -10,5 +9,3 @@ static inline uint64_t link_work_limit(uint64_t frame_limit) {
     enum { FRAMES = 3 };
     return frame_limit < UINT64_MAX / FRAMES ? frame_limit * FRAMES : UINT64_MAX;
 }
-
-#endif

@@ -1,6 +1,5 @@
 // motion.h: kinetic energy and momentum of a system, without its anchors.
-#ifndef PETRI_SRC_MOTION_H
-#define PETRI_SRC_MOTION_H
+#pragma once
 
 #include "petri.h"
 
@@ -18,5 +17,3 @@ double particle_speed(const PetriSystem *system, uint32_t particle);
 // Computes the sums over all particles except anchors. The caller frees the result with motion_free.
 Motion motion_measure(const PetriSystem *system);
 void motion_free(Motion *motion);
-
-#endif

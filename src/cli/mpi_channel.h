@@ -2,8 +2,7 @@
 //
 // The messages are for asynchronous work, such as the assignment of sweep runs. For collective operations, see
 // PetriRanks.
-#ifndef PETRI_SRC_MPI_CHANNEL_H
-#define PETRI_SRC_MPI_CHANNEL_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 
@@ -16,5 +15,3 @@ typedef struct MpiChannel {
     // if no message has arrived.
     bool (*receive)(int *from, ByteBuffer *message);
 } MpiChannel;
-
-#endif

@@ -1,10 +1,7 @@
 // mpirun.h: detection of mpirun without linking MPI.
-#ifndef PETRI_SRC_MPIRUN_H
-#define PETRI_SRC_MPIRUN_H
+#pragma once
 
 #include <stdbool.h>
 
 // Returns true if mpirun has started several processes, and sets *rank (from 0) and *count.
 bool mpirun_rank(int *rank, int *count);
-
-#endif

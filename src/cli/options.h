@@ -1,6 +1,5 @@
 // options.h: the options of all commands.
-#ifndef PETRI_SRC_OPTIONS_H
-#define PETRI_SRC_OPTIONS_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
@@ -50,5 +49,3 @@ size_t options_memory_limit(const Options *options);
 int options_open(const Options *options, const CommandContext *host,
                  void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
                  PetriSession **session);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // After the first error, all further output is discarded and the functions return false. A run can thus end when the
 // reader of its output has closed the pipe.
-#ifndef PETRI_SRC_OUTPUT_H
-#define PETRI_SRC_OUTPUT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -31,5 +30,3 @@ bool output_flush(Output *output);
 int output_finish(Output *output, int status);
 // Writes text to standard output and returns the result of output_finish.
 int output_text(const char *text, size_t length, int status);
-
-#endif

@@ -1,6 +1,5 @@
 // parameters.h: display of a script's parameters (`let NAME=NAME or DEFAULT`).
-#ifndef PETRI_SRC_PARAMETERS_H
-#define PETRI_SRC_PARAMETERS_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/output.h"
@@ -17,5 +16,3 @@ void parameter_range(ByteBuffer *out, const PetriParameter *parameter);
 void parameter_describe(ByteBuffer *out, const PetriParameter *parameter);
 // Returns true if the diagnostic reports that the script does not accept a definition (-D).
 bool is_invalid_definition(const PetriDiagnostic *diagnostic);
-
-#endif

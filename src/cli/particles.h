@@ -1,7 +1,6 @@
 // particles.h: CSV trajectories (RFC 4180), one row per particle and frame. Used by `petri run --trajectory run.csv`
 // and by the playground.
-#ifndef PETRI_SRC_PARTICLES_H
-#define PETRI_SRC_PARTICLES_H
+#pragma once
 
 #include "petri.h"
 
@@ -15,5 +14,3 @@ void particles_header(uint32_t dimensions, PetriWriteCallback *write, void *user
 // Writes the rows of the last frame. Components beyond the dimensions of a system are empty. Returns false if out of
 // memory.
 bool particles_rows(PetriSession *session, uint32_t dimensions, PetriWriteCallback *write, void *user_data);
-
-#endif

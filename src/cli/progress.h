@@ -1,6 +1,5 @@
 // progress.h: a progress line on standard error with a bar, frames, frames per second and time left.
-#ifndef PETRI_SRC_PROGRESS_H
-#define PETRI_SRC_PROGRESS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -27,5 +26,3 @@ void progress_start(Progress *progress, bool enabled, int64_t total);
 void progress_update(Progress *progress, int64_t done);
 // Erases the line, so that other text can be written.
 void progress_erase(Progress *progress);
-
-#endif

@@ -1,6 +1,5 @@
 // script.h: the script named on a command line: a file, or `-` for standard input.
-#ifndef PETRI_SRC_SCRIPT_H
-#define PETRI_SRC_SCRIPT_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
@@ -36,5 +35,3 @@ void shell_add_word(ByteBuffer *text, const char *word);
 void shell_add_program(ByteBuffer *text, const char *called);
 // Prints two commands: one shows the script, the other saves a picture of it.
 void hint_pictures(const CommandContext *context, const char *script);
-
-#endif

@@ -1,6 +1,5 @@
 // scripts.h: the list of scripts in the files and folders on a command line.
-#ifndef PETRI_SRC_SCRIPTS_H
-#define PETRI_SRC_SCRIPTS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,5 +23,3 @@ void scripts_add(ScriptList *list, const char *path);
 // Sorts by path and removes duplicates.
 void scripts_sort(ScriptList *list);
 void scripts_free(ScriptList *list);
-
-#endif

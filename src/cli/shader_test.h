@@ -1,7 +1,6 @@
 // shader_test.h: tests the shaders of scripts in a separate process, so that a crash of the driver, or a shader that
 // takes too much time or memory to compile, becomes a diagnostic.
-#ifndef PETRI_SRC_SHADER_TEST_H
-#define PETRI_SRC_SHADER_TEST_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -21,5 +20,3 @@ bool shader_test_interrupted(void);
 bool shader_test_is_wanted(int argc, char **argv);
 // Tests the shader on standard input within limits. Returns the exit status.
 int shader_test_run(void);
-
-#endif

@@ -1,6 +1,5 @@
 // signal_cleanup.h: actions on unfinished files, run before a signal ends the process.
-#ifndef PETRI_SRC_SIGNAL_CLEANUP_H
-#define PETRI_SRC_SIGNAL_CLEANUP_H
+#pragma once
 
 // An action. It is called from a signal handler, possibly twice, possibly while another thread completes the file.
 typedef void SignalCleanup(void *context);
@@ -13,5 +12,3 @@ int signal_cleanup_begin(SignalCleanup *act, void *context);
 void signal_cleanup_end(int number);
 // Runs all actions. To be called by a signal handler that then terminates the process.
 void signal_cleanup_run(void);
-
-#endif

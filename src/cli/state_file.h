@@ -2,8 +2,7 @@
 //
 // A file that cannot be read is never overwritten, because it may be the only copy of a state. Failed writes are
 // retried. The first failure is reported, and so is the next success.
-#ifndef PETRI_SRC_STATE_FILE_H
-#define PETRI_SRC_STATE_FILE_H
+#pragma once
 
 #include "petri.h"
 
@@ -29,5 +28,3 @@ const char *state_file_save(StateFile *file, PetriSession *session, bool at_once
 static inline bool state_file_failed(const StateFile *file) {
     return file->unreadable || file->outdated;
 }
-
-#endif

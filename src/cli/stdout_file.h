@@ -2,8 +2,7 @@
 //
 // The output is written to a file in a temporary folder and copied when it is complete. It cannot be streamed, because
 // images replace their file as a whole and video containers are patched at the end.
-#ifndef PETRI_SRC_STDOUT_FILE_H
-#define PETRI_SRC_STDOUT_FILE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -23,5 +22,3 @@ bool stdout_file_open(StdoutFile *piped, const char *format);
 bool stdout_file_send(const StdoutFile *piped);
 // Deletes the file and the folder. Can be called repeatedly, also without stdout_file_open.
 void stdout_file_close(StdoutFile *piped);
-
-#endif

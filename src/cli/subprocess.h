@@ -1,6 +1,5 @@
 // subprocess.h: a child process whose output is stored for the caller, such as `petri run` in petri test.
-#ifndef PETRI_SRC_SUBPROCESS_H
-#define PETRI_SRC_SUBPROCESS_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/cli.h"
@@ -27,5 +26,3 @@ pid_t subprocess_wait(int *status);
 void subprocess_collect(Subprocess *child, ByteBuffer *output, ByteBuffer *errors);
 // Adds a description of a child that did not exit with 0: its status and the first line of its standard error.
 void subprocess_describe(int status, const ByteBuffer *errors, ByteBuffer *error_text);
-
-#endif

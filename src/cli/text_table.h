@@ -1,6 +1,5 @@
 // text_table.h: a text table whose columns are as wide as their widest cell.
-#ifndef PETRI_SRC_REPL_TEXT_TABLE_H
-#define PETRI_SRC_REPL_TEXT_TABLE_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/output.h"
@@ -20,5 +19,3 @@ void table_text(const TextTable *table, ByteBuffer *text);
 void text_table_write(const TextTable *table, Output *output);
 void text_table_free(TextTable *table);
 #define SCOPED_TEXT_TABLE __attribute__((cleanup(text_table_free))) TextTable
-
-#endif

@@ -3,8 +3,7 @@
 // Line breaks are kept; only white space changes. Each level has four spaces. Spaces show precedence (a*b + c, but
 // f(a+b) and x=a+b). There are no spaces around the `=` of a binding. There is at most one empty line in a block, and
 // at most two between blocks. Comments after code are aligned. Tokens never change, and formatting is idempotent.
-#ifndef PETRI_SRC_LAYOUT_H
-#define PETRI_SRC_LAYOUT_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
@@ -14,5 +13,3 @@
 bool layout_text(PetriSession *session, Str text, ByteBuffer *out);
 // Returns true if both scripts have the same tokens and the same compiled code. `name` is the file name in messages.
 bool layout_same(PetriSession *session, const char *name, Str before, Str after);
-
-#endif

@@ -1,6 +1,5 @@
 // tokens.h: the tokens of a script, with the properties that determine its format.
-#ifndef PETRI_SRC_FMT_TOKENS_H
-#define PETRI_SRC_FMT_TOKENS_H
+#pragma once
 
 #include "base/str.h"
 #include "petri.h"
@@ -58,5 +57,3 @@ uint32_t word_column(const Words *words, const Word *word);
 bool word_is(const Word *word, const char *text);
 // Returns true if the word is a ROLE_SUM that is written without spaces.
 bool word_is_unspaced(const Words *words, size_t at);
-
-#endif

@@ -7,8 +7,7 @@
 // With a tolerance, close numbers are considered equal. Frames after the horizon are not compared, because they are
 // chaotic. Frames between `strict` and the horizon are compared with a larger tolerance. Without a tolerance, the
 // horizon is ignored.
-#ifndef PETRI_SRC_GOLDEN_H
-#define PETRI_SRC_GOLDEN_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/output.h"
@@ -74,5 +73,3 @@ typedef struct Result {
 void report_result(Output *output, const Result *result);
 // Writes a JUnit XML file. Returns false after a message.
 bool report_junit(const char *path, Result *const *results, size_t count);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // An HDF5 file gets its name only when it is complete, at the end of a run. If petri and petri-hdf5
 // are killed before that, the spool contains the frames up to the last saved state. The next run reads them from it.
-#ifndef PETRI_SRC_HDF5_SPOOL_H
-#define PETRI_SRC_HDF5_SPOOL_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/hdf5.h"
@@ -35,5 +34,3 @@ bool spool_add(Spool *spool, const Hdf5Head *head, const char *block);
 bool spool_save(Spool *spool, int folder);
 // Closes the spool. Removes its file if it contains no frames, or if `done` is true because the HDF5 file has them all.
 void spool_close(Spool *spool, bool done);
-
-#endif

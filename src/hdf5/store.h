@@ -2,8 +2,7 @@
 //
 // The file gets its name when it is complete (base/replace.h). Functions do not return errors: the first error is
 // recorded and reported by store_end.
-#ifndef PETRI_SRC_STORE_H
-#define PETRI_SRC_STORE_H
+#pragma once
 
 #include "base/replace.h"
 #include "cli/byte_buffer.h"
@@ -88,5 +87,3 @@ bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name);
 char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes);
 // Gives the object called `old` in the group `from` the additional name `name` in the group `to` (a hard link).
 void store_link(Store *store, hid_t from, const char *old, hid_t to, const char *name);
-
-#endif

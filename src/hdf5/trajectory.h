@@ -1,6 +1,5 @@
 // trajectory.h: the H5MD 1.1 file of `petri run --trajectory FILE.h5`.
-#ifndef PETRI_SRC_HDF5_TRAJECTORY_H
-#define PETRI_SRC_HDF5_TRAJECTORY_H
+#pragma once
 
 #include "base/hash_index.h"
 #include "cli/byte_buffer.h"
@@ -32,5 +31,3 @@ void trajectory_file_begin_run(TrajectoryFile *file);
 void trajectory_file_add(TrajectoryFile *file, char *bytes);
 // Writes the parts that are only known at the end, and frees the memory.
 void trajectory_file_end(TrajectoryFile *file);
-
-#endif

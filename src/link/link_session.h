@@ -1,6 +1,5 @@
 // link_session.h: runs the script of a link without access to files, and records the names of requested files.
-#ifndef PETRI_SRC_LINK_SESSION_H
-#define PETRI_SRC_LINK_SESSION_H
+#pragma once
 
 #include "cli/shader_test.h"
 #include "link/pack.h"
@@ -27,5 +26,3 @@ char *link_session_hash(const LinkSession *link_session);
 // a message, if there are none.
 bool link_session_print_files(const LinkSession *link_session, const char *prefix, const char *suffix);
 void link_session_close(LinkSession *link_session);
-
-#endif

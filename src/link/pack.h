@@ -3,8 +3,7 @@
 // A link is `#` and compressed JSON (deflate without a header, then base64url). `v` is the version, `t` the script
 // text, `n` the file name, `f` a frame and `h` the hash of the state in that frame. `c` contains changes of parameters,
 // each as [frame after which it is made, name, value].
-#ifndef PETRI_SRC_PACK_H
-#define PETRI_SRC_PACK_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 
@@ -32,5 +31,3 @@ bool link_pack(ByteBuffer *out, const Linked *linked);
 // caller frees *linked with link_free even after a failure.
 bool link_read(Linked *linked, const ByteBuffer *link);
 void link_free(Linked *linked);
-
-#endif

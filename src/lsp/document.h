@@ -1,6 +1,5 @@
 // document.h: a script that is open in the editor, or a file that such a script refers to.
-#ifndef PETRI_SRC_LSP_DOCUMENT_H
-#define PETRI_SRC_LSP_DOCUMENT_H
+#pragma once
 
 #include "lsp/rpc.h"
 #include "petri.h"
@@ -94,5 +93,3 @@ char *uri_path(const char *uri);
 char *uri_of(const char *path);
 // Returns the canonical path of a file, or a copy of the path if there is no such file. The caller frees it with free.
 char *path_canonical(const char *path);
-
-#endif

@@ -1,6 +1,5 @@
 // lsp.h: the language server, which is a separate program, petri-lsp, because it needs a JSON library.
-#ifndef PETRI_SRC_LSP_H
-#define PETRI_SRC_LSP_H
+#pragma once
 
 #include "cli/cli.h"
 #include "cli/options.h"
@@ -8,5 +7,3 @@
 // Handles messages from standard input until the editor ends the session. Returns the exit status. For
 // CommandContext.run_lsp.
 int lsp_serve(const CommandContext *context, Options *options);
-
-#endif

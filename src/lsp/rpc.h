@@ -1,6 +1,5 @@
 // rpc.h: messages of the Language Server Protocol: JSON-RPC on standard input and output, and the JSON in them.
-#ifndef PETRI_SRC_LSP_RPC_H
-#define PETRI_SRC_LSP_RPC_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 
@@ -43,5 +42,3 @@ Json *json_put_true(Json *object, const char *key);
 Json *json_from(Str text);
 // Returns `{"kind": "markdown", "value": text}`.
 Json *json_markdown(const char *text);
-
-#endif

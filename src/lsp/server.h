@@ -1,6 +1,5 @@
 // server.h: internal declarations of the language server.
-#ifndef PETRI_SRC_LSP_SERVER_H
-#define PETRI_SRC_LSP_SERVER_H
+#pragma once
 
 #include "base/file_access.h"
 #include "cli/options.h"
@@ -84,5 +83,3 @@ void hover_binding(ByteBuffer *out, Server *server, Document *document, const Pe
 const char *hover_value(Server *server, Document *document, const PetriBinding *name);
 // Returns the binding that scripts import under a name: the last top-level binding. Returns NULL if there is none.
 const PetriBinding *hover_export(const Document *document, Str name);
-
-#endif

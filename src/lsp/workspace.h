@@ -1,6 +1,5 @@
 // workspace.h: opens a script and all scripts related to it by imports and includes, and resolves names across them.
-#ifndef PETRI_SRC_LSP_WORKSPACE_H
-#define PETRI_SRC_LSP_WORKSPACE_H
+#pragma once
 
 #include "lsp/server.h"
 
@@ -50,5 +49,3 @@ bool binding_set_add(BindingSet *senses, const BindingSet *more);
 // NULL if no binding is visible there.
 const PetriBinding *workspace_visible(const Document *document, const Link *link, Str text);
 const PetriBinding *workspace_name(const Workspace *workspace, BindingRef sense);
-
-#endif

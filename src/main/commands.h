@@ -1,8 +1,7 @@
 // commands.h: the table of commands, which differs between programs. petri-pictures has all commands. petri and
 // petri-ranks have only those that need neither the drawing libraries nor the prompt nor json-c; petri executes
 // petri-pictures or petri-lsp for the others. petri-lsp has only `lsp`.
-#ifndef PETRI_SRC_COMMANDS_H
-#define PETRI_SRC_COMMANDS_H
+#pragma once
 
 #include "cli/cli.h"
 
@@ -10,5 +9,3 @@
 extern const Command *const COMMANDS[];
 // Returns the command with this name, or NULL.
 const Command *command_find(const char *name);
-
-#endif

@@ -1,6 +1,5 @@
 // packaging.h: manual pages, shell completions and other products generated from petri's tables.
-#ifndef PETRI_SRC_PACKAGING_H
-#define PETRI_SRC_PACKAGING_H
+#pragma once
 
 #include "cli/output.h"
 #include "main/commands.h"
@@ -32,5 +31,3 @@ void tables_as_json(Output *output);
 
 // Writes a file of src/editors with its marks replaced by names (template.c). Returns false if it cannot be read.
 bool template_fill(Output *output, const char *path);
-
-#endif

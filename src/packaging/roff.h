@@ -1,6 +1,5 @@
 // roff.h: functions that write manual pages with the macros of man(7).
-#ifndef PETRI_SRC_ROFF_H
-#define PETRI_SRC_ROFF_H
+#pragma once
 
 #include "cli/output.h"
 
@@ -17,5 +16,3 @@ void roff_paragraphs(Output *output, const char *text);
 void roff_item(Output *output, const char *head, const char *rest);
 // Writes the section SEE ALSO. `pages` are names such as "petri(1)", then NULL.
 void roff_see_also(Output *output, const char *const *pages);
-
-#endif

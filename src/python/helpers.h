@@ -1,6 +1,5 @@
 // helpers.h: functions for the Python module that combine several calls of libpetri. They run without the GIL.
-#ifndef PETRI_SRC_PYTHON_HELPERS_H
-#define PETRI_SRC_PYTHON_HELPERS_H
+#pragma once
 
 #include "petri-draw.h"
 
@@ -39,5 +38,3 @@ void petri_python_close(PetriSession *session);
 void petri_python_painter_close(PetriPainter *painter);
 void petri_python_picture_free(PetriPicture *picture);
 void petri_python_picture_options(PetriPictureOptions *options);
-
-#endif

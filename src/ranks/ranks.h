@@ -1,6 +1,5 @@
 // ranks.h: MPI ranks for PetriOptions.ranks. The only part of petri that needs MPI.
-#ifndef PETRI_SRC_RANKS_H
-#define PETRI_SRC_RANKS_H
+#pragma once
 
 #include "cli/cli.h"
 
@@ -10,5 +9,3 @@ void ranks_begin(CommandContext *context);
 // Finalises MPI. If `status` is a failure, exits the process instead. mpirun then terminates the other ranks, which
 // would wait for this one forever.
 void ranks_end(int status);
-
-#endif

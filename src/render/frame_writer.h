@@ -2,8 +2,7 @@
 //
 // Pictures wait in a short queue. Frames of a video are drawn in order by one thread. Image files are drawn by one
 // thread per processor. After the first failure, nothing more is written.
-#ifndef PETRI_SRC_FRAME_WRITER_H
-#define PETRI_SRC_FRAME_WRITER_H
+#pragma once
 
 #include "petri-draw.h"
 
@@ -33,5 +32,3 @@ int frame_writer_unfinished_count(const FrameWriter *writer);
 double frame_writer_seconds(const FrameWriter *writer);
 // Frees the writer. Must not be called if frame_writer_unfinished_count is not 0.
 void frame_writer_free(FrameWriter *writer);
-
-#endif

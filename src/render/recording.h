@@ -1,6 +1,5 @@
 // recording.h: the files of `!record` nodes: videos, and pictures, which are written once per file name.
-#ifndef PETRI_SRC_RECORDING_H
-#define PETRI_SRC_RECORDING_H
+#pragma once
 
 #include "petri-draw.h"
 
@@ -20,5 +19,3 @@ bool recording_add(Recording *recording, PetriPicture *picture, PetriPainter *pa
 // Completes all videos, or discards them if `abandon` is true. Returns false on failure. error_text remains valid.
 bool recording_end(Recording *recording, bool abandon);
 void recording_free(Recording *recording);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // The video gets its final name when it is complete (base/replace.h). If it is never completed, no file remains. On
 // failure, error_text has the reason, because the calling thread does not write messages.
-#ifndef PETRI_SRC_VIDEO_H
-#define PETRI_SRC_VIDEO_H
+#pragma once
 
 #include "base/replace.h"
 
@@ -35,5 +34,3 @@ bool video_add(Video *video, const uint32_t *pixels);
 bool video_close(Video *video);
 // Stops ffmpeg and discards the video. Does nothing if no video is open.
 void video_abandon(Video *video);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // On a terminal, libedit provides editing, history and completion. Without libedit, lines are read without editing.
 // Lines from a file or a pipe are echoed after the prompt, so that the output looks like an interactive session.
-#ifndef PETRI_SRC_REPL_LINE_H
-#define PETRI_SRC_REPL_LINE_H
+#pragma once
 
 #include "repl/repl.h"
 
@@ -52,5 +51,3 @@ void editor_free(Editor *editor);
 // Like line_read, but appends a whole block: all lines of a statement, each with its line feed. Up and Down move
 // between the lines of a block. The history stores whole blocks.
 LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *lines);
-
-#endif

@@ -1,6 +1,5 @@
 // repl.h: internal declarations of `petri repl`: its state, output, commands and completion.
-#ifndef PETRI_SRC_REPL_H
-#define PETRI_SRC_REPL_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/file_watch.h"
@@ -134,5 +133,3 @@ void complete_line(Repl *repl, const char *line, size_t length, Completion *comp
 void complete_free(Completion *completion);
 // Writes the words in columns.
 void complete_show(const Completion *completion, Output *output);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // Order of calls: frames_open, frames_load, frames_begin; then, as long as frames_due returns true, frames_step and
 // frames_save_state; then frames_end, petri_close.
-#ifndef PETRI_SRC_FRAMES_H
-#define PETRI_SRC_FRAMES_H
+#pragma once
 
 #include "cli/options.h"
 #include "cli/progress.h"
@@ -47,5 +46,3 @@ void frames_end(Frames *frames, bool going);
 // Returns the number of the signal that requested the end of the run, or 0.
 int frames_signal(void);
 double frames_fps(const Frames *frames);
-
-#endif

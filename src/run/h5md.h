@@ -1,6 +1,5 @@
 // h5md.h: H5MD trajectories (`petri run --trajectory FILE.h5`), which petri-hdf5 writes.
-#ifndef PETRI_SRC_H5MD_H
-#define PETRI_SRC_H5MD_H
+#pragma once
 
 #include "base/hash_index.h"
 #include "cli/byte_buffer.h"
@@ -26,5 +25,3 @@ bool h5md_add(H5md *file, PetriSession *session, Output *output);
 bool h5md_sync(H5md *file, Output *output);
 // Completes the file, or discards it if `keep` is false. Returns false, after a message of petri-hdf5, on failure.
 bool h5md_close(H5md *file, bool keep, Output *output);
-
-#endif

@@ -2,8 +2,7 @@
 //
 // Such a file is extended, not replaced. Whenever a state is saved, the file contains all frames up to that state.
 // A run that continues from the state removes later frames from the file and computes them again.
-#ifndef PETRI_SRC_RESUME_H
-#define PETRI_SRC_RESUME_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -29,5 +28,3 @@ bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after);
 // Reports the frames that are missing in the file: those from last + 1 up to the state. `last` is the last frame in the
 // file.
 void resume_report_gap(const char *path, int64_t last, const Resume *resume);
-
-#endif

@@ -1,6 +1,5 @@
 // stats.h: the table that `petri run --stats` prints at the end.
-#ifndef PETRI_SRC_STATS_H
-#define PETRI_SRC_STATS_H
+#pragma once
 
 #include "petri.h"
 
@@ -22,5 +21,3 @@ void stats_count(Stats *stats, PetriSession *session);
 // fastest particle. If `ranks` is not NULL, all ranks must call this function, and the table has communication
 // statistics.
 void stats_print(const Stats *stats, PetriSession *session, double seconds, const PetriRanks *ranks);
-
-#endif

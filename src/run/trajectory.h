@@ -1,6 +1,5 @@
 // trajectory.h: the file of `petri run --trajectory`: all particles, frame by frame.
-#ifndef PETRI_SRC_TRAJECTORY_H
-#define PETRI_SRC_TRAJECTORY_H
+#pragma once
 
 #include "base/replace.h"
 #include "cli/output.h"
@@ -42,5 +41,3 @@ bool trajectory_sync(void *trajectory);
 // failed. An old file of the same name is kept if a write failed. It is also kept if the run failed (`good` is false)
 // before its first complete frame.
 bool trajectory_close(Trajectory *trajectory, bool good);
-
-#endif

@@ -3,8 +3,7 @@
 // The journal is a file beside the table: OUT.part, or OUT.part-2-of-4 for the second of four shards. Its first line
 // identifies the sweep. The results follow in the order in which runs finished. An incomplete result at the end is
 // ignored. The table contains the results in all journals of the sweep.
-#ifndef PETRI_SRC_JOURNAL_H
-#define PETRI_SRC_JOURNAL_H
+#pragma once
 
 #include "sweep/sweep.h"
 
@@ -24,5 +23,3 @@ void journal_merge(const Journal *journal, Sweep *sweep);
 // Removes all journals of the sweep. Must be called after the table was written.
 void journal_remove(const Journal *journal, Sweep *sweep);
 void journal_close(Journal *journal);
-
-#endif

@@ -1,7 +1,6 @@
 // measure.h: execution of runs, one after the other in the same session. If the script can be loaded without
 // definitions, its file is read only once. The script is compiled again for each run, with the definitions of that run.
-#ifndef PETRI_SRC_MEASURE_H
-#define PETRI_SRC_MEASURE_H
+#pragma once
 
 #include "petri.h"
 #include "sweep/sweep.h"
@@ -30,5 +29,3 @@ void measure_run(Measure *measure, size_t run);
 int measure_dry_run(Measure *measure);
 // Adds the contents of all source files of the script to the hash.
 void measure_hash_sources(Measure *measure, Sha256 *hash);
-
-#endif

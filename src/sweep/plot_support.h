@@ -1,7 +1,6 @@
 // plot_support.h: functions of petri sweep that need libraries which petri itself does not link: reading plans and
 // drawing plots.
-#ifndef PETRI_SRC_SWEEP_PLOT_SUPPORT_H
-#define PETRI_SRC_SWEEP_PLOT_SUPPORT_H
+#pragma once
 
 #include "sweep/sweep.h"
 
@@ -18,5 +17,3 @@ extern const PlotSupport PLOT_SUPPORT;
 
 bool plan_read(const char *path, TextList *words);
 bool plot_grid_draw(const Sweep *sweep, const char *path);
-
-#endif

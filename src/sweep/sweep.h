@@ -1,6 +1,5 @@
 // sweep.h: internal declarations of `petri sweep`: the runs of a sweep and their results.
-#ifndef PETRI_SRC_SWEEP_H
-#define PETRI_SRC_SWEEP_H
+#pragma once
 
 #include "base/sha256.h"
 #include "cli/byte_buffer.h"
@@ -69,5 +68,3 @@ void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, const char *ro
 bool sweep_is_failed(const Result *result);
 // Shows a diagnostic, unless it was shown before or --quiet hides it.
 void sweep_report(Sweep *sweep, PetriLevel level, const char *rendered);
-
-#endif

@@ -1,6 +1,5 @@
 // table.h: access to the results of runs, and their output: the table, the command lines and the summary.
-#ifndef PETRI_SRC_SWEEP_TABLE_H
-#define PETRI_SRC_SWEEP_TABLE_H
+#pragma once
 
 #include "sweep/sweep.h"
 
@@ -28,5 +27,3 @@ void table_make(const Sweep *sweep, ByteBuffer *out);
 void table_commands(const Sweep *sweep, ByteBuffer *out);
 // Appends mean, standard deviation and quantiles of each metric over runs that differ only in SEED.
 void summary_make(const Sweep *sweep, ByteBuffer *out);
-
-#endif

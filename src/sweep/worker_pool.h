@@ -1,6 +1,5 @@
 // worker_pool.h: worker processes that execute runs. A crash ends only one run and becomes a row of the table.
-#ifndef PETRI_SRC_WORKER_POOL_H
-#define PETRI_SRC_WORKER_POOL_H
+#pragma once
 
 #include "sweep/journal.h"
 #include "sweep/sweep.h"
@@ -10,5 +9,3 @@
 int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs);
 // Returns the number of the last signal since worker_pool_run was called, or 0.
 int worker_pool_signal(void);
-
-#endif

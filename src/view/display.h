@@ -1,8 +1,7 @@
 // display.h: the interface of a display of `petri view`: a window or the terminal.
 //
 // A display shows pictures, reports user input, and can be closed at any time. It must be used by one thread.
-#ifndef PETRI_SRC_DISPLAY_H
-#define PETRI_SRC_DISPLAY_H
+#pragma once
 
 #include "petri-draw.h"
 #include "view/overlay_text.h"
@@ -78,5 +77,3 @@ const DisplayKind *window_display(void);
 bool window_has_screen(void);
 // Returns the terminal display, or NULL if petri was built without libchafa.
 const DisplayKind *terminal_display(void);
-
-#endif

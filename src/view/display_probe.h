@@ -2,8 +2,7 @@
 //
 // If no screen can be reached, SDL falls back to drivers such as an invisible window in memory. If a network does not
 // answer, libraries wait for minutes. So petri checks first.
-#ifndef PETRI_SRC_DISPLAY_PROBE_H
-#define PETRI_SRC_DISPLAY_PROBE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,5 +18,3 @@ const DisplayProbe *display_probe_kind(size_t number);
 const char *display_probe_name(const DisplayProbe *screen);
 // Returns true if the screen answers within three seconds.
 bool display_probe_answers(const DisplayProbe *screen);
-
-#endif

@@ -5,8 +5,7 @@
 // to the default), `.back N` (frames), `.drop` (remove everything sent before) and `.reset`. Each line contains output,
 // {"text": …}, or a diagnostic as in petri check --format=json. The last line is {"done": true or false, "frame": …,
 // "values": …, "bindings": …, "nodes": …, "shadowed": …}.
-#ifndef PETRI_SRC_VIEW_LISTEN_H
-#define PETRI_SRC_VIEW_LISTEN_H
+#pragma once
 
 #include "view/live_script.h"
 
@@ -27,5 +26,3 @@ typedef enum ListenerResult { LISTENER_NOTHING, LISTENER_ACCEPTED, LISTENER_MOVE
 ListenerResult listener_serve(Listener *listener, LiveScript *live);
 // Removes the socket. A listener that was never opened is ignored.
 void listener_close(Listener *listener);
-
-#endif

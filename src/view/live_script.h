@@ -2,8 +2,7 @@
 //
 // If the changed script cannot be loaded, the error is reported and the last good program keeps running. If a frame
 // fails, the error is reported and the program is halted.
-#ifndef PETRI_SRC_VIEW_LIVE_SCRIPT_H
-#define PETRI_SRC_VIEW_LIVE_SCRIPT_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "cli/file_watch.h"
@@ -99,5 +98,3 @@ void live_script_release_messages(LiveScript *live);
 void warnings_mark(const Warnings *warnings, char *text, size_t size);
 // Sets `text` to a line with the number of warnings, followed by the list of warnings.
 void warnings_list(const Warnings *warnings, char *text, size_t size);
-
-#endif

@@ -1,6 +1,5 @@
 // overlay.h: draws the texts of an overlay over a picture.
-#ifndef PETRI_SRC_OVERLAY_H
-#define PETRI_SRC_OVERLAY_H
+#pragma once
 
 #include "petri-draw.h"
 #include "view/overlay_text.h"
@@ -12,5 +11,3 @@ void overlay_draw(PetriPainter *painter, const Overlay *overlay, double scale, u
 // Shows a picture (NULL: black) and the text over it in the painter's window (petri_painter_present).
 PetriStatus overlay_show(PetriPainter *painter, PetriPicture *picture, const Overlay *overlay, double scale, int width,
                          int height);
-
-#endif

@@ -1,6 +1,5 @@
 // overlay_text.h: the texts shown over a picture, and their wrapping.
-#ifndef PETRI_SRC_OVERLAY_TEXT_H
-#define PETRI_SRC_OVERLAY_TEXT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -26,5 +25,3 @@ int overlay_columns(const char *text);
 // blank quote a script or contain carets below a quoted line. To keep them aligned, they are truncated, not wrapped.
 // Text that exceeds `size` bytes is omitted.
 void overlay_fit(char *out, size_t size, const char *text, int columns);
-
-#endif

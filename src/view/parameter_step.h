@@ -1,6 +1,5 @@
 // parameter_step.h: the value of a parameter after a key press.
-#ifndef PETRI_SRC_PARAMETER_STEP_H
-#define PETRI_SRC_PARAMETER_STEP_H
+#pragma once
 
 #include "petri.h"
 
@@ -10,5 +9,3 @@
 // Returns NaN if the value is not a number. Also returns NaN if the result would be 0, because the operator `or` in the
 // parameter's declaration would replace 0 by the default.
 double parameter_stepped(const PetriParameter *parameter, int steps);
-
-#endif

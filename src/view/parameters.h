@@ -1,6 +1,5 @@
 // parameters.h: handles the keys that select and change parameters while the script runs.
-#ifndef PETRI_SRC_VIEW_PARAMETERS_H
-#define PETRI_SRC_VIEW_PARAMETERS_H
+#pragma once
 
 #include "cli/byte_buffer.h"
 #include "petri.h"
@@ -26,5 +25,3 @@ ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char 
 bool parameter_key_repeats(const char *key);
 // If the script has parameters, appends lines about the selected parameter and the keys to `text`.
 void parameter_status(const ParameterKeys *keys, LiveScript *live, ByteBuffer *text);
-
-#endif

@@ -1,6 +1,5 @@
 // still.h: writes the picture of a session's last frame to a terminal as text.
-#ifndef PETRI_SRC_STILL_H
-#define PETRI_SRC_STILL_H
+#pragma once
 
 #include "petri-draw.h"
 
@@ -13,5 +12,3 @@ PetriStatus still_show(PetriSession *session, PetriPainter *painter, bool colour
 // Writes opaque pixels as a picture to standard output, which must be a terminal. Leaves `below` rows free.
 // Returns false if out of memory or if petri was built without libchafa.
 bool still_show_pixels(const uint32_t *pixels, int width, int height, bool colour, int below);
-
-#endif

@@ -1,6 +1,5 @@
 // terminal_keys.h: converts terminal input to events: characters, escape sequences of keys, reports of mouse and focus.
-#ifndef PETRI_SRC_TERMINAL_KEYS_H
-#define PETRI_SRC_TERMINAL_KEYS_H
+#pragma once
 
 #include "view/display.h"
 
@@ -19,5 +18,3 @@ void terminal_input_read(TerminalInput *input, int fd);
 // Returns the next event, or EVENT_NONE if there is none yet. The pointer's position is the centre of a cell, in units
 // of cells, counted from 0.
 Event terminal_input_next(TerminalInput *input);
-
-#endif

@@ -7,8 +7,7 @@
 //     ... draw it with cells.width x cells.height pixels ...
 //     char *text = terminal_picture_text(way, pixels, &cells, &length);
 // and write the text and a newline. If petri was built without libchafa, terminal_picture_new returns NULL.
-#ifndef PETRI_SRC_TERMINAL_PICTURE_H
-#define PETRI_SRC_TERMINAL_PICTURE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -43,5 +42,3 @@ TerminalCells terminal_picture_fit(const TerminalPicture *renderer, int columns,
 // then premultiplied red, green and blue.
 char *terminal_picture_text(TerminalPicture *renderer, const uint32_t *pixels, const TerminalCells *cells,
                             size_t *length);
-
-#endif

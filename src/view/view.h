@@ -1,6 +1,5 @@
 // view.h: the state of `petri view`, shared by its files.
-#ifndef PETRI_SRC_VIEW_VIEW_H
-#define PETRI_SRC_VIEW_VIEW_H
+#pragma once
 
 #include "view/display.h"
 #include "view/listen.h"
@@ -55,5 +54,3 @@ void view_update_error_text(View *view);
 void view_update_status(View *view);
 // Measures the frame rate and updates the status, but at most twice a second, so that the status remains readable.
 void view_measure_rate(View *view);
-
-#endif

@@ -1,7 +1,6 @@
 // window_manager.h: X11 functions that SDL lacks: whether full screen is supported, and surviving the loss of the
 // screen.
-#ifndef PETRI_SRC_WINDOW_MANAGER_H
-#define PETRI_SRC_WINDOW_MANAGER_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -13,5 +12,3 @@ bool window_manager_fills_screen(struct SDL_Window *window);
 // Prevents Xlib from terminating the process when an X11 screen is lost. Instead, requests to the screen fail and
 // `*gone` is set. `gone` must remain valid until the process ends.
 void window_manager_watch(struct SDL_Window *window, bool *gone);
-
-#endif

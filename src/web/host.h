@@ -2,8 +2,7 @@
 // `petri`.
 //
 // Strings are valid only during the call. 64-bit integers are passed as doubles.
-#ifndef PETRI_WEB_HOST_H
-#define PETRI_WEB_HOST_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -49,5 +48,3 @@ HOST(token) void host_token(int kind, size_t start, size_t end);
 HOST(help)
 void host_help(const char *area, const char *name, const char *parameters, const char *fallback, const char *unit,
                const char *help);
-
-#endif

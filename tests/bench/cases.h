@@ -1,6 +1,5 @@
 // cases.h: the scripts that the benchmark measures.
-#ifndef TESTS_BENCH_CASES_H
-#define TESTS_BENCH_CASES_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -34,5 +33,3 @@ extern const size_t case_count;
 size_t case_find(const char *name);
 // Returns the index of the previous row with the same family and steps per frame, or case_count if there is none.
 size_t case_before(size_t index);
-
-#endif

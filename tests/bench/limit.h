@@ -1,7 +1,6 @@
 // limit.h: minimal kernels that give the same bits as petri. Their times on one core are lower bounds, to which petri's
 // times are compared.
-#ifndef TESTS_BENCH_LIMIT_H
-#define TESTS_BENCH_LIMIT_H
+#pragma once
 
 #include <stdint.h>
 
@@ -15,5 +14,3 @@ double limit_soft(int dimensions, int side);
 // and `velocity`, in which the coordinates of each particle are adjacent. Returns the number of times that the
 // neighbour lists were rebuilt, or 0 without AVX-512.
 int limit_soft_run(int dimensions, int side, double step, int count, double *position, double *velocity);
-
-#endif

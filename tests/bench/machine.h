@@ -1,10 +1,7 @@
 // machine.h: a description of the machine and the build for reports.
-#ifndef TESTS_BENCH_MACHINE_H
-#define TESTS_BENCH_MACHINE_H
+#pragma once
 
 #include <stddef.h>
 
 // Writes one line: processor, vector level, threads, compiler, load.
 void machine_describe(char *text, size_t size, int threads);
-
-#endif

@@ -1,6 +1,5 @@
 // measure.h: measurement of one script. The figures are medians over rounds, in which the variants take turns.
-#ifndef TESTS_BENCH_MEASURE_H
-#define TESTS_BENCH_MEASURE_H
+#pragma once
 
 #include "cases.h"
 #include "worker.h"
@@ -67,5 +66,3 @@ bool measure_clean(const Sample *round);
 double measure_median(double *values, int count);
 
 enum { ROUNDS_MAX = 31 };
-
-#endif

@@ -1,6 +1,5 @@
 // peers.h: comparison with LAMMPS. petri and LAMMPS simulate the same systems in turn (tests/bench/peers).
-#ifndef TESTS_BENCH_PEERS_H
-#define TESTS_BENCH_PEERS_H
+#pragma once
 
 #include "measure.h"
 #include "table.h"
@@ -15,5 +14,3 @@ typedef struct PeerRatios {
 bool peers_available(const char *folder, char *version, size_t size);
 // Returns a table with one row per workload, steps per frame and force style.
 Table peers_measure(const Plan *plan, const char *folder, PeerRatios *ratios);
-
-#endif

@@ -1,6 +1,5 @@
 // report.h: tables of the measured figures.
-#ifndef TESTS_BENCH_REPORT_H
-#define TESTS_BENCH_REPORT_H
+#pragma once
 
 #include "measure.h"
 #include "peers.h"
@@ -18,5 +17,3 @@ Table report_workloads(const Results *results);
 Table report_targets(const Results *results, bool all);
 // Returns the table that compares this build with the other build.
 Table report_builds(const Results *results);
-
-#endif

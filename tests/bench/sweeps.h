@@ -1,11 +1,8 @@
 // sweeps.h: measurement of the parallel speed-up of `petri sweep`.
-#ifndef TESTS_BENCH_SWEEPS_H
-#define TESTS_BENCH_SWEEPS_H
+#pragma once
 
 #include "measure.h"
 #include "table.h"
 
 // Measures 1000 runs of 100 frames of a dish with 50 cells. Returns a table with one row per number of processes.
 Table sweeps_measure(const Plan *plan);
-
-#endif

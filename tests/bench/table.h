@@ -1,6 +1,5 @@
 // table.h: tables of figures, which are written as aligned text, Markdown or CSV.
-#ifndef TESTS_BENCH_TABLE_H
-#define TESTS_BENCH_TABLE_H
+#pragma once
 
 #include <stddef.h>
 #include <stdio.h>
@@ -37,5 +36,3 @@ Cell cell_text(const char *text);
 void table_write_text(const Table *table, FILE *file);
 void table_write_markdown(const Table *table, FILE *file);
 void table_write_csv(const Table *table, FILE *file);
-
-#endif

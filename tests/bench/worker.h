@@ -3,8 +3,7 @@
 // Each variant of a workload (threads, build) has a separate worker, so variants can take turns and peak memory is that
 // of one script. A worker is the bench executable with the argument `worker`. It communicates with the parent by lines
 // of text.
-#ifndef TESTS_BENCH_WORKER_H
-#define TESTS_BENCH_WORKER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -43,5 +42,3 @@ int worker_main(int argc, char **argv);
 double clock_now(void);
 // Returns the processor time of this thread in seconds.
 double clock_thread(void);
-
-#endif

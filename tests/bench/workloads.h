@@ -1,6 +1,5 @@
 // workloads.h: the systems of the benchmark scripts, built directly for lib/physics.
-#ifndef TESTS_BENCH_WORKLOADS_H
-#define TESTS_BENCH_WORKLOADS_H
+#pragma once
 
 #include "physics/system.h"
 
@@ -34,5 +33,3 @@ void workload_close(Workload *workload);
 // Passes the whole system to lib/physics again, as a script does in each frame, and simulates `steps` steps.
 void workload_frame(Workload *workload, int steps);
 const char *workload_name(WorkloadKind kind);
-
-#endif

@@ -1,7 +1,6 @@
 // fuzz.h: functions shared by the fuzzing harnesses. Each harness is a file with libFuzzer's entry point, which handles
 // one input. A finding aborts the process, through a sanitizer or fuzz_fail.
-#ifndef PETRI_TESTS_FUZZ_H
-#define PETRI_TESTS_FUZZ_H
+#pragma once
 
 #include "petri.h"
 
@@ -61,5 +60,3 @@ const char *fuzz_file(const char *name);
 void fuzz_put(const char *name, const void *bytes, size_t length);
 // Writes a state file: the text and a line with its checksum.
 void fuzz_put_state(const char *name, const void *text, size_t length);
-
-#endif

@@ -1,6 +1,5 @@
 // mesh.h: a check of meshes, shared by harnesses.
-#ifndef PETRI_TESTS_MESH_H
-#define PETRI_TESTS_MESH_H
+#pragma once
 
 #include "fuzz.h"
 #include "gl/scene_mesh.h"
@@ -13,5 +12,3 @@ static inline void mesh_check(const Mesh *mesh) {
         if (mesh->indices[i] >= mesh->vertex_count)
             fuzz_fail("a mesh has an index without a vertex");
 }
-
-#endif

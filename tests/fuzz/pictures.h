@@ -1,6 +1,5 @@
 // pictures.h: drawing of scripts, shared by the harnesses of pictures.
-#ifndef PETRI_TESTS_PICTURES_H
-#define PETRI_TESTS_PICTURES_H
+#pragma once
 
 #include "fuzz.h"
 #include "petri-draw.h"
@@ -11,5 +10,3 @@ PetriSession *pictures_open(const char *script, size_t length);
 // Draws two frames of a script: the first as its nodes specify, the second as an automatic picture if `automatic` is
 // true. Also reads the picture's records and its display list.
 void pictures_draw(PetriPainter *painter, const char *script, size_t length, bool automatic);
-
-#endif

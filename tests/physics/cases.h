@@ -2,8 +2,7 @@
 //
 // At one frame per second, the first step is taken in frame 1 and has length 1. Afterwards, the velocity of a resting
 // particle of mass 1 equals the force on it. The numbers are chosen so that no rounding occurs.
-#ifndef PETRI_TESTS_PHYSICS_CASES_H
-#define PETRI_TESTS_PHYSICS_CASES_H
+#pragma once
 
 #include "world.h"
 
@@ -60,5 +59,3 @@ static inline void check_case(const Case *row, const char *file, int line) {
         for (size_t row = 0; row < COUNT_OF(table); row++)                                                             \
             check_case(&(table)[row], __FILE__, __LINE__);                                                             \
     } while (0)
-
-#endif

@@ -1,6 +1,5 @@
 // world.h: helpers that run a script from a string and read its printed state, with petri.h only.
-#ifndef PETRI_TESTS_PHYSICS_WORLD_H
-#define PETRI_TESTS_PHYSICS_WORLD_H
+#pragma once
 
 #include "petri.h"
 
@@ -243,5 +242,3 @@ static inline void check_reported(const World *world, const char *codes, const c
 }
 
 #define EXPECT_REPORTED(world, codes) check_reported(world, codes, "", __FILE__, __LINE__)
-
-#endif

@@ -1,6 +1,5 @@
 // drawn.h: draws scripts from strings, frame by frame with one painter, and collects their diagnostics.
-#ifndef PETRI_TESTS_DRAWN_H
-#define PETRI_TESTS_DRAWN_H
+#pragma once
 
 #include "check.h"
 #include "petri-draw.h"
@@ -83,5 +82,3 @@ static inline bool drawn_can_run(void) {
     drawn_close(&drawn);
     return can;
 }
-
-#endif

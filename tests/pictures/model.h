@@ -1,7 +1,6 @@
 // model.h: an independent model of lib/spec/pictures.md, sections 1, 3, 6 and 7, which was written from that page only.
 // It computes single pixels with doubles. Tests compare petri's effects with the model.
-#ifndef PETRI_TESTS_MODEL_H
-#define PETRI_TESTS_MODEL_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -59,5 +58,3 @@ void model_target(Pic *pic, int w, int h);
 void model_effect(const Work *work, Pic *out);
 // Section 7.9: noise.
 void model_noise(const Work *work, Pic *out);
-
-#endif

@@ -1,6 +1,5 @@
 // turbulence.h: model of lib/spec/canvas.md 5.5: the noise of SVG's feTurbulence, as described in Filter Effects 1.
-#ifndef PETRI_TESTS_TURBULENCE_H
-#define PETRI_TESTS_TURBULENCE_H
+#pragma once
 
 #include <math.h>
 #include <stddef.h>
@@ -67,5 +66,3 @@ static inline double turbulence_noise(const Turbulence *t, int channel, double x
     double b = u + sx * (v - u);
     return a + sy * (b - a);
 }
-
-#endif

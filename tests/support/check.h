@@ -1,6 +1,5 @@
 // check.h: cmocka and the headers it needs, and assertions that name the failed row of a table.
-#ifndef PETRI_TESTS_CHECK_H
-#define PETRI_TESTS_CHECK_H
+#pragma once
 
 #include <math.h>
 #include <setjmp.h>
@@ -49,5 +48,3 @@ static inline uint64_t next_bits(uint64_t *seed) {
     x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
     return x ^ (x >> 31);
 }
-
-#endif

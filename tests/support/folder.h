@@ -1,6 +1,5 @@
 // folder.h: a temporary folder with files for one test.
-#ifndef PETRI_TESTS_FOLDER_H
-#define PETRI_TESTS_FOLDER_H
+#pragma once
 
 #include "check.h"
 
@@ -50,5 +49,3 @@ static inline void folder_close(Folder *folder) {
         closedir(entries);
     assert_int_equal(rmdir(folder->path), 0);
 }
-
-#endif

@@ -1,7 +1,6 @@
 // heap.h: simulated allocation failures. The test must be linked with --wrap for malloc, calloc, realloc, aligned_alloc
 // and arena_alloc_slow. In sanitizer and stress builds, nearly all arena allocations use arena_alloc_slow.
-#ifndef PETRI_TESTS_HEAP_H
-#define PETRI_TESTS_HEAP_H
+#pragma once
 
 #include "base/arena.h"
 
@@ -66,5 +65,3 @@ void *__wrap_arena_alloc_slow(Arena *arena, size_t size) {
         arena_exhausted(arena);
     return __real_arena_alloc_slow(arena, size);
 }
-
-#endif

@@ -1,6 +1,5 @@
 // nodes.h: functions that create single nodes and values of nodes. The library creates them in lists (vm/construct.c).
-#ifndef PETRI_TESTS_NODES_H
-#define PETRI_TESTS_NODES_H
+#pragma once
 
 #include "value/node.h"
 
@@ -13,5 +12,3 @@ static inline Node *node_append(Arena *arena, const Node *node, Value children) 
     NodeList list = node_list(arena, children);
     return node_append_list(arena, node, &list);
 }
-
-#endif

@@ -1,6 +1,5 @@
 // player.h: a session for tests, which loads scripts, steps frames, and records diagnostics and printed text.
-#ifndef PETRI_TESTS_PLAYER_H
-#define PETRI_TESTS_PLAYER_H
+#pragma once
 
 #include "check.h"
 #include "petri.h"
@@ -170,5 +169,3 @@ static inline void check_trees(Player *player, const ScriptRow *rows, size_t cou
         }
     }
 }
-
-#endif

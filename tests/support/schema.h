@@ -1,6 +1,5 @@
 // schema.h: symbols and a schema for tests of node readers. Records the diagnostics of the readers.
-#ifndef PETRI_TESTS_SCHEMA_H
-#define PETRI_TESTS_SCHEMA_H
+#pragma once
 
 #include "check.h"
 #include "schema/reader.h"
@@ -32,5 +31,3 @@ static inline void end(Fixture *f) {
     symbol_table_free(&f->symbols);
     arena_free(&f->arena);
 }
-
-#endif

@@ -1,6 +1,5 @@
 // scripts.h: calls a function for each script in the folders named on the command line.
-#ifndef PETRI_TESTS_SCRIPTS_H
-#define PETRI_TESTS_SCRIPTS_H
+#pragma once
 
 #include "check.h"
 
@@ -44,5 +43,3 @@ static inline void scripts_set_folders(int argc, char **argv) {
     script_folder_count = argc - 1;
     script_folders = argv + 1;
 }
-
-#endif

@@ -1,6 +1,5 @@
 // values.h: conversion of values to and from strings, for the tests of lib/value and lib/state.
-#ifndef PETRI_TESTS_VALUES_H
-#define PETRI_TESTS_VALUES_H
+#pragma once
 
 #include "check.h"
 #include "nodes.h"
@@ -86,5 +85,3 @@ static inline const char *show(World *world, Value v) {
     format_value(&text, &world->symbols, v);
     return text_c(&text);
 }
-
-#endif

@@ -1,6 +1,5 @@
 // files.h: fixture with an arena and a temporary folder for each test declared with FILE_TEST(function).
-#ifndef PETRI_TESTS_BASE_FILES_H
-#define PETRI_TESTS_BASE_FILES_H
+#pragma once
 
 #include "base/arena.h"
 #include "folder.h"
@@ -23,5 +22,3 @@ static int teardown(void **state) {
 }
 
 #define FILE_TEST(function) cmocka_unit_test_setup_teardown(function, setup, teardown)
-
-#endif

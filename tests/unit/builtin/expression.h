@@ -1,7 +1,6 @@
 // expression.h: evaluates simple expressions, so that tests can contain the examples of the specification unchanged:
 // literals, operators, ranges, indexing and calls of built-ins.
-#ifndef PETRI_TESTS_BUILTIN_EXPRESSION_H
-#define PETRI_TESTS_BUILTIN_EXPRESSION_H
+#pragma once
 
 #include "nodes.h"
 #include "value/ops.h"
@@ -226,5 +225,3 @@ static void check_all(World *world, const char *const *lines, size_t count) {
 }
 
 #define CHECK_ALL(world, lines) check_all(world, lines, sizeof(lines) / sizeof((lines)[0]))
-
-#endif

@@ -1,6 +1,5 @@
 // world.h: a context for calling built-ins, and assertions about values.
-#ifndef PETRI_TESTS_BUILTIN_WORLD_H
-#define PETRI_TESTS_BUILTIN_WORLD_H
+#pragma once
 
 #include "base/number.h"
 #include "builtin/builtin.h"
@@ -133,5 +132,3 @@ static inline void assert_well_formed(Value v) {
     }
     assert_true(others > 0);
 }
-
-#endif

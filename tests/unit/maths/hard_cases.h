@@ -1,8 +1,7 @@
 // hard_cases.h: arguments whose results are hard to round. The comments give the distance, in half ulps, between the
 // exact result and the nearest double or midpoint (halfway between two doubles). The first list is from the literature:
 // Lefèvre and Muller's tables of worst cases and later work. The second list was found with find_hard.c.
-#ifndef PETRI_TESTS_MATHS_HARD_CASES_H
-#define PETRI_TESTS_MATHS_HARD_CASES_H
+#pragma once
 
 typedef struct HardCase {
     const char *name;
@@ -178,5 +177,3 @@ static const HardCase hard_cases[] = {
     {"pow", 0x1.575d4dcf5244p-1, 0x1.d476fefcd7072p+1},    // 2^-31.0
     {"pow", 0x1.70e5648ffd8b1p-1, 0x1.bd866d63a2c2dp+0},   // 2^-30.9
 };
-
-#endif

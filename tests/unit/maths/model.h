@@ -1,6 +1,5 @@
 // model.h: reference results for lib/maths, computed with MPFR, and random arguments.
-#ifndef PETRI_TESTS_MATHS_MODEL_H
-#define PETRI_TESTS_MATHS_MODEL_H
+#pragma once
 
 #include "check.h"
 #include "maths/fast.h"
@@ -98,5 +97,3 @@ static inline int wrong_cases(const Subject *subject, double x, double y, bool e
     }
     return wrong;
 }
-
-#endif

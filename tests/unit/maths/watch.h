@@ -1,8 +1,7 @@
 // watch.h: records the decisions of the scalar functions' fast paths. A decision is a test of a fast path's result,
 // high + low, whose error is at most `error`: is the result accurate enough to be rounded correctly? The functions are
 // two variants that are compiled from watched.c, without and with FMA.
-#ifndef PETRI_TESTS_MATHS_WATCH_H
-#define PETRI_TESTS_MATHS_WATCH_H
+#pragma once
 
 #include "model.h"
 
@@ -93,5 +92,3 @@ static inline void watch_next(const Subject *subject, const Watched *watched, do
             watch->worst = share;
     }
 }
-
-#endif

@@ -1,6 +1,5 @@
 // random_model.h: random systems for the tests that compare lib/physics with the reference.
-#ifndef TESTS_UNIT_PHYSICS_RANDOM_MODEL_H
-#define TESTS_UNIT_PHYSICS_RANDOM_MODEL_H
+#pragma once
 
 #include "reference.h"
 
@@ -140,5 +139,3 @@ static inline void compare_random_with(uint64_t seed, const ModelShape *shape, i
 static inline void compare_random(uint64_t seed, const ModelShape *shape, int frames) {
     compare_random_with(seed, shape, frames, NULL);
 }
-
-#endif

@@ -2,8 +2,7 @@
 //
 // Particles are an array of structs in order of declaration, groups are found by linear search, and each sum is written
 // as in the specification. Tests compare the results of lib/physics with this code bit for bit.
-#ifndef TESTS_UNIT_PHYSICS_REFERENCE_H
-#define TESTS_UNIT_PHYSICS_REFERENCE_H
+#pragma once
 
 #include "maths/maths.h"
 #include "maths/random.h"
@@ -377,5 +376,3 @@ static inline void compare_frame(Model *model, PhysSystem *system, const PhysTim
         fail();
     }
 }
-
-#endif

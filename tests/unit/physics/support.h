@@ -1,6 +1,5 @@
 // support.h: small helpers for the tests of lib/physics.
-#ifndef TESTS_UNIT_PHYSICS_SUPPORT_H
-#define TESTS_UNIT_PHYSICS_SUPPORT_H
+#pragma once
 
 #include "physics/system.h"
 
@@ -86,5 +85,3 @@ static inline uint32_t dice_below(Dice *dice, uint32_t limit) {
 static inline double dice_between(Dice *dice, double low, double high) {
     return low + (high - low) * ((double)(dice_next(dice) >> 11) * 0x1p-53);
 }
-
-#endif

@@ -1,6 +1,5 @@
 // compiling.h: compiles scripts without a VM. Constant expressions are folded by a simple calculator.
-#ifndef PETRI_TESTS_COMPILING_H
-#define PETRI_TESTS_COMPILING_H
+#pragma once
 
 #include "program/code.h"
 #include "syntax/parse.h"
@@ -167,5 +166,3 @@ static inline void check_code(Desk *desk, const CodeRow *rows, size_t count) {
     for (size_t i = 0; i < count; i++)
         assert_text(rows[i].script, code_of(desk, rows[i].script), rows[i].code);
 }
-
-#endif

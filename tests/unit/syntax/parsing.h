@@ -1,6 +1,5 @@
 // parsing.h: helpers that parse a script and return its syntax tree or errors as a string.
-#ifndef PETRI_TESTS_PARSING_H
-#define PETRI_TESTS_PARSING_H
+#pragma once
 
 #include "syntax/parse.h"
 #include "values.h"
@@ -85,5 +84,3 @@ static inline const char *complaints(World *world, Str program) {
     diag_sink_free(&parsed.diags);
     return text_c(&out);
 }
-
-#endif

@@ -1,6 +1,5 @@
 // runner.h: parses, compiles and evaluates scripts with a VM but without a session.
-#ifndef PETRI_TESTS_RUNNER_H
-#define PETRI_TESTS_RUNNER_H
+#pragma once
 
 #include "builtin/files.h"
 #include "builtin/noise.h"
@@ -176,5 +175,3 @@ static inline void check_trees(Runner *runner, const ScriptRow *rows, size_t cou
         }
     }
 }
-
-#endif
