@@ -174,8 +174,10 @@ class Worker:
         self.originals = checkout.objects()  # without a fault
 
     def changes_code(self, mutant):
-        """Compiles the mutant alone; returns whether its object code differs, None if it does not compile."""
+        """Compiles the mutant alone; returns whether its object code differs, None if it does not compile or is not built."""
         objects = self.originals.get(mutant.path, {})
+        if not objects and mutant.path.endswith('.c'):
+            return None  # a source for builds without a library
         (self.checkout.folder / mutant.path).write_text(plant(mutant.text, mutant.fault), encoding='utf8')
         if objects and not self.checkout.compiles(objects):
             return None

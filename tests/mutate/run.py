@@ -33,6 +33,7 @@ int main(void) {
     return limit(-1, limits, 0) == 0 && limit(1, limits, 1) == 2 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 '''
+NOT_BUILT = 'int other(int a) { return a + 1; }\n'
 BUILD = '''project('small', 'c', default_options: ['werror=true', 'warning_level=3'])
 sum = static_library('sum', 'lib/sum/sum.c')
 test('test_sum', executable('test_sum', 'test_sum.c', include_directories: 'lib/sum', link_with: sum), suite: 'sum')
@@ -105,7 +106,8 @@ class Judgement(unittest.TestCase):
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
-        files = {'lib/sum/sum.c': SOURCE, 'lib/sum/sum.h': HEADER, 'test_sum.c': TEST, 'meson.build': BUILD}
+        files = {'lib/sum/sum.c': SOURCE, 'lib/sum/sum.h': HEADER, 'lib/sum/other.c': NOT_BUILT, 'test_sum.c': TEST,
+                 'meson.build': BUILD}
         for name, text in files.items():
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             (self.folder / name).write_text(text, encoding='utf8')
@@ -126,6 +128,7 @@ class Judgement(unittest.TestCase):
         self.assertIn('not compiled', results.values())  # swapped arguments of store
         self.assertIn('-    if (x < 0) // not tested at the border\n+    if (x <= 0) //', done.stdout)
         self.assertIn('same code', results.values())  # - 0
+        self.assertEqual(set(re.findall(r'lib/sum/other.c:1: \w+: (.*)', done.stdout)), {'not compiled'})
         # A fault in the result is caught.
         caught = sum(result == 'test_sum' for result in results.values())
         survived = sum(result == 'survived' for result in results.values())

@@ -124,6 +124,20 @@ static void test_view_ignores_distant_body(void **state) {
     assert_true(shows(&scene, 5, 4));
 }
 
+// Distances are measured from the median, here 0: one more body is there than at -1000. From -1000, the last body would
+// be too far away to be shown.
+static void test_view_is_centred_on_the_median(void **state) {
+    (void)state;
+    Scene scene;
+    scene_begin(&scene, 2);
+    add_body(&scene, 0, 0, 1);
+    for (int i = 0; i < 31; i++)
+        add_body(&scene, i < 16 ? -1000 : 0, 0, 1);
+    add_body(&scene, 7500, 0, 1);
+    choose_frame(&scene);
+    assert_true(shows(&scene, 7500, 0));
+}
+
 static void test_view_of_degenerate_systems(void **state) {
     (void)state;
     Scene scene;
@@ -150,7 +164,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_view_shows_all_bodies),          cmocka_unit_test(test_view_only_grows),
         cmocka_unit_test(test_view_does_not_follow_lone_body), cmocka_unit_test(test_scale_bar_has_round_length),
-        cmocka_unit_test(test_view_ignores_distant_body),      cmocka_unit_test(test_view_of_degenerate_systems),
+        cmocka_unit_test(test_view_ignores_distant_body),      cmocka_unit_test(test_view_is_centred_on_the_median),
+        cmocka_unit_test(test_view_of_degenerate_systems),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
