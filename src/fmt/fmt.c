@@ -1,6 +1,5 @@
 // fmt.c: the command `petri fmt`, which formats scripts.
 #include "base/file.h"
-#include "base/source.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/script.h"
@@ -26,18 +25,10 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
         fputs(diagnostic->rendered, stderr);
 }
 
-// Returns the text with LF line endings and without a byte-order mark. The result is in the buffer, which is modified.
-static Str normalise_text(ByteBuffer *text) {
-    static const char mark[] = "\xef\xbb\xbf";
-    size_t skipped = strncmp(text->data, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
-    char *bytes = text->data + skipped;
-    return (Str){bytes, source_unify_lines(bytes, text->length - skipped)};
-}
-
 static bool format_text(Formatting *formatting, const char *name, const ByteBuffer *original, ByteBuffer *out) {
     SCOPED_BYTE_BUFFER copy = {0};
     byte_buffer_add(&copy, original->data, original->length);
-    Str text = normalise_text(&copy);
+    Str text = layout_normalise(&copy);
     const char *shown = script_display_name(name);
     // petri_load_text reports errors in the script.
     if (petri_load_text(formatting->session, shown, text.bytes, text.len) != PETRI_OK)

@@ -1,6 +1,7 @@
 // layout.c: see layout.h.
 #include "fmt/layout.h"
 
+#include "base/source.h"
 #include "fmt/tokens.h"
 
 #include <stdlib.h>
@@ -190,6 +191,13 @@ static void write_lines(const Writer *writer, ByteBuffer *out) {
         after_code = at->comment;
         byte_buffer_add_text(out, "\n");
     }
+}
+
+Str layout_normalise(ByteBuffer *text) {
+    static const char mark[] = "\xef\xbb\xbf";
+    size_t skipped = strncmp(text->data, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
+    char *bytes = text->data + skipped;
+    return (Str){bytes, source_unify_lines(bytes, text->length - skipped)};
 }
 
 bool layout_text(PetriSession *session, Str text, ByteBuffer *out) {

@@ -1,6 +1,5 @@
 // fuzz_fmt.c: fuzzes `petri fmt`. The input is a script. Formatting must keep its meaning, and formatting the result
 // again must not change it.
-#include "base/source.h"
 #include "fmt/layout.h"
 #include "fuzz.h"
 
@@ -8,7 +7,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     SCOPED_BYTE_BUFFER text = {0}, once = {0}, twice = {0};
     PetriSession *session = fuzz_open(NULL);
     byte_buffer_add(&text, (const char *)data, size);
-    Str script = {text.data, source_unify_lines(text.data, text.length)};
+    Str script = layout_normalise(&text);
     if (petri_load_text(session, "fuzz.fl", script.bytes, script.len) == PETRI_OK &&
         layout_text(session, script, &once)) {
         Str formatted = {once.data, once.length};
