@@ -100,6 +100,7 @@ class Checkout:
         copy_sources(root, self.folder)
         if not (self.build / 'build.ninja').exists():
             self.call('meson', 'setup', self.build, self.folder, '--buildtype=plain', '--optimization=1')
+        self.call('ninja', '-C', self.build, 'build.ninja')  # new tests are known only after that
 
     @staticmethod
     def call(*command):
