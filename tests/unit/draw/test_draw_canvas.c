@@ -236,11 +236,23 @@ static void test_text_ink_is_at_point(void **state) {
     assert_true(abs(left - 386) <= 1 && abs(right - 893) <= 1 && abs(top - 322) <= 1 && abs(bottom - 397) <= 1);
 }
 
+// More layers than have pixels of their own: the others are drawn directly, with a warning.
+static void test_deep_layers_are_drawn(void **state) {
+    Player *player = *state;
+    uint32_t pixels[SIDE * SIDE];
+    if (!draw_script(player,
+                     "func nest(n)\n    if n > 0\n        !layer size=8\n            nest(n-1)\n    else\n"
+                     "        !rect size=8 fill=true color=1;0;0\n!window size=8\n    !canvas\n        nest(70)\n",
+                     pixels, SIDE, SIDE))
+        skip();
+    assert_near("deep", pixels[9], (Colour){1, 0, 0, 1}, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_blend_modes_match_formulas),    PLAYER_TEST(test_stroke_modes),
         PLAYER_TEST(test_linear_light_adds_whole_bytes), PLAYER_TEST(test_paint_gives_expected_pixel),
-        PLAYER_TEST(test_text_ink_is_at_point),
+        PLAYER_TEST(test_text_ink_is_at_point),          PLAYER_TEST(test_deep_layers_are_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,6 +48,22 @@ static void test_bars_beside_picture_are_black(void **state) {
     assert_int_equal(pixels[6 * WIDTH], 0xff000000u);
 }
 
+static void test_background_of_svg_is_black(void **state) {
+    Player *player = *state;
+    Notebook svg = {0};
+    PetriPicture *picture = picture_of(player, "!window size=8;4\n    !canvas\n", 1);
+    PetriPainter *painter = petri_painter_open();
+    PetriStatus status = petri_picture_encode(picture, painter, ".svg", note, &svg);
+    petri_painter_close(&painter);
+    petri_picture_free(&picture);
+    if (status == PETRI_UNSUPPORTED)
+        skip();
+    assert_int_equal(status, PETRI_OK);
+    assert_non_null(strstr(svg.text, "rgb(0%"));
+    assert_null(strstr(svg.text, "rgb(100%"));
+    free(svg.text);
+}
+
 static void test_detail_reduces_resolution(void **state) {
     Player *player = *state;
     uint32_t pixels[WIDTH * HEIGHT];
@@ -186,6 +202,7 @@ static void test_estimated_work_follows_pixels_and_mode(void **state) {
     // Twice the width doubles the pixels of the same rows; a narrow shape has almost only edges.
     assert_true(edges < small && small < wide && wide < large);
     assert_true(wide - edges > 1.5 * (small - edges) && wide - edges < 2.5 * (small - edges));
+    assert_true(work_of(player, "size=0.5;50 composite=:multiply") < 1.2 * edges); // modes change the cost of pixels
     // Modes with conditions for each channel cost more.
     double source = work_of(player, "size=100 composite=:src");
     double multiply = work_of(player, "size=100 composite=:multiply"), hue = work_of(player, "size=100 composite=:hue");
@@ -194,10 +211,10 @@ static void test_estimated_work_follows_pixels_and_mode(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_bars_beside_picture_are_black),          PLAYER_TEST(test_detail_reduces_resolution),
-        PLAYER_TEST(test_older_picture_is_drawn_again),           PLAYER_TEST(test_record_is_saved_as_jpeg),
-        PLAYER_TEST(test_png_with_large_size_is_reported),        PLAYER_TEST(test_text_uses_its_own_family),
-        PLAYER_TEST(test_estimated_work_follows_pixels_and_mode),
+        PLAYER_TEST(test_bars_beside_picture_are_black), PLAYER_TEST(test_background_of_svg_is_black),
+        PLAYER_TEST(test_detail_reduces_resolution),     PLAYER_TEST(test_older_picture_is_drawn_again),
+        PLAYER_TEST(test_record_is_saved_as_jpeg),       PLAYER_TEST(test_png_with_large_size_is_reported),
+        PLAYER_TEST(test_text_uses_its_own_family),      PLAYER_TEST(test_estimated_work_follows_pixels_and_mode),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -414,6 +414,15 @@ static void test_display_list_has_whole_canvas(void **state) {
         "        !image filename='a.png' size=2\n",
         "jabeicefkjabeilabegmabehk");
     check_kinds(player, "!window size=8;4\n    !bloom radius=2\n        !canvas\n    !canvas3d\n", "nn");
+    check_kinds(player,
+                "!window size=8;4\n    !canvas\n        !pattern image_id=:other\n        !rect size=4;2 fill=true\n"
+                "    !canvas id=:other\n",
+                "abnef");
+    // Filters that are nested too deeply are ignored.
+    check_kinds(player,
+                "func nest(n)\n    !offset offset=1;0\n        if n > 0\n            nest(n-1)\n"
+                "!window size=8;4\n    !canvas\n        nest(120)\n        !rect size=1;2 fill=true\n",
+                "abef");
     // If path effects create too many elements, this is reported once, and later paths are drawn without effects.
     check_kinds(player,
                 "!window size=8;4\n    !canvas\n        !group\n            !jitter length=0.00004 deviation=1\n"
