@@ -417,7 +417,7 @@ static void test_display_list_has_whole_canvas(void **state) {
     check_kinds(player,
                 "!window size=8;4\n    !canvas\n        !pattern image_id=:other\n        !rect size=4;2 fill=true\n"
                 "    !canvas id=:other\n",
-                "abnef");
+                "nabnef");
     // Filters that are nested too deeply are ignored.
     check_kinds(player,
                 "func nest(n)\n    !offset offset=1;0\n        if n > 0\n            nest(n-1)\n"
