@@ -14,7 +14,8 @@ const KindRow schema_kinds[KIND_COUNT] = {
 const char *const schema_names[ATTR_COUNT] = {
     "",
 #define NAME(id, text) text,
-#include "schema/schema_list.h"
+#include "schema/attr_names.h"
+#undef NAME
 };
 
 const TypeRow schema_types[TYPE_COUNT] = {

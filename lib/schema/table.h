@@ -17,7 +17,8 @@ typedef enum NodeKind {
 typedef enum AttrName {
     ATTR_NONE,
 #define NAME(id, text) ATTR_##id,
-#include "schema/schema_list.h"
+#include "schema/attr_names.h"
+#undef NAME
     ATTR_COUNT
 } AttrName;
 
