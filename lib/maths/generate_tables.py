@@ -125,7 +125,7 @@ FACTORIALS = 80  # more than the series of fixed_functions.c need; fixed_series 
 print('// maths_tables.h: the constants of lib/maths. Written by generate_tables.py; do not edit.')
 print('//')
 print('// clang-format off')
-print('#ifndef PETRI_MATHS_TABLES_H\n#define PETRI_MATHS_TABLES_H\n\n#include <stdint.h>\n')
+print('#pragma once\n\n#include <stdint.h>\n')
 
 # --- exponential: 2^(i/128), and ln 2 / 128 in two parts; the product of the first part and an 18-bit k is exact
 step = parts(LN2 // 128, 42)
@@ -281,4 +281,4 @@ for n in range(FACTORIALS):
     factorial //= n + 1
 show('uint64_t', 'fixed_inverse_factorial', f'[{FACTORIALS}][{WIDE + 1}]', rows, '1 / n!')
 show_fixed_point('fixed_two_over_pi', 2 * ONE * ONE // PI, 1024 // 64 + WIDE + 2, '2/pi')
-print('\n// clang-format on\n#endif')
+print('\n// clang-format on')
