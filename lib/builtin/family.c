@@ -44,7 +44,7 @@ Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArra
     for (uint32_t at = 0; at < x.len; at += BUDGET_CHUNK) {
         uint32_t count = x.len - at < BUDGET_CHUNK ? x.len - at : BUDGET_CHUNK;
         arena_charge(arena, count / 2);
-        array_call(cpu_detected.level, x.as.numbers + at, count, result + at);
+        array_call(x.as.numbers + at, count, result + at);
     }
     return value_numbers_view(result, x.len);
 }

@@ -42,14 +42,16 @@ Value builtin_numbers(Arena *arena, const double *numbers, uint32_t len);
 // Applies f to each element of x. Returns null if x is not numeric (B1.1).
 Value builtin_each(Arena *arena, Value x, double (*f)(double));
 
-#define ELEMENT_WISE(name, function)                                                                                   \
-    Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
-        return builtin_each(context->arena, args[0], function);                                                        \
+// Defines a built-in that returns an expression of its parameters context, args and count.
+#define BUILTIN_IS(name, expression)                                                                                   \
+    Value builtin_##name(BuiltinContext *context, const Value *args, uint32_t count) {                                 \
+        return expression;                                                                                             \
     }
+#define ELEMENT_WISE(name, function) BUILTIN_IS(name, builtin_each(context->arena, args[0], function))
 
 // builtin_each_array is like builtin_each, but calls `array_call` for long vectors. The results of `array_call` must be
 // bit-identical to those of f (maths/arrays.h).
-typedef void BuiltinArrayCall(CpuLevel level, const double *x, size_t count, double *to);
+typedef void BuiltinArrayCall(const double *x, size_t count, double *to);
 Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArrayCall *array_call);
 
 // Returns a vector whose element i is f applied to the elements i of `count` vectors. Shorter vectors are repeated

@@ -27,29 +27,27 @@ static double turns_acos(double x) {
 
 // Defines a built-in whose function has a faster version for arrays, `many`.
 #define ELEMENT_WISE_ARRAY(name, function, many)                                                                       \
-    Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
-        return builtin_each_array(context->arena, args[0], function, many);                                            \
-    }
+    BUILTIN_IS(name, builtin_each_array(context->arena, args[0], function, many))
 
-static void turns_cos_array(CpuLevel level, const double *t, size_t count, double *to) {
+static void turns_cos_array(const double *t, size_t count, double *to) {
     for (size_t i = 0; i < count; i++)
         to[i] = t[i] + 0.25; // same rounding as turns_cos
-    maths_turns_sin_array(level, to, count, to);
+    maths_arrays(cpu_detected.level)->turns_sin(to, count, to);
 }
 
-ELEMENT_WISE(builtin_abs, fabs)
-ELEMENT_WISE(builtin_ceil, ceil)
-ELEMENT_WISE(builtin_floor, number_floor)
-ELEMENT_WISE(builtin_fract, fract)
-ELEMENT_WISE(builtin_sqrt, sqrt)
-ELEMENT_WISE_ARRAY(builtin_exp, maths_exp, maths_exp_array)
-ELEMENT_WISE_ARRAY(builtin_log, maths_log, maths_log_array)
-ELEMENT_WISE(builtin_log2, maths_log2)
-ELEMENT_WISE(builtin_log10, maths_log10)
-ELEMENT_WISE_ARRAY(builtin_sin, turns_sin, maths_turns_sin_array)
-ELEMENT_WISE_ARRAY(builtin_cos, turns_cos, turns_cos_array)
-ELEMENT_WISE(builtin_asin, turns_asin)
-ELEMENT_WISE(builtin_acos, turns_acos)
+ELEMENT_WISE(abs, fabs)
+ELEMENT_WISE(ceil, ceil)
+ELEMENT_WISE(floor, number_floor)
+ELEMENT_WISE(fract, fract)
+ELEMENT_WISE(sqrt, sqrt)
+ELEMENT_WISE_ARRAY(exp, maths_exp, maths_arrays(cpu_detected.level)->exp)
+ELEMENT_WISE_ARRAY(log, maths_log, maths_arrays(cpu_detected.level)->log)
+ELEMENT_WISE(log2, maths_log2)
+ELEMENT_WISE(log10, maths_log10)
+ELEMENT_WISE_ARRAY(sin, turns_sin, maths_arrays(cpu_detected.level)->turns_sin)
+ELEMENT_WISE_ARRAY(cos, turns_cos, turns_cos_array)
+ELEMENT_WISE(asin, turns_asin)
+ELEMENT_WISE(acos, turns_acos)
 
 // Returns true near multiples of a quarter turn, where the tangent needs extended precision.
 static bool is_steep(double turns) {
@@ -127,13 +125,8 @@ static Value each_pair(Arena *arena, const Value *args, double (*f)(const double
     return value_numbers_view(result, pairs);
 }
 
-Value builtin_angle(BuiltinContext *context, const Value *args, uint32_t count) {
-    return each_pair(context->arena, args, pair_angle);
-}
-
-Value builtin_length(BuiltinContext *context, const Value *args, uint32_t count) {
-    return each_pair(context->arena, args, pair_length);
-}
+BUILTIN_IS(angle, each_pair(context->arena, args, pair_angle))
+BUILTIN_IS(length, each_pair(context->arena, args, pair_length))
 
 static double sum_of_squares(const double *x, uint32_t count) {
     double sum = 0;
@@ -197,9 +190,7 @@ static double map_one(const double *x, uint32_t count) {
     return (1 - x[0]) * x[1] + x[0] * x[2];
 }
 
-Value builtin_map(BuiltinContext *context, const Value *args, uint32_t count) {
-    return builtin_repeat(context->arena, args, count, map_one);
-}
+BUILTIN_IS(map, builtin_repeat(context->arena, args, count, map_one))
 
 // If the limits are swapped, the upper limit takes precedence. NaN counts as less than both limits (B2.8).
 static double clamp_one(const double *x, uint32_t count) {
@@ -207,6 +198,4 @@ static double clamp_one(const double *x, uint32_t count) {
     return x[2] < raised ? x[2] : raised;
 }
 
-Value builtin_clamp(BuiltinContext *context, const Value *args, uint32_t count) {
-    return builtin_repeat(context->arena, args, count, clamp_one);
-}
+BUILTIN_IS(clamp, builtin_repeat(context->arena, args, count, clamp_one))

@@ -167,8 +167,8 @@ Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) 
 
 void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
                           double *to) {
-    enum { MIN_POINTS = 16 };             // minimum number of points for which maths_plane_noise_array is faster
-    const double MAX_COORDINATE = 0x1p45; // maths_plane_noise_array requires smaller coordinates
+    enum { MIN_POINTS = 16 };             // minimum number of points for which arrays are faster
+    const double MAX_COORDINATE = 0x1p45; // arrays require smaller coordinates
     uint8_t local[256];
     const uint8_t *permutation = permutation_get(context->noise, value_seed_hash(context->arena, seed), local);
     if (count < MIN_POINTS) {
@@ -177,7 +177,7 @@ void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, 
         return;
     }
     const PlaneNoise plane = noise_plane();
-    maths_plane_noise_array(cpu_detected.level, &plane, permutation, x, y, count, to);
+    maths_arrays(cpu_detected.level)->plane_noise(&plane, permutation, x, y, count, to);
     for (uint32_t i = 0; i < count; i++)
         if (!(fabs(x[i]) < MAX_COORDINATE && fabs(y[i]) < MAX_COORDINATE))
             to[i] = noise_point_2(permutation, (double[2]){x[i], y[i]});

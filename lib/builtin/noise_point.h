@@ -11,5 +11,5 @@ double noise_point_2(const uint8_t *permutation, const double *c);
 double noise_point_3(const uint8_t *permutation, const double *c);
 double noise_point_4(const uint8_t *permutation, const double *c);
 
-// Returns the constants with which maths_plane_noise_array computes the same results as noise_point_2.
+// Returns the constants with which ArraysIsa.plane_noise computes the same results as noise_point_2.
 PlaneNoise noise_plane(void);

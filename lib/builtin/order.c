@@ -69,21 +69,10 @@ static Value find_extreme(BuiltinContext *context, const char *name, const Value
     return position ? value_number(best) : value_element(context->arena, args[0], best);
 }
 
-Value builtin_min(BuiltinContext *context, const Value *args, uint32_t count) {
-    return find_extreme(context, "min", args, count, -1, false);
-}
-
-Value builtin_max(BuiltinContext *context, const Value *args, uint32_t count) {
-    return find_extreme(context, "max", args, count, 1, false);
-}
-
-Value builtin_minindex(BuiltinContext *context, const Value *args, uint32_t count) {
-    return find_extreme(context, "minindex", args, count, -1, true);
-}
-
-Value builtin_maxindex(BuiltinContext *context, const Value *args, uint32_t count) {
-    return find_extreme(context, "maxindex", args, count, 1, true);
-}
+BUILTIN_IS(min, find_extreme(context, "min", args, count, -1, false))
+BUILTIN_IS(max, find_extreme(context, "max", args, count, 1, false))
+BUILTIN_IS(minindex, find_extreme(context, "minindex", args, count, -1, true))
+BUILTIN_IS(maxindex, find_extreme(context, "maxindex", args, count, 1, true))
 
 // --- sorting (B3.3)
 

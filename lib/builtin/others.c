@@ -11,10 +11,6 @@ Value builtin_debug(BuiltinContext *context, const Value *args, uint32_t count) 
     return args[0];
 }
 
-Value builtin_sample(BuiltinContext *context, const Value *args, uint32_t count) {
-    return value_or(args[2], VALUE_NULL);
-}
-
-Value builtin_measure_text(BuiltinContext *context, const Value *args, uint32_t count) {
-    return builtin_error(context, "measure_text", "not supported: text is measured only when it is drawn");
-}
+BUILTIN_IS(sample, value_or(args[2], VALUE_NULL))
+BUILTIN_IS(measure_text,
+           builtin_error(context, "measure_text", "not supported: text is measured only when it is drawn"))

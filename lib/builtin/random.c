@@ -3,13 +3,11 @@
 #include "value/value_hash.h"
 
 #define STREAM(name, kind)                                                                                             \
-    Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
-        return value_stream(kind, value_seed_hash(context->arena, value_or(args[0], VALUE_NULL)));                     \
-    }
+    BUILTIN_IS(name, value_stream(kind, value_seed_hash(context->arena, value_or(args[0], VALUE_NULL))))
 
-STREAM(builtin_uniform, STREAM_UNIFORM)
-STREAM(builtin_beta, STREAM_BETA)
-STREAM(builtin_normal, STREAM_NORMAL)
+STREAM(uniform, STREAM_UNIFORM)
+STREAM(beta, STREAM_BETA)
+STREAM(normal, STREAM_NORMAL)
 
 // Returns the index of the element with which element i of `len` is exchanged. It is i + floor(s * (len - i)), at most
 // len - 1, where s is item i of the source.

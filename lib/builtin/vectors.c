@@ -3,9 +3,7 @@
 
 #include <math.h>
 
-Value builtin_len(BuiltinContext *context, const Value *args, uint32_t count) {
-    return value_number(args[0].len);
-}
+BUILTIN_IS(len, value_number(args[0].len))
 
 static Value zip_numbers(Arena *arena, const Value *parts, uint32_t count, uint32_t len) {
     double *result = arena_alloc_array(arena, (size_t)len * count, sizeof *result);
@@ -83,17 +81,9 @@ static Value fold_vector(BuiltinContext *context, const char *name, const Value 
     return value_numbers_view(result, k);
 }
 
-Value builtin_sum(BuiltinContext *context, const Value *args, uint32_t count) {
-    return fold_vector(context, "sum", args, FOLD_SUM);
-}
-
-Value builtin_product(BuiltinContext *context, const Value *args, uint32_t count) {
-    return fold_vector(context, "product", args, FOLD_PRODUCT);
-}
-
-Value builtin_mean(BuiltinContext *context, const Value *args, uint32_t count) {
-    return fold_vector(context, "mean", args, FOLD_MEAN);
-}
+BUILTIN_IS(sum, fold_vector(context, "sum", args, FOLD_SUM))
+BUILTIN_IS(product, fold_vector(context, "product", args, FOLD_PRODUCT))
+BUILTIN_IS(mean, fold_vector(context, "mean", args, FOLD_MEAN))
 
 Value builtin_accumulate(BuiltinContext *context, const Value *args, uint32_t count) {
     double width;

@@ -65,16 +65,16 @@ static double snap(double x) {
     return ease(x, sqrt);
 }
 
-ELEMENT_WISE(builtin_bounce, bounce)
-ELEMENT_WISE(builtin_sawtooth, phase)
-ELEMENT_WISE(builtin_sharkfin, sharkfin)
-ELEMENT_WISE(builtin_sine, sine)
-ELEMENT_WISE(builtin_square, square)
-ELEMENT_WISE(builtin_triangle, triangle)
-ELEMENT_WISE(builtin_linear, linear)
-ELEMENT_WISE(builtin_quad, quad)
-ELEMENT_WISE(builtin_cubic, cubic)
-ELEMENT_WISE(builtin_snap, snap)
+ELEMENT_WISE(bounce, bounce)
+ELEMENT_WISE(sawtooth, phase)
+ELEMENT_WISE(sharkfin, sharkfin)
+ELEMENT_WISE(sine, sine)
+ELEMENT_WISE(square, square)
+ELEMENT_WISE(triangle, triangle)
+ELEMENT_WISE(linear, linear)
+ELEMENT_WISE(quad, quad)
+ELEMENT_WISE(cubic, cubic)
+ELEMENT_WISE(snap, snap)
 
 static double impulse(double x, double c) {
     double p = phase(x);

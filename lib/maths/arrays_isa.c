@@ -2,8 +2,7 @@
 // the instruction set.
 //
 // If the fast path cannot round a lane with certainty, the scalar function recomputes that lane.
-#include "maths/arrays_isa.h"
-
+#include "maths/arrays.h"
 #include "maths/fast_exp.h"
 #include "maths/fast_log.h"
 #include "maths/fast_noise.h"
@@ -64,19 +63,6 @@ ARRAY_FUNCTION(exp, exp_lanes, maths_exp)
 ARRAY_FUNCTION(log, log_lanes, maths_log)
 ARRAY_FUNCTION(turns_sin, turns_sin_lanes, turns_sin)
 
-static void sin_cos_array(const double *x, size_t count, double *sines, double *cosines) {
-    for (size_t i = 0; i < count; i += LANES) {
-        Real in = load(x + i, count - i), sine, cosine;
-        Lanes left = lanes_left(sin_cos_lanes(in, &sine, &cosine), count - i);
-        store(sines + i, count - i, sine);
-        store(cosines + i, count - i, cosine);
-        if (left) {
-            recompute_lanes(maths_sin, left, in, sines + i);
-            recompute_lanes(maths_cos, left, in, cosines + i);
-        }
-    }
-}
-
 static void pow_array(const double *x, const double *y, size_t step, size_t count, double *to) {
     for (size_t i = 0; i < count; i += LANES) {
         Real base = load(x + i, count - i), power = step ? load(y + i, count - i) : real_set(*y), out;
@@ -121,5 +107,5 @@ static void plane_noise_array(const PlaneNoise *noise, const uint8_t *permutatio
         store(to + i, count - i, noise_lanes(noise, widened.numbers, load(x + i, count - i), load(y + i, count - i)));
 }
 
-const ArraysIsa NAMED(maths_arrays_, MATHS_ISA) = {exp_array,       log_array,     sin_cos_array,    pow_array,
+const ArraysIsa NAMED(maths_arrays_, MATHS_ISA) = {exp_array,       log_array,     pow_array,
                                                    turns_sin_array, uniform_array, plane_noise_array};

@@ -108,15 +108,3 @@ KERNEL Lanes sin_lanes(Real x, Bits quarters, Real *result) {
     sincos_sine(&row, &arc, &high, &low);
     return LANES_BOTH(sincos_decide(high, low, result), lanes_less(real_absolute(x), real_set(SINCOS_MAX)));
 }
-
-KERNEL Lanes sin_cos_lanes(Real x, Real *sine, Real *cosine) {
-    ReducedArgument turn = sincos_reduce(x);
-    Arc arc = sincos_arc(&turn);
-    Row row = sincos_row(turn.n), next = sincos_quarter(&row);
-    Real high, low;
-    sincos_sine(&row, &arc, &high, &low);
-    Lanes good = sincos_decide(high, low, sine);
-    sincos_sine(&next, &arc, &high, &low);
-    good &= sincos_decide(high, low, cosine);
-    return LANES_BOTH(good, lanes_less(real_absolute(x), real_set(SINCOS_MAX)));
-}

@@ -85,7 +85,7 @@ enum { PAIRS_AT_ONCE = 64 };
 // Computes random_normal for `count` pairs of items, starting with items 2 * pair and 2 * pair + 1.
 static void normal_pairs(CpuLevel level, uint64_t key, uint64_t pair, size_t count, double *to) {
     double radius[PAIRS_AT_ONCE], turns[2 * PAIRS_AT_ONCE];
-    maths_uniform_array(level, key, 2 * pair, 2 * count, turns);
+    maths_arrays(level)->uniform(key, 2 * pair, 2 * count, turns);
     for (size_t i = 0; i < count; i++) {
         double u1 = turns[2 * i], u2 = turns[2 * i + 1];
         radius[i] = u1 == 0 ? u2 : u1;
@@ -93,8 +93,8 @@ static void normal_pairs(CpuLevel level, uint64_t key, uint64_t pair, size_t cou
         turns[2 * i] = u2 + 0.25;
         turns[2 * i + 1] = u2;
     }
-    maths_log_array(level, radius, count, radius);
-    maths_turns_sin_array(level, turns, 2 * count, turns);
+    maths_arrays(level)->log(radius, count, radius);
+    maths_arrays(level)->turns_sin(turns, 2 * count, turns);
     for (size_t i = 0; i < count; i++) {
         double r = sqrt(-2 * radius[i]);
         to[2 * i] = r * turns[2 * i];

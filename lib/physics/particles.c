@@ -51,7 +51,7 @@ bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
 }
 
 static void power_radii(const PhysSystem *system, double power, double *to) {
-    maths_power_array(system->options.cpu, system->columns.radius, power, system->columns.count, to);
+    maths_arrays(system->options.cpu)->pow(system->columns.radius, &power, 0, system->columns.count, to);
 }
 
 // Computes radius^(n-1) and radius^n if forces need them. All steps use these numbers.

@@ -9,7 +9,7 @@
 static __attribute__((noinline, unused)) Real pow_by_lane(Mask mask, Real base, double power) {
     double lanes[LANES];
     real_store(lanes, real_select(mask, base, real_set(1)));
-    maths_power_array(LANES_LEVEL, lanes, power, LANES, lanes);
+    maths_arrays(LANES_LEVEL)->pow(lanes, &power, 0, LANES, lanes);
     return real_load(lanes);
 }
 

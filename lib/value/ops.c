@@ -63,10 +63,7 @@ static bool array_powers(const double *x, uint32_t x_len, const double *y, uint3
                          uint32_t len) {
     if (x_len != len)
         return false;
-    if (y_len == 1)
-        maths_power_array(cpu_detected.level, x, *y, x_len, result);
-    else
-        maths_pow_array(cpu_detected.level, x, y, x_len, result);
+    maths_arrays(cpu_detected.level)->pow(x, y, y_len != 1, x_len, result);
     return true;
 }
 

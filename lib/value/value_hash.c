@@ -104,7 +104,7 @@ double value_stream_item(Value stream, uint64_t i) {
 
 static void consecutive_items(Value stream, uint64_t first, uint32_t count, double *to) {
     if (count > 1 && stream.stream == STREAM_UNIFORM)
-        maths_uniform_array(cpu_detected.level, stream.as.key, first, count, to);
+        maths_arrays(cpu_detected.level)->uniform(stream.as.key, first, count, to);
     else if (count > 1 && stream.stream == STREAM_NORMAL)
         random_normals(cpu_detected.level, stream.as.key, first, count, to);
     else

@@ -84,27 +84,28 @@ static void run_row(const Row *row) {
 static void run_vectors(CpuLevel level) {
     double best[5] = {1e9, 1e9, 1e9, 1e9, 1e9};
     uint64_t seed = 1;
+    const ArraysIsa *arrays = maths_arrays(level);
     fill_arguments(x, 0, 1, &seed);
     fill_arguments(y, -2, 2, &seed);
     for (int r = 0; r < ROUNDS; r++) {
         double start = now();
-        maths_log_array(level, x, COUNT, out);
+        arrays->log(x, COUNT, out);
         store_minimum(&best[0], start);
         start = now();
-        maths_exp_array(level, y, COUNT, out);
+        arrays->exp(y, COUNT, out);
         store_minimum(&best[1], start);
         start = now();
-        maths_sin_cos_array(level, y, COUNT, out, out2);
+        arrays->turns_sin(y, COUNT, out);
         store_minimum(&best[2], start);
         start = now();
-        maths_pow_array(level, x, y, COUNT, out);
+        arrays->pow(x, y, 1, COUNT, out);
         store_minimum(&best[3], start);
         start = now();
-        maths_log_array(level, x, COUNT, out2);
-        maths_sin_cos_array(level, y, COUNT, out, out2);
+        arrays->log(x, COUNT, out2);
+        arrays->turns_sin(y, COUNT, out);
         store_minimum(&best[4], start);
     }
-    printf("%-7s log %.2f  exp %.2f  sin and cos %.2f  pow %.2f  log + sin + cos %.2f\n", cpu_name(level), best[0],
+    printf("%-7s log %.2f  exp %.2f  sine of turns %.2f  pow %.2f  log + sine %.2f\n", cpu_name(level), best[0],
            best[1], best[2], best[3], best[4]);
 }
 
