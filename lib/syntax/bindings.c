@@ -2,10 +2,12 @@
 #include "syntax/bindings.h"
 
 #include <ctype.h>
+#include <string.h>
 
 typedef struct ScopeEntry ScopeEntry;
 struct ScopeEntry {
-    ScopeEntry *outer;
+    ScopeEntry *outer; // the entry that was added before this one
+    ScopeEntry *next;  // the next entry in the same chain of the hash table
     const Symbol *name;
     uint32_t at;         // start of the name in the text
     const Ast *function; // FUNC node that the name is bound to; NULL: another value
@@ -16,17 +18,29 @@ typedef struct Walker {
     const Source *source;
     BindingCallback *callback;
     void *user_data;
-    ScopeEntry *scope;
+    ScopeEntry *scope;   // the last entry
+    ScopeEntry **chains; // hash table of all entries in the scope; the last entry of each chain is its first
+    uint64_t chain_count;
     uint32_t end;   // end of the current scope in the text
     uint32_t depth; // current value of BindingInfo.depth
 } Walker;
 
 static void walk_ast(Walker *walker, const Ast *ast);
 
+static ScopeEntry **find_chain(const Walker *walker, const Symbol *name) {
+    return &walker->chains[((uintptr_t)name >> 4) % walker->chain_count];
+}
+
 static ScopeEntry *push_entry(Walker *walker, const Symbol *name, uint32_t at, const Ast *function) {
-    ScopeEntry *entry = arena_alloc(walker->arena, sizeof *entry);
-    *entry = (ScopeEntry){walker->scope, name, at, function};
-    return walker->scope = entry;
+    ScopeEntry *entry = arena_alloc(walker->arena, sizeof *entry), **chain = find_chain(walker, name);
+    *entry = (ScopeEntry){walker->scope, *chain, name, at, function};
+    return walker->scope = *chain = entry;
+}
+
+// Removes the entries that were added after `outer`.
+static void leave_scope(Walker *walker, ScopeEntry *outer) {
+    for (; walker->scope != outer; walker->scope = walker->scope->outer)
+        *find_chain(walker, walker->scope->name) = walker->scope->next;
 }
 
 // Reports a binding. Its name is at offset `at` and is visible from `start` to the end of the current scope.
@@ -43,9 +57,9 @@ static void report_binding(Walker *walker, NameKind kind, const Symbol *name, ui
 }
 
 static const ScopeEntry *find_entry(const Walker *walker, const Symbol *name) {
-    const ScopeEntry *entry = walker->scope;
+    const ScopeEntry *entry = *find_chain(walker, name);
     while (entry && entry->name != name)
-        entry = entry->outer;
+        entry = entry->next;
     return entry;
 }
 
@@ -99,7 +113,7 @@ static void walk_function(Walker *walker, const Ast *ast) {
     walk_ast(walker, body);
     walker->depth--;
     walker->end = end;
-    walker->scope = self ? self : outer;
+    leave_scope(walker, self ? self : outer);
 }
 
 // Walks the children of a node, beginning with child `first`, in a new scope that ends with the node.
@@ -112,7 +126,7 @@ static void walk_scope(Walker *walker, const Ast *ast, uint32_t first) {
         walk_ast(walker, ast->children[i]);
     walker->depth--;
     walker->end = end;
-    walker->scope = outer;
+    leave_scope(walker, outer);
 }
 
 static void walk_for(Walker *walker, const Ast *ast) {
@@ -124,7 +138,7 @@ static void walk_for(Walker *walker, const Ast *ast) {
     bind_names(walker, NAME_LOOP, ast->children[0], body->span.start, ast->children[1]);
     walk_ast(walker, body);
     walker->end = end;
-    walker->scope = outer;
+    leave_scope(walker, outer);
 }
 
 static void walk_where(Walker *walker, const Ast *ast) {
@@ -138,7 +152,7 @@ static void walk_where(Walker *walker, const Ast *ast) {
     }
     walk_ast(walker, ast->children[0]);
     walker->end = end;
-    walker->scope = outer;
+    leave_scope(walker, outer);
 }
 
 // Reports names of named arguments as uses of the called function's parameters.
@@ -202,7 +216,10 @@ void bindings_read(Arena *arena, const Source *source, const Ast *ast, BindingCa
                      .source = source,
                      .callback = callback,
                      .user_data = user_data,
+                     .chain_count = 1 + source->text.len / 8,
                      .end = (uint32_t)source->text.len};
+    walker.chains = arena_alloc_array(arena, walker.chain_count, sizeof *walker.chains);
+    memset(walker.chains, 0, walker.chain_count * sizeof *walker.chains);
     for (uint32_t i = 0; ast && i < ast->count; i++)
         walk_ast(&walker, ast->children[i]);
 }
