@@ -92,10 +92,10 @@ typedef struct AttrValue {
     uint16_t row;            // index in schema_rows
     uint32_t count;          // number of elements that the script gives
     const char *custom_name; // for ATTR_NONE: name of a custom uniform of a shader; its values are in `list`
-    union AttrData {
+    union {
         double numbers[4]; // points, sizes, weights, other shapes of up to four numbers; colours always have four
         const double *list;
-        Str text; // NUL-terminated
+        Str text; // NUL-terminated; schema_store stores only its address
         int word;
         bool flag;
     } as;

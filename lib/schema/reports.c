@@ -1,0 +1,98 @@
+// reports.c: reports of mistakes in nodes; see reader.h.
+#include "schema/reader_internal.h"
+#include "value/format.h"
+
+// Adds " name=value" of an attribute that identifies the node: the state of a system, the id of other nodes.
+static void add_identifier(Text *out, const Reader *reader, AttrRow row) {
+    Value v = node_get(reader->node, reader->schema->slots[row].name);
+    if (v.len == 0 || v.len > 16)
+        return;
+    text_add_format(out, " %s=", schema_names[schema_rows[row].name]);
+    format_value(out, reader->schema->symbols, v);
+}
+
+void reader_report_at(const Reader *reader, const char *code, Origin place, Str key, Str text) {
+    Schema *schema = reader->schema;
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "!%.*s", STR_ARGS(reader->node->kind->name));
+    add_identifier(&out, reader, ROW_PARTICLE_ID);
+    add_identifier(&out, reader, ROW_PHYSICS_STATE);
+    schema->report_count++;
+    schema->sink.report(schema->sink.user_data, DIAG_WARNING, code, &place, text_str(&out), key, text);
+}
+
+void reader_report(const Reader *reader, const char *code, const char *key, Str text) {
+    reader_report_at(reader, code, node_origin(reader->node, NULL), str_from(key), text);
+}
+
+static void report_symbol(const Reader *reader, const char *code, const Symbol *attr, Str text) {
+    reader_report_at(reader, code, node_origin(reader->node, attr), attr->name, text);
+}
+
+void reader_report_attr(const Reader *reader, const char *code, AttrName name, Str text) {
+    const SchemaRow *row = schema_row(reader->kind, name);
+    report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text);
+}
+
+static StrNearest nearest_to(Str name) {
+    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names can differ more
+}
+
+void reader_report_unknown(const Reader *reader, const Symbol *name) {
+    StrNearest nearest = nearest_to(name->name);
+    for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++)
+        str_try_nearest(&nearest, str_from(schema_names[schema_rows[i].name]));
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "unknown attribute '%.*s'", STR_ARGS(name->name));
+    if (nearest.found.len)
+        text_add_format(&out, "; did you mean '%.*s'?", STR_ARGS(nearest.found));
+    report_symbol(reader, "unknown-attribute", name, text_str(&out));
+}
+
+void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after) {
+    StrNearest nearest = nearest_to(kind);
+    for (int i = 0; i < KIND_COUNT; i++)
+        if (schema_can_contain((NodeKind)i, place) || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
+            str_try_nearest(&nearest, str_from(schema_kinds[i].name));
+    if (nearest.found.len)
+        text_add_format(out, "; did you mean %s%.*s%s?", before, STR_ARGS(nearest.found), after);
+}
+
+static void add_hex(Text *out, Value found) {
+    Text colour = text_new(out->arena);
+    if (found.len == 1 && found.kind == VALUE_MIXED && found.as.items[0].type == ITEM_STRING &&
+        text_add_hex_colour(&colour, found.as.items[0].as.string->text))
+        text_add_format(out, "; did you mean %.*s?", STR_ARGS(colour));
+}
+
+static void add_expected(Text *out, const Reader *reader, const TypeRow *type) {
+    bool vector = type->shape == SHAPE_VECTOR || type->shape == SHAPE_NORMAL;
+    if (vector && reader->dimensions > 1)
+        text_add_format(out, "one number or a vector of %u", reader->dimensions);
+    else
+        text_add_c(out,
+                   vector || (type->shape <= SHAPE_TIME && type->shape != SHAPE_NUMBERS) ? "one number" : type->text);
+}
+
+void reader_report_shape(const Reader *reader, const SchemaRow *row, Value found) {
+    const TypeRow *type = &schema_types[row->type];
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "%s should be ", schema_names[row->name]);
+    add_expected(&out, reader, type);
+    text_add_c(&out, ", not ");
+    if (found.len <= 8)
+        format_value(&out, reader->schema->symbols, found);
+    else
+        text_add_format(&out, "%u elements", found.len);
+    if (type->shape == SHAPE_COLOR)
+        add_hex(&out, found);
+    report_symbol(reader, "bad-attribute", reader->schema->slots[row - schema_rows].name, text_str(&out));
+}
+
+void reader_report_lint(const Reader *reader, const char *code, const SchemaRow *row, Value v, const char *text) {
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "%s=", schema_names[row->name]);
+    format_value(&out, reader->schema->symbols, v);
+    text_add_c(&out, text);
+    report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text_str(&out));
+}
