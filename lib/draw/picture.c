@@ -39,7 +39,6 @@ typedef struct Request {
     const PetriPictureOptions *options;
     PetriPicture *picture;
     const char *problem; // why there is no picture; NULL: the reason was already reported
-    PetriStatus status;
 } Request;
 
 // Returns the window with this number. If the number is negative, returns the first `!window` with content, else the
@@ -206,9 +205,10 @@ bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *optio
     return true;
 }
 
-static void follow_protected(PetriSession *session, void *arena) {
+static PetriStatus follow_protected(PetriSession *session, void *arena) {
     DrawAccess access = session_draw_access(session);
     auto_follow(&access, arena, session_draw_memory(session, SYSTEMS_MAX * sizeof(AutoFrame)));
+    return PETRI_OK;
 }
 
 void petri_picture_follow(PetriSession *session, const PetriPictureOptions *options) {
@@ -277,13 +277,13 @@ static bool make_picture(Request *request) {
     return true;
 }
 
-static void make_protected(PetriSession *session, void *context) {
+static PetriStatus make_protected(PetriSession *session, void *context) {
     Request *request = context;
     request->frames = session_draw_memory(session, SYSTEMS_MAX * sizeof *request->frames);
     CanvasPicture *picture = &request->picture->picture;
     picture->name_count =
         session_frame_numbers(session, &request->picture->arena, picture->names, picture->numbers, PICTURE_NAMES);
-    request->status = make_picture(request) ? PETRI_OK : PETRI_INVALID;
+    return make_picture(request) ? PETRI_OK : PETRI_INVALID;
 }
 
 PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **out) {
@@ -299,8 +299,8 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
         return session_report_abort(session, PETRI_OUT_OF_MEMORY, "the picture");
     arena_init(&picture->arena, "picture", access.memory_limit);
     picture->arena.budget = access.budget;
-    Request request = {.shown = access, .options = &wanted, .picture = picture, .status = PETRI_INVALID};
-    PetriStatus status = PETRI_OK;
+    Request request = {.shown = access, .options = &wanted, .picture = picture};
+    PetriStatus status = PETRI_INVALID;
     picture->picture.beat = petri_frame(session).beat;
     if (access.number >= 0)
         status = session_report_abort(session, session_protect(session, &picture->arena, make_protected, &request),
@@ -312,8 +312,6 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     picture->picture.session_memory = access.memory_limit;
     picture->picture.memory = left < access.memory_limit ? left : access.memory_limit;
     arena_detach_budget(&picture->arena); // detached because another thread can free the picture
-    if (status == PETRI_OK)
-        status = request.status;
     if (status == PETRI_OK) {
         picture->faults = diag_sink_new(&picture->arena, MAX_DIAGNOSTICS);
         *out = picture;

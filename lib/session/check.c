@@ -36,11 +36,12 @@ void session_lint_top_nodes(PetriSession *session) {
 }
 
 // Reads all windows in the same way as for drawing, to report errors in their nodes.
-static void lint_windows(PetriSession *session, void *context) {
+static PetriStatus lint_windows(PetriSession *session, void *context) {
     const Node *window;
     (void)context;
     for (uint32_t at = 0; (window = canvas_next_window(&session->schema, session->frame.tree, &at));)
         canvas_read(&session->schema, &session->frame.systems_arena, window);
+    return PETRI_OK;
 }
 
 // Diagnostics of the scratch session, a temporary session that runs the checks. They are collected and then sorted by
@@ -131,7 +132,7 @@ static PetriStatus run_checks(PetriSession *scratch, const char *file, const cha
     if (status == PETRI_OK)
         status = petri_step(scratch);
     if (status == PETRI_OK)
-        status = session_report_abort(scratch, session_protect(scratch, NULL, lint_windows, NULL), "the check");
+        status = session_run(scratch, lint_windows, NULL, "the check");
     return status;
 }
 

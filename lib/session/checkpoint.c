@@ -183,13 +183,14 @@ static void read_input(CheckpointReader *reader, Incoming *incoming) {
         memcpy(&incoming->input_state, read_bytes(reader, sizeof incoming->input_state), sizeof incoming->input_state);
 }
 
-static void read_checkpoint(PetriSession *session, Incoming *incoming, void *context) {
+static PetriStatus read_checkpoint(PetriSession *session, Incoming *incoming, void *context) {
     const Checkpoint *checkpoint = context;
     CheckpointReader reader = {checkpoint->bytes, &incoming->arena};
     read_state(&reader, incoming->state);
     read_systems(&reader, session, incoming);
     read_input(&reader, incoming);
     incoming->clock = checkpoint->clock;
+    return PETRI_OK;
 }
 
 PetriStatus checkpoint_restore(PetriSession *session, const Checkpoint *checkpoint) {
@@ -208,16 +209,17 @@ typedef struct Filling {
     void *context;
 } Filling;
 
-static void run_fill(PetriSession *session, void *context) {
+static PetriStatus run_fill(PetriSession *session, void *context) {
     const Filling *filling = context;
     Incoming *incoming = filling->incoming;
     incoming->bindings.arena.escape = incoming->arena.escape;
     incoming->state = state_new(&session->budget);
     if (!incoming->state)
         arena_exhausted(&incoming->arena);
-    filling->fill(session, incoming, filling->context);
+    PetriStatus status = filling->fill(session, incoming, filling->context);
     if (state_clear_exhausted(incoming->state))
         arena_exhausted(&incoming->arena);
+    return status;
 }
 
 static void install_incoming(PetriSession *session, Incoming *incoming) {
@@ -237,14 +239,12 @@ static void install_incoming(PetriSession *session, Incoming *incoming) {
 }
 
 PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *make, void *context) {
-    Incoming incoming = {.clock = session->clock, .valid = true};
+    Incoming incoming = {.clock = session->clock};
     Filling filling = {make, &incoming, context};
     PhysicsSystem *systems = scene_detach_systems(session->scene);
     session_arena(session, &incoming.arena, "incoming state", SIZE_MAX);
     input_reset(&incoming.input_state, &incoming.bindings);
     PetriStatus status = session_protect(session, &incoming.arena, run_fill, &filling);
-    if (status == PETRI_OK && !incoming.valid)
-        status = PETRI_INVALID;
     if (status == PETRI_OK)
         install_incoming(session, &incoming);
     else

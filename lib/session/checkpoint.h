@@ -24,13 +24,12 @@ typedef struct Incoming {
     InputState input_state;
     InputBindings bindings;
     bool has_input; // false: the new data contains no input, so the session keeps its own
-    bool valid;     // false: the file or checkpoint that is read is invalid
 } Incoming;
-// Fills in `incoming`. Sets incoming->valid to false if the file or checkpoint that is read is invalid.
-typedef void FillIncoming(PetriSession *session, Incoming *incoming, void *context);
+// Fills in `incoming`. Returns PETRI_INVALID if the file or checkpoint that is read is invalid.
+typedef PetriStatus FillIncoming(PetriSession *session, Incoming *incoming, void *context);
 
 // Calls `fill` within a protected call and then replaces the session's data. On failure nothing changes. Returns
-// PETRI_INVALID if `fill` set incoming->valid to false.
+// the status that `fill` returns, or the reason why the call was aborted.
 PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *fill, void *context);
 // Restores a system into the scene. To be called by `fill`.
 void checkpoint_restore_system(PetriSession *session, Incoming *incoming, const SceneSystem *system);

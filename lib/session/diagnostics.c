@@ -131,13 +131,13 @@ typedef struct PendingReport {
     Str key;
 } PendingReport;
 
-static void report_diagnostic(PetriSession *session, void *context) {
+static PetriStatus report_diagnostic(PetriSession *session, void *context) {
     const PendingReport *pending = context;
     Diagnostics *diagnostics = &session->diagnostics;
     Str key = pending->key;
     uint64_t hash = hash_bytes(0, key.bytes, key.len);
     if (key.len && is_reported(diagnostics, hash))
-        return; // not rendered, because a diagnostic that recurs in every frame must cost little
+        return PETRI_OK; // not rendered, because a diagnostic that recurs in every frame must cost little
     ArenaMark mark = arena_mark(&session->text_arena);
     Text rendered = text_new(&session->text_arena);
     diag_format(&rendered, pending->diag, session->options.colour);
@@ -156,6 +156,7 @@ static void report_diagnostic(PetriSession *session, void *context) {
         }
     }
     arena_rewind(&session->text_arena, mark);
+    return PETRI_OK;
 }
 
 // Reports a diagnostic without allocating from arenas, so that an out-of-memory error can be reported.

@@ -40,12 +40,14 @@ void session_add_work(PetriSession *session, uint64_t work);
 void *session_draw_memory(PetriSession *session, size_t size);
 
 // Runs `call` as a protected call: it is aborted if memory runs out, a limit is exceeded or the session is interrupted.
-// This applies to allocations in the arenas of the session and in `extra`, which may be NULL. Returns PETRI_OK, or the
-// reason for the abort: PETRI_OUT_OF_MEMORY, PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED. Resources that `call` acquires
-// must be reachable from `context`, so that the caller can free them after an abort.
-typedef void SessionCall(PetriSession *session, void *context);
+// This applies to allocations in the arenas of the session and in `extra`, which may be NULL. Returns the status that
+// `call` returns, or the reason for the abort: PETRI_OUT_OF_MEMORY, PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED.
+// Resources that `call` acquires must be reachable from `context`, so that the caller can free them after an abort.
+typedef PetriStatus SessionCall(PetriSession *session, void *context);
 PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context);
 // Handles the status of a protected call. If the call ran out of memory or exceeded a limit, reports that `what` (such
 // as "the frame") was aborted. For a limit, the report gives the position in the script, if known. If the call was
 // interrupted, clears the interrupt. Returns `status`.
 PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what);
+// Calls session_protect, then session_report_abort.
+PetriStatus session_run(PetriSession *session, SessionCall *call, void *context, const char *what);

@@ -213,7 +213,7 @@ void session_evaluate(PetriSession *session, const State *state) {
 
 // Evaluates the frame again. Uses the state from which the frame was computed, if `undo` holds it, else the current
 // state.
-static void preview(PetriSession *session, void *context) {
+static PetriStatus preview(PetriSession *session, void *context) {
     State **before = context;
     diag_sink_free(&session->frame.log); // empty it, because the evaluation repeats the output of debug()
     if (session->undo_of_frame) {
@@ -225,6 +225,7 @@ static void preview(PetriSession *session, void *context) {
             arena_exhausted(&session->frame.arena);
     }
     session_evaluate(session, *before ? *before : session->state);
+    return PETRI_OK;
 }
 
 PetriStatus petri_preview(PetriSession *session) {
@@ -246,7 +247,7 @@ PetriStatus petri_preview(PetriSession *session) {
     return session_report_abort(session, status, "the evaluation");
 }
 
-static void update_names(PetriSession *session, void *context) {
+static PetriStatus update_names(PetriSession *session, void *context) {
     (void)context;
     SessionFrame *frame = &session->frame;
     const PromptList *list = session->config.prompts;
@@ -258,6 +259,7 @@ static void update_names(PetriSession *session, void *context) {
         if (!list->statements[i].adds_nodes)
             run_program(session, list->statements[i].program);
     frame->names_current = true;
+    return PETRI_OK;
 }
 
 PetriStatus session_update_names(PetriSession *session) {
@@ -271,7 +273,7 @@ PetriStatus session_update_names(PetriSession *session) {
     return session_report_abort(session, status, "the evaluation");
 }
 
-static void evaluate_script(PetriSession *session, void *context) {
+static PetriStatus evaluate_script(PetriSession *session, void *context) {
     InputUndo *undo = context;
     SessionFrame *frame = &session->frame;
     double start = clock_monotonic();
@@ -280,9 +282,10 @@ static void evaluate_script(PetriSession *session, void *context) {
         arena_exhausted(&frame->arena);
     session_evaluate(session, session->state);
     frame->evaluation_seconds = clock_monotonic() - start;
+    return PETRI_OK;
 }
 
-static void update_systems(PetriSession *session, void *context) {
+static PetriStatus update_systems(PetriSession *session, void *context) {
     (void)context;
     SessionFrame *made = &session->frame;
     double start = clock_monotonic();
@@ -299,6 +302,7 @@ static void update_systems(PetriSession *session, void *context) {
                         .resolution = session->config.resolution};
     made->physics_steps = scene_update(session->scene, made->tree, &frame);
     made->physics_seconds = clock_monotonic() - start;
+    return PETRI_OK;
 }
 
 void petri_interrupt(PetriSession *session) {

@@ -68,14 +68,8 @@ static bool parse_parameters(Builtin *row) {
     return !*at;
 }
 
-typedef struct FunctionRequest {
-    const PetriFunction *function;
-    bool valid;
-} FunctionRequest;
-
-static void add_function(PetriSession *session, void *context) {
-    FunctionRequest *adding = context;
-    const PetriFunction *function = adding->function;
+static PetriStatus add_function(PetriSession *session, void *context) {
+    const PetriFunction *function = context;
     HostFunctions *functions = &session->functions;
     Arena *arena = &session->arena;
     HostFunction *added = arena_alloc(arena, sizeof *added);
@@ -83,7 +77,7 @@ static void add_function(PetriSession *session, void *context) {
     for (uint32_t i = 0; i < functions->count; i++) {
         rows[i] = functions->rows[i];
         if (strcmp(rows[i]->name, function->name) == 0)
-            return;
+            return PETRI_INVALID;
     }
     *added = (HostFunction){.row = {.name = str_to_c(arena, str_from(function->name)),
                                     .call = call_host,
@@ -93,10 +87,10 @@ static void add_function(PetriSession *session, void *context) {
                             .call = function->call,
                             .user_data = function->user_data};
     if (!parse_parameters(&added->row))
-        return;
+        return PETRI_INVALID;
     rows[functions->count] = &added->row;
     *functions = (HostFunctions){rows, functions->count + 1};
-    adding->valid = true;
+    return PETRI_OK;
 }
 
 PetriStatus petri_add_function(PetriSession *session, const PetriFunction *function) {
@@ -107,9 +101,7 @@ PetriStatus petri_add_function(PetriSession *session, const PetriFunction *funct
     Str name = str_from(function->name);
     if (!session_is_name(name) || engine_name_exists(name) || builtin_find(name) || builtin_constant(name, &constant))
         return PETRI_INVALID;
-    FunctionRequest adding = {function, false};
-    PetriStatus status = session_protect(session, NULL, add_function, &adding);
-    return status == PETRI_OK && !adding.valid ? PETRI_INVALID : status;
+    return session_protect(session, NULL, add_function, (void *)function);
 }
 
 bool petri_host_function(const PetriSession *session, size_t number, PetriBuiltin *function) {

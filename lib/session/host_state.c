@@ -14,16 +14,16 @@ typedef struct StateRequest {
     PetriValue value; // value to store
     Value imported;
     StateSlot slot;
-    PetriStatus status;
 } StateRequest;
 
-static void find_entry(PetriSession *session, void *context) {
+static PetriStatus find_entry(PetriSession *session, void *context) {
     StateRequest *request = context;
     if (!request->key.numbers)
         arena_reset(&session->key_arena);
     request->slot = session_import_value(&session->key_arena, request->key, &request->imported)
                         ? state_find(session->state, request->imported)
                         : STATE_NO_SLOT;
+    return PETRI_OK;
 }
 
 PetriValue petri_state_get(PetriSession *session, PetriValue key) {
@@ -49,26 +49,23 @@ static bool is_storable(Value v) {
     return true;
 }
 
-static void set_entry(PetriSession *session, void *context) {
+static PetriStatus set_entry(PetriSession *session, void *context) {
     StateRequest *request = context;
     Arena *arena = &session->key_arena;
     Value value;
     arena_reset(arena);
-    request->status = PETRI_INVALID;
     if (!session_import_value(arena, request->key, &request->imported) || !state_key_valid(request->imported) ||
         !session_import_value(arena, request->value, &value) || !is_storable(value))
-        return;
-    request->status = state_set(session->state, request->imported, value) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
-    if (state_clear_exhausted(session->state))
-        request->status = PETRI_OUT_OF_MEMORY;
+        return PETRI_INVALID;
+    bool stored = state_set(session->state, request->imported, value);
+    return state_clear_exhausted(session->state) || !stored ? PETRI_OUT_OF_MEMORY : PETRI_OK;
 }
 
 PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value) {
     StateRequest request = {.key = key, .value = value};
     if (!session || session->call_depth > 0)
         return PETRI_INVALID;
-    PetriStatus status = session_protect(session, NULL, set_entry, &request);
-    return session_report_abort(session, status == PETRI_OK ? request.status : status, "the assignment");
+    return session_run(session, set_entry, &request, "the assignment");
 }
 
 bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value) {
@@ -91,7 +88,6 @@ bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, 
 typedef struct GlobalRequest {
     Str name;
     PetriValue value;
-    PetriStatus status;
 } GlobalRequest;
 
 static HostGlobal *find_host_global(PetriSession *session, const Symbol *name) {
@@ -127,17 +123,16 @@ static void copy_host_global(void *context) {
     global->next = value_copy(&global->arenas[!global->turn], global->next);
 }
 
-static void set_global(PetriSession *session, void *context) {
-    GlobalRequest *request = context;
-    request->status = PETRI_INVALID;
+static PetriStatus set_global(PetriSession *session, void *context) {
+    const GlobalRequest *request = context;
     Value value;
     arena_reset(&session->key_arena);
     if (!session_is_name(request->name) || engine_name_exists(request->name) ||
         !session_import_value(&session->key_arena, request->value, &value))
-        return;
+        return PETRI_INVALID;
     for (uint32_t i = 0; value.kind == VALUE_MIXED && i < value.len; i++)
         if (value.as.items[i].type > ITEM_STRING)
-            return;
+            return PETRI_INVALID;
     const Symbol *name = symbol_intern(&session->symbols, request->name);
     HostGlobal *global = find_host_global(session, name);
     if (!global)
@@ -149,15 +144,14 @@ static void set_global(PetriSession *session, void *context) {
         arena_exhausted(&session->key_arena);
     global->turn = !global->turn;
     global->value = global->next;
-    request->status = PETRI_OK;
+    return PETRI_OK;
 }
 
 PetriStatus petri_set_global(PetriSession *session, const char *name, PetriValue value) {
     if (!session || !name || session->call_depth > 0)
         return PETRI_INVALID;
-    GlobalRequest request = {str_from(name), value, PETRI_OK};
-    PetriStatus status = session_protect(session, NULL, set_global, &request);
-    return session_report_abort(session, status == PETRI_OK ? request.status : status, "the assignment");
+    GlobalRequest request = {str_from(name), value};
+    return session_run(session, set_global, &request, "the assignment");
 }
 
 void session_copy_host_globals(const PetriSession *session, PetriSession *to) {

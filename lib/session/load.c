@@ -140,13 +140,12 @@ enum { STATIC_WORK = 3 << 24, MAX_STATIC_WORK = 1 << 26 };
 typedef struct StaticEvaluation {
     const Code *code;
     Value value;
-    bool done;
 } StaticEvaluation;
 
-static void evaluate_static(PetriSession *session, void *context) {
+static PetriStatus evaluate_static(PetriSession *session, void *context) {
     StaticEvaluation *evaluation = context;
-    evaluation->done =
-        vm_run_static(&session->static_vm, &session->loader.compiling->arena, evaluation->code, &evaluation->value);
+    Arena *arena = &session->loader.compiling->arena;
+    return vm_run_static(&session->static_vm, arena, evaluation->code, &evaluation->value) ? PETRI_OK : PETRI_INVALID;
 }
 
 // Folds a constant expression. Returns false if it could not be folded; each frame then evaluates it instead.
@@ -168,9 +167,8 @@ static bool host_evaluate(void *host, const Code *code, Value *value) {
     budget->work = saved.work;
     if (status == PETRI_OUT_OF_MEMORY || status == PETRI_INTERRUPTED)
         arena_escape(arena, status == PETRI_OUT_OF_MEMORY ? ARENA_OUT_OF_MEMORY : ARENA_INTERRUPTED);
-    bool done = status == PETRI_OK && evaluation.done;
-    *value = done ? evaluation.value : VALUE_NULL;
-    return done;
+    *value = status == PETRI_OK ? evaluation.value : VALUE_NULL;
+    return status == PETRI_OK;
 }
 
 // Sorts diagnostics of the same file by position. They can be out of order because, for example, an unused name is

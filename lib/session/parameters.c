@@ -291,10 +291,9 @@ static void describe_parameter(PetriSession *session, const Parameter *parameter
 typedef struct Request {
     size_t number;
     PetriParameter *out;
-    bool found;
 } Request;
 
-static void find_parameter(PetriSession *session, void *context) {
+static PetriStatus find_parameter(PetriSession *session, void *context) {
     Request *request = context;
     const Program *program = session->config.program->program;
     size_t number = request->number;
@@ -302,8 +301,7 @@ static void find_parameter(PetriSession *session, void *context) {
     arena_reset(&session->text_arena);
     if (number < program->parameter_count) {
         describe_parameter(session, &program->parameters[number], true, request->out);
-        request->found = true;
-        return;
+        return PETRI_OK;
     }
     number -= program->parameter_count;
     collect_modules(session, program, &modules);
@@ -311,38 +309,32 @@ static void find_parameter(PetriSession *session, void *context) {
         const Program *module = modules.items[i];
         if (number < module->parameter_count) {
             describe_parameter(session, &module->parameters[number], false, request->out);
-            request->found = true;
-            return;
+            return PETRI_OK;
         }
         number -= module->parameter_count;
     }
+    return PETRI_INVALID;
 }
 
 bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter) {
     if (!session || !parameter)
         return false;
-    Request request = {number, parameter, false};
-    if (!session->config.program)
-        return false;
-    PetriStatus status = session_protect(session, NULL, find_parameter, &request);
-    return session_report_abort(session, status, "the query") == PETRI_OK && request.found;
+    Request request = {number, parameter};
+    return session->config.program && session_run(session, find_parameter, &request, "the query") == PETRI_OK;
 }
 
 typedef struct Setting {
     const char *name;
     const char *value; // NULL: reset to the default
-    PetriStatus status;
 } Setting;
 
 // Replaces all definitions of a name by one with the new value. If the new value is NULL, only removes them.
-static void redefine(PetriSession *session, void *context) {
-    Setting *setting = context;
+static PetriStatus redefine(PetriSession *session, void *context) {
+    const Setting *setting = context;
     Config *config = &session->config;
     const Symbol *symbol = symbol_intern(&session->symbols, str_from(setting->name));
-    if (!config->program || !program_find_parameter(config->program->program, symbol)) {
-        setting->status = PETRI_INVALID;
-        return;
-    }
+    if (!config->program || !program_find_parameter(config->program->program, symbol))
+        return PETRI_INVALID;
     Define *defines = arena_alloc_array(&session->arena, config->define_count + 1, sizeof *defines);
     uint32_t count = 0;
     for (uint32_t i = 0; i < config->define_count; i++)
@@ -350,20 +342,19 @@ static void redefine(PetriSession *session, void *context) {
             defines[count++] = config->defines[i];
     config->defines = defines;
     config->define_count = session->reported_defines = count;
-    if (setting->value)
-        setting->status = session_define(session, symbol->name, str_from(setting->value));
+    return setting->value ? session_define(session, symbol->name, str_from(setting->value)) : PETRI_OK;
 }
 
 PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value) {
     if (!session || !name)
         return PETRI_INVALID;
-    Setting setting = {name, value, PETRI_OK};
+    Setting setting = {name, value};
     const Define *defines = session->config.defines;
     uint32_t count = session->config.define_count, reported = session->reported_defines;
     uint64_t number = session->config_revision;
     PetriStatus status = session_protect(session, NULL, redefine, &setting);
     if (status == PETRI_OK)
-        status = setting.status == PETRI_OK ? petri_reload(session, NULL) : setting.status;
+        status = petri_reload(session, NULL);
     if (status != PETRI_OK) {
         session->config.defines = defines;
         session->config.define_count = count;

@@ -108,13 +108,14 @@ typedef struct Printing {
     PetriStatus status;
 } Printing;
 
-static void run_print(PetriSession *session, void *context) {
+static PetriStatus run_print(PetriSession *session, void *context) {
     Printing *printing = context;
     arena_reset(&session->text_arena);
     TextSink out = {.text = text_new(&session->text_arena), .write = printing->write, .user_data = printing->user_data};
     printing->print(&out, session, printing->selection);
     text_sink_flush(&out);
-    printing->status = text_sink_finish(session, &out);
+    printing->status = text_sink_finish(session, &out); // not returned, because it is reported already
+    return PETRI_OK;
 }
 
 static PetriStatus print_protected(PetriSession *session, Printing printing) {

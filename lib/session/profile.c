@@ -58,11 +58,10 @@ typedef struct Request {
     double output_seconds;
     PetriWriteCallback *write;
     void *host;
-    bool stopped;
 } Request;
 
-static void print_profile(PetriSession *session, void *context) {
-    Request *request = context;
+static PetriStatus print_profile(PetriSession *session, void *context) {
+    const Request *request = context;
     const Profile *profile = session->vm.profile;
     const SessionFrame *frame = &session->frame;
     arena_reset(&session->text_arena);
@@ -79,15 +78,12 @@ static void print_profile(PetriSession *session, void *context) {
                     1e3 * total / frames, (double)frame->profiled_frames);
     for (uint32_t i = 0; i < count; i++)
         add_row(&out, &rows[i], total, frames);
-    request->stopped = !request->write(request->host, out.bytes, out.len);
+    return request->write(request->host, out.bytes, out.len) ? PETRI_OK : PETRI_INVALID;
 }
 
 PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWriteCallback *write, void *host) {
-    if (!session || !write)
+    if (!session || !write || !session->vm.profile)
         return PETRI_INVALID;
-    Request request = {output_seconds, write, host, false};
-    if (!session->vm.profile)
-        return PETRI_INVALID;
-    PetriStatus status = session_protect(session, NULL, print_profile, &request);
-    return status == PETRI_OK && request.stopped ? PETRI_INVALID : status;
+    Request request = {output_seconds, write, host};
+    return session_protect(session, NULL, print_profile, &request);
 }

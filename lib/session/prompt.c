@@ -98,11 +98,12 @@ void prompt_list_compile(PetriSession *session, const PromptList *list, const Pr
 
 // --- checking and executing input
 
-static void probe_text(PetriSession *session, void *context) {
+static PetriStatus probe_text(PetriSession *session, void *context) {
     Job *job = context;
     Arena *arena = &session->prompt.arena;
     const Source *source = source_new(arena, STR("prompt"), STR("prompt"), job->text);
     job->value = value_number(parse_completeness(arena, &session->symbols, source));
+    return PETRI_OK;
 }
 
 PetriCompleteness petri_prompt_check(PetriSession *session, const char *text, size_t length) {
@@ -110,14 +111,13 @@ PetriCompleteness petri_prompt_check(PetriSession *session, const char *text, si
         return PETRI_COMPLETE;
     Job job = {.text = {text, length == PETRI_NUL_TERMINATED ? strlen(text) : length}};
     arena_reset(&session->prompt.arena);
-    PetriStatus status = session_protect(session, NULL, probe_text, &job);
+    PetriStatus status = session_run(session, probe_text, &job, "the input");
     arena_reset(&session->prompt.arena);
-    status = session_report_abort(session, status, "the input");
     return status == PETRI_OK ? (PetriCompleteness)job.value.as.number : PETRI_COMPLETE;
 }
 
 // Compiles and runs a statement with the visible names.
-static void run_program(PetriSession *session, void *context) {
+static PetriStatus run_program(PetriSession *session, void *context) {
     Job *job = context;
     session_set_globals(session, &session->static_vm);
     job->program = unit_compile(session, job->unit, job->ast, false, session->config.prompts->names);
@@ -129,6 +129,7 @@ static void run_program(PetriSession *session, void *context) {
     job->value = vm_run(&session->vm, job->program, session->frame.values, job->exports);
     job->seconds = clock_monotonic() - start;
     session->vm.arena = session->vm.builtins.arena = &session->frame.arena;
+    return PETRI_OK;
 }
 
 // Runs a statement. Collects up to max_lines lines of its debug() output, separately from the output of the frame.
@@ -141,9 +142,10 @@ static PetriStatus run_statement(PetriSession *session, Job *job, uint32_t max_l
     return session_report_abort(session, status, "the input");
 }
 
-static void parse_text(PetriSession *session, void *context) {
+static PetriStatus parse_text(PetriSession *session, void *context) {
     Job *job = context;
     job->unit = unit_parse(session, STR("prompt"), job->text);
+    return PETRI_OK;
 }
 
 // Parses the text into a unit. Evaluates the script and the prompt's bindings if the visible names have no values yet.
@@ -154,10 +156,10 @@ static PetriStatus begin_job(PetriSession *session, const char *text, size_t len
     if (petri_clear_interrupt(session))
         return PETRI_INTERRUPTED;
     session->loader.pending = NULL;
-    PetriStatus status = session_protect(session, NULL, parse_text, job);
+    PetriStatus status = session_run(session, parse_text, job, "the input");
     if (status != PETRI_OK) {
         unit_free(session->loader.pending);
-        return session_report_abort(session, status, "the input");
+        return status;
     }
     if (!job->unit->ast)
         return PETRI_INVALID;
@@ -183,7 +185,7 @@ static void write_value(PetriSession *session, TextSink *out, Value v) {
 }
 
 // Writes the debug() output of a statement.
-static void write_log(PetriSession *session, void *context) {
+static PetriStatus write_log(PetriSession *session, void *context) {
     Job *job = context;
     TextSink *out = &job->out;
     out->text = text_new(&session->prompt.arena);
@@ -193,6 +195,7 @@ static void write_log(PetriSession *session, void *context) {
         text_add_char(&out->text, '\n');
     }
     text_sink_flush(out);
+    return PETRI_OK;
 }
 
 static bool binds(const Ast *ast) {
@@ -255,13 +258,14 @@ static void prepare_statement(PetriSession *session, Job *job) {
         arena_exhausted(job->arena);
 }
 
-static void finish_statement(PetriSession *session, void *context) {
+static PetriStatus finish_statement(PetriSession *session, void *context) {
     Job *job = context;
     if (job->binds || job->adds_nodes)
         prepare_statement(session, job);
     write_log(session, job);
     if (!job->binds)
         write_value(session, &job->out, job->value);
+    return PETRI_OK;
 }
 
 static void store_statement(PetriSession *session, Job *job) {
@@ -289,7 +293,7 @@ static PetriStatus prompt_statement(PetriSession *session, Job *job, PetriPrompt
     job->list = NULL;
     PetriStatus status = run_statement(session, job, MAX_LINES);
     if (status == PETRI_OK)
-        status = session_report_abort(session, session_protect(session, NULL, finish_statement, job), "the input");
+        status = session_run(session, finish_statement, job, "the input");
     else if (status != PETRI_OUT_OF_MEMORY)
         session_protect(session, NULL, write_log, job);
     diag_sink_free(&job->log);
@@ -319,11 +323,12 @@ static bool reject_pragmas(PetriSession *session, const Unit *unit) {
 }
 
 // Wraps the current statement in a suite, which can be compiled as a program.
-static void wrap_statement(PetriSession *session, void *context) {
+static PetriStatus wrap_statement(PetriSession *session, void *context) {
     Job *job = context;
     const Ast *statement = job->ast;
     Ast *children[] = {(Ast *)statement};
     job->ast = ast_new(unit_arena(session, job->unit), AST_SUITE, statement->span, NULL, children, 1);
+    return PETRI_OK;
 }
 
 PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWriteCallback *write, void *host,
@@ -338,7 +343,7 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
         status = PETRI_INVALID;
     for (uint32_t i = 0; status == PETRI_OK && i < job.unit->ast->count; i++) {
         job.ast = job.unit->ast->children[i];
-        status = session_report_abort(session, session_protect(session, NULL, wrap_statement, &job), "the input");
+        status = session_run(session, wrap_statement, &job, "the input");
         if (status == PETRI_OK)
             status = prompt_statement(session, &job, done);
     }
@@ -362,11 +367,12 @@ static bool is_expression(PetriSession *session, const Unit *unit) {
     return false;
 }
 
-static void write_line(PetriSession *session, void *context) {
+static PetriStatus write_line(PetriSession *session, void *context) {
     Job *job = context;
     job->out.text = text_new(&session->prompt.arena);
     format_value(&job->out.text, &session->symbols, job->value);
     text_sink_flush(&job->out);
+    return PETRI_OK;
 }
 
 PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriEvaluation *result,
@@ -390,7 +396,7 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
                                     .number = one ? job.value.as.number : NAN,
                                     .seconds = job.seconds};
         if (write)
-            status = session_report_abort(session, session_protect(session, NULL, write_line, &job), "the input");
+            status = session_run(session, write_line, &job, "the input");
     }
     unit_free(job.unit);
     return status;
@@ -401,11 +407,12 @@ typedef struct ClearRequest {
     PromptList *list;
 } ClearRequest;
 
-static void clear_statements(PetriSession *session, void *context) {
+static PetriStatus clear_statements(PetriSession *session, void *context) {
     ClearRequest *dropped = context;
     const Unit *script = session->config.program;
     prompt_list_compile(session, session->config.prompts, script ? script->program : NULL, dropped->choice,
                         &dropped->list);
+    return PETRI_OK;
 }
 
 uint32_t petri_prompt_clear(PetriSession *session, bool bindings) {
@@ -418,8 +425,7 @@ uint32_t petri_prompt_clear(PetriSession *session, bool bindings) {
         dropped_count += bindings || list->statements[i].adds_nodes;
     if (dropped_count == 0)
         return 0;
-    if (session_report_abort(session, session_protect(session, NULL, clear_statements, &dropped), "the input") !=
-        PETRI_OK) {
+    if (session_run(session, clear_statements, &dropped, "the input") != PETRI_OK) {
         prompt_list_free(dropped.list);
         return 0;
     }

@@ -63,33 +63,27 @@ static void report_state_error(PetriSession *session, const char *what, const ch
                         str_format(&session->text_arena, "%s '%s': %s", what, file, reason));
 }
 
-typedef struct Saving {
-    const char *file;
-    bool done;
-} Saving;
-
-static void save_state(PetriSession *session, void *context) {
-    Saving *saving = context;
+static PetriStatus save_state(PetriSession *session, void *context) {
+    const char *file = context;
     Text out = text_new(&session->text_arena);
     text_add_c(&out, HEADER);
     text_add_format(&out, "frame %lld\n", (long long)session->clock.number);
     add_entries(&out, session);
     add_systems(&out, session);
     text_add_format(&out, "end %016" PRIx64 "\n", hash_bytes(0, out.bytes, out.len));
-    const char *problem = file_replace(saving->file, text_str(&out), 0);
-    saving->done = !problem;
+    const char *problem = file_replace(file, text_str(&out), 0);
     if (problem)
-        report_state_error(session, "cannot write the state to", saving->file, problem);
+        report_state_error(session, "cannot write the state to", file, problem);
+    return problem ? PETRI_INVALID : PETRI_OK;
 }
 
 PetriStatus petri_save(PetriSession *session, const char *file) {
     if (!session || !file)
         return PETRI_INVALID;
-    Saving saving = {.file = file};
     ArenaMark mark = arena_mark(&session->text_arena);
-    PetriStatus status = session_protect(session, NULL, save_state, &saving);
+    PetriStatus status = session_protect(session, NULL, save_state, (void *)file);
     arena_rewind(&session->text_arena, mark);
-    return status == PETRI_OK && !saving.done ? PETRI_INVALID : status;
+    return status;
 }
 
 // A state file that is being read.
@@ -267,7 +261,7 @@ static const char *restore_text(Restore *restore) {
     return good && read_body(restore) ? NULL : "file is truncated or corrupt";
 }
 
-static void read_state_file(PetriSession *session, Incoming *incoming, void *context) {
+static PetriStatus read_state_file(PetriSession *session, Incoming *incoming, void *context) {
     const char *file = context, *reason = NULL;
     Arena *arena = &incoming->arena;
     Restore restore = {.session = session, .arena = arena, .state = incoming->state, .incoming = incoming};
@@ -275,7 +269,6 @@ static void read_state_file(PetriSession *session, Incoming *incoming, void *con
         reason = restore_text(&restore);
     if (state_clear_exhausted(incoming->state)) // running out of memory must not be reported as a corrupt file
         arena_exhausted(arena);
-    incoming->valid = !reason;
     if (restore.omitted && !reason)
         session_report_text(session, DIAG_WARNING, "state-file",
                             str_format(&session->text_arena,
@@ -285,6 +278,7 @@ static void read_state_file(PetriSession *session, Incoming *incoming, void *con
         report_state_error(session, "cannot load the state from", file, reason);
     else
         clock_resume(&incoming->clock, restore.frame);
+    return reason ? PETRI_INVALID : PETRI_OK;
 }
 
 PetriStatus petri_restore(PetriSession *session, const char *file) {

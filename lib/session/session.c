@@ -94,16 +94,16 @@ typedef struct Call {
     PetriSession *session;
     SessionCall *call;
     void *context;
+    PetriStatus status;
 } Call;
 
 static void run_call(void *context) {
-    const Call *call = context;
-    call->call(call->session, call->context);
+    Call *call = context;
+    call->status = call->call(call->session, call->context);
 }
 
 PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context) {
-    static const PetriStatus statuses[] = {[ARENA_OK] = PETRI_OK,
-                                           [ARENA_OUT_OF_MEMORY] = PETRI_OUT_OF_MEMORY,
+    static const PetriStatus statuses[] = {[ARENA_OUT_OF_MEMORY] = PETRI_OUT_OF_MEMORY,
                                            [ARENA_MEMORY_LIMIT] = PETRI_LIMIT_EXCEEDED,
                                            [ARENA_WORK_LIMIT] = PETRI_LIMIT_EXCEEDED,
                                            [ARENA_INTERRUPTED] = PETRI_INTERRUPTED};
@@ -113,7 +113,7 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
     Unit *compiling = session->loader.compiling;
     bool working = frame->evaluating;
     uint64_t before = 0;
-    Call made = {session, call, context};
+    Call made = {session, call, context, PETRI_OK};
     if (session->rollback_pending && !session_rollback(session))
         return PETRI_OUT_OF_MEMORY;
     if (session->call_depth++ == 0) {
@@ -127,13 +127,17 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
     ArenaOutcome end = arena_protect(arenas, sizeof arenas / sizeof *arenas, run_call, &made);
     if (--session->call_depth == 0)
         session->total_work += session->budget.work - before;
-    if (end != ARENA_OK) {
-        session->last_outcome = end;
-        session->loader.compiling = compiling;
-        frame->evaluating = working;
-        session->vm.arena = session->vm.builtins.arena = &frame->arena;
-    }
+    if (end == ARENA_OK)
+        return made.status;
+    session->last_outcome = end;
+    session->loader.compiling = compiling;
+    frame->evaluating = working;
+    session->vm.arena = session->vm.builtins.arena = &frame->arena;
     return statuses[end];
+}
+
+PetriStatus session_run(PetriSession *session, SessionCall *call, void *context, const char *what) {
+    return session_report_abort(session, session_protect(session, NULL, call, context), what);
 }
 
 PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what) {
@@ -174,8 +178,8 @@ bool session_rollback(PetriSession *session) {
     return !session->rollback_pending;
 }
 
-// Creates the components of a session. If one cannot be allocated, aborts the protected call.
-static void init_components(PetriSession *session, void *context) {
+// Creates the components of a session.
+static PetriStatus init_components(PetriSession *session, void *context) {
     (void)context;
     const PetriOptions *options = &session->options;
     schema_init(&session->schema, &session->symbols, (SchemaSink){session, report_scene});
@@ -198,11 +202,12 @@ static void init_components(PetriSession *session, void *context) {
     session->config.prompts = prompt_list_new((Names){0}, NULL);
     if (!session->state || !session->files || !session->noise || !session->config.prompts ||
         (options->profile && !session->vm.profile))
-        arena_exhausted(&session->arena);
+        return PETRI_OUT_OF_MEMORY;
     PhysOptions physics = physics_options(options);
     session->options.cpu = NULL; // like `ranks`, it pointed to the host's memory
     session->options.ranks = NULL;
     scene_set_physics(session->scene, &physics);
+    return PETRI_OK;
 }
 
 void session_arena(PetriSession *session, Arena *arena, const char *name, size_t limit) {
@@ -320,12 +325,11 @@ bool session_is_name(Str text) {
 typedef struct Definition {
     Str name;
     Str value;
-    PetriStatus status;
 } Definition;
 
-static void run_define(PetriSession *session, void *context) {
-    Definition *definition = context;
-    definition->status = session_define(session, definition->name, definition->value);
+static PetriStatus run_define(PetriSession *session, void *context) {
+    const Definition *definition = context;
+    return session_define(session, definition->name, definition->value);
 }
 
 PetriStatus petri_define(PetriSession *session, const char *definition) {
@@ -334,9 +338,8 @@ PetriStatus petri_define(PetriSession *session, const char *definition) {
     const char *equals = strchr(definition, '=');
     if (!equals)
         return PETRI_INVALID;
-    Definition made = {{definition, (size_t)(equals - definition)}, str_from(equals + 1), PETRI_OK};
-    PetriStatus status = session_protect(session, NULL, run_define, &made);
-    return status == PETRI_OK ? made.status : status;
+    Definition made = {{definition, (size_t)(equals - definition)}, str_from(equals + 1)};
+    return session_protect(session, NULL, run_define, &made);
 }
 
 PetriStatus session_define(PetriSession *session, Str name, Str value) {
@@ -370,7 +373,7 @@ typedef struct Load {
     PromptList *prompts;
 } Load;
 
-static void make_unit(PetriSession *session, void *context) {
+static PetriStatus make_unit(PetriSession *session, void *context) {
     Load *load = context;
     session_set_globals(session, &session->static_vm);
     Unit *unit = load->reload_of ? unit_reload(session, load->reload_of)
@@ -382,9 +385,10 @@ static void make_unit(PetriSession *session, void *context) {
             str_format(&session->text_arena, "cannot read '%.*s': %.*s", STR_ARGS(load->name), STR_ARGS(unit->error)));
     load->unit = unit;
     if (!unit->program)
-        return;
+        return PETRI_INVALID;
     load->rates = session_pragma_rates(session, unit->program);
     prompt_list_compile(session, session->config.prompts, unit->program, PROMPT_ALL, &load->prompts);
+    return PETRI_OK;
 }
 
 // Replaces the loaded script.
@@ -411,14 +415,14 @@ static PetriStatus load_script(PetriSession *session, Load *load, LoadPurpose pu
     session->loader.static_work = 0;
     FileAccess before = session->reach;
     PetriStatus status = session_protect(session, NULL, make_unit, load);
-    if (status == PETRI_OK && load->unit->program) {
+    if (status == PETRI_OK) {
         install_script(session, load, session->config.program ? purpose : LOAD_RESTART);
         return PETRI_OK;
     }
     session->reach = before;
     prompt_list_free(load->prompts);
     unit_free(session->loader.pending);
-    return status == PETRI_OK ? PETRI_INVALID : session_report_abort(session, status, "the script");
+    return session_report_abort(session, status, "the script");
 }
 
 PetriStatus petri_load(PetriSession *session, const char *file) {

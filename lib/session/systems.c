@@ -2,19 +2,24 @@
 #include "session/session.h"
 #include "value/format.h"
 
-// A query about a system, whose result is stored in *out. `found` is set to true when the result is complete.
+// A query about a system, whose result `find` stores in *out.
 typedef struct Request {
+    PetriStatus (*find)(PetriSession *session, const struct Request *request, const SceneView *view);
     size_t system;
-    uint32_t number;
+    uint32_t number; // number of a particle or force
     void *out;
-    bool found;
 } Request;
 
-static bool run_request(PetriSession *session, SessionCall *call, size_t system, uint32_t number, void *out) {
-    Request request = {system, number, out, false};
+static PetriStatus find_in_view(PetriSession *session, void *context) {
+    const Request *request = context;
+    SceneView view;
+    bool found = scene_view(session->scene, session->state, request->system, &view);
+    return found ? request->find(session, request, &view) : PETRI_INVALID;
+}
+
+static bool run_request(PetriSession *session, Request request) {
     arena_reset(&session->view_arena);
-    PetriStatus status = session_protect(session, NULL, call, &request);
-    return session_report_abort(session, status, "the query") == PETRI_OK && request.found;
+    return session_run(session, find_in_view, &request, "the query") == PETRI_OK;
 }
 
 // Returns the prefix of a system in printed form. Creates it on the first call in a frame.
@@ -38,18 +43,14 @@ static PetriColumn public_column(PhysColumn column) {
     return (PetriColumn){column.numbers, column.stride};
 }
 
-static void find_system(PetriSession *session, void *context) {
-    Request *request = context;
-    SceneView view;
-    if (!scene_view(session->scene, session->state, request->system, &view))
-        return;
-    PhysColumns columns = phys_columns(view.engine);
+static PetriStatus find_system(PetriSession *session, const Request *request, const SceneView *view) {
+    PhysColumns columns = phys_columns(view->engine);
     *(PetriSystem *)request->out = (PetriSystem){
-        .name = system_name(session, request->system, view.prefix),
-        .dimensions = view.dimensions,
-        .particle_count = view.particle_count,
-        .force_count = phys_force_count(view.engine),
-        .steps = view.steps,
+        .name = system_name(session, request->system, view->prefix),
+        .dimensions = view->dimensions,
+        .particle_count = view->particle_count,
+        .force_count = phys_force_count(view->engine),
+        .steps = view->steps,
         .position = public_column(columns.position),
         .velocity = public_column(columns.velocity),
         .force = public_column(columns.force),
@@ -59,7 +60,7 @@ static void find_system(PetriSession *session, void *context) {
         .anchor = columns.anchor,
         .anchor_stride = columns.anchor_stride,
     };
-    request->found = true;
+    return PETRI_OK;
 }
 
 void petri_keep_columns(PetriSession *session, bool keep) {
@@ -71,15 +72,12 @@ void petri_keep_columns(PetriSession *session, bool keep) {
 }
 
 bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
-    return session && system && run_request(session, find_system, number, 0, system);
+    return session && system && run_request(session, (Request){find_system, number, 0, system});
 }
 
-static void find_rank_stats(PetriSession *session, void *context) {
-    Request *request = context;
-    SceneView view;
-    if (!scene_view(session->scene, session->state, request->system, &view))
-        return;
-    PhysRankStats stats = phys_rank_stats(view.engine);
+static PetriStatus find_rank_stats(PetriSession *session, const Request *request, const SceneView *view) {
+    (void)session;
+    PhysRankStats stats = phys_rank_stats(view->engine);
     *(PetriRankStats *)request->out = (PetriRankStats){
         .decomposition = (PetriDecomposition)stats.decomposition,
         .frames = stats.frames,
@@ -91,53 +89,47 @@ static void find_rank_stats(PetriSession *session, void *context) {
         .own = stats.own,
         .halo = stats.halo,
     };
-    request->found = true;
+    return PETRI_OK;
 }
 
 bool petri_rank_stats(PetriSession *session, size_t number, PetriRankStats *stats) {
-    return session && stats && run_request(session, find_rank_stats, number, 0, stats);
+    return session && stats && run_request(session, (Request){find_rank_stats, number, 0, stats});
 }
 
-static void find_id(PetriSession *session, void *context) {
-    Request *request = context;
-    SceneView view;
+static PetriStatus find_id(PetriSession *session, const Request *request, const SceneView *view) {
     Arena *arena = &session->view_arena;
-    if (!scene_view(session->scene, session->state, request->system, &view) || request->number >= view.particle_count)
-        return;
+    if (request->number >= view->particle_count)
+        return PETRI_INVALID;
     Value buffer;
-    const Value *key = state_slot_key_at(session->state, view.slots[2 * (size_t)request->number], &buffer);
+    const Value *key = state_slot_key_at(session->state, view->slots[2 * (size_t)request->number], &buffer);
     PetriValue *id = request->out;
-    request->found = true;
     if (key->kind == VALUE_NUMBERS) {
-        *id = (PetriValue){.length = key->len - view.prefix.len, .numbers = value_numbers(key) + view.prefix.len};
-        return;
+        *id = (PetriValue){.length = key->len - view->prefix.len, .numbers = value_numbers(key) + view->prefix.len};
+        return PETRI_OK;
     }
     Value *slice = arena_alloc(arena, sizeof *slice);
-    *slice = scene_view_id(arena, session->state, &view, request->number);
+    *slice = scene_view_id(arena, session->state, view, request->number);
     *id = session_export_value(slice);
+    return PETRI_OK;
 }
 
 PetriValue petri_particle_id(PetriSession *session, size_t system, uint32_t particle) {
     PetriValue id = {0};
-    return session && run_request(session, find_id, system, particle, &id) ? id : (PetriValue){0};
+    return session && run_request(session, (Request){find_id, system, particle, &id}) ? id : (PetriValue){0};
 }
 
-static void find_ids(PetriSession *session, void *context) {
-    Request *request = context;
-    SceneView view;
+static PetriStatus find_ids(PetriSession *session, const Request *request, const SceneView *view) {
     const double *ids;
-    if (!scene_view(session->scene, session->state, request->system, &view))
-        return;
-    if (!scene_view_ids(session->state, &view, &ids))
+    if (!scene_view_ids(session->state, view, &ids))
         arena_exhausted(&session->view_arena);
     *(PetriColumn *)request->out = (PetriColumn){ids, 1};
-    request->found = true;
+    return PETRI_OK;
 }
 
 PetriColumn petri_particle_ids(PetriSession *session, size_t system) {
     PetriColumn ids = {NULL, 1};
     if (session)
-        run_request(session, find_ids, system, 0, &ids);
+        run_request(session, (Request){find_ids, system, 0, &ids});
     return ids;
 }
 
@@ -146,36 +138,31 @@ typedef struct Search {
     uint32_t found;
 } Search;
 
-static void find_by_id(PetriSession *session, void *context) {
-    Request *request = context;
+static PetriStatus find_by_id(PetriSession *session, const Request *request, const SceneView *view) {
     Search *search = request->out;
-    SceneView view;
     Value id;
     arena_reset(&session->key_arena);
-    request->found = scene_view(session->scene, session->state, request->system, &view) &&
-                     session_import_value(&session->key_arena, search->id, &id) &&
-                     scene_view_find(session->scene, session->state, &session->key_arena, &view, id, &search->found);
+    bool found = session_import_value(&session->key_arena, search->id, &id) &&
+                 scene_view_find(session->scene, session->state, &session->key_arena, view, id, &search->found);
+    return found ? PETRI_OK : PETRI_INVALID;
 }
 
 bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, uint32_t *particle) {
     Search search = {id, 0};
-    Request request = {system, 0, &search, false};
-    if (!session || !particle || session_protect(session, NULL, find_by_id, &request) != PETRI_OK || !request.found)
+    Request request = {find_by_id, system, 0, &search};
+    if (!session || !particle || session_protect(session, NULL, find_in_view, &request) != PETRI_OK)
         return false;
     *particle = search.found;
     return true;
 }
 
-static void find_force(PetriSession *session, void *context) {
-    Request *request = context;
-    SceneView view;
+static PetriStatus find_force(PetriSession *session, const Request *request, const SceneView *view) {
     PhysForce force;
-    if (!scene_view(session->scene, session->state, request->system, &view) ||
-        !phys_get_force(view.engine, request->number, &force))
-        return;
+    if (!phys_get_force(view->engine, request->number, &force))
+        return PETRI_INVALID;
     bool barrier = force.kind == PHYS_BARRIER;
-    double *zero = arena_alloc_array(&session->view_arena, view.dimensions, sizeof *zero);
-    for (uint32_t k = 0; k < view.dimensions; k++)
+    double *zero = arena_alloc_array(&session->view_arena, view->dimensions, sizeof *zero);
+    for (uint32_t k = 0; k < view->dimensions; k++)
         zero[k] = 0;
     *(PetriForce *)request->out = (PetriForce){
         .kind = schema_kinds[schema_kind_of_force(force.kind)].name,
@@ -189,9 +176,9 @@ static void find_force(PetriSession *session, void *context) {
                   : force.vector2 ? force.vector2
                                   : zero,
     };
-    request->found = true;
+    return PETRI_OK;
 }
 
 bool petri_system_force(PetriSession *session, size_t number, uint32_t index, PetriForce *out) {
-    return session && out && run_request(session, find_force, number, index, out);
+    return session && out && run_request(session, (Request){find_force, number, index, out});
 }

@@ -34,7 +34,7 @@ static void send_binding(void *context, const BindingInfo *note) {
     reading->binding_callback(reading->user_data, &name);
 }
 
-static void read_text(PetriSession *session, void *context) {
+static PetriStatus read_text(PetriSession *session, void *context) {
     Reading *reading = context;
     Arena *arena = &session->prompt.arena;
     const Source *source = source_new(arena, STR("text"), STR("text"), reading->text);
@@ -43,13 +43,14 @@ static void read_text(PetriSession *session, void *context) {
     else
         bindings_read(arena, source, parse_tolerant(arena, &session->symbols, source, NULL, NULL), send_binding,
                       reading);
+    return PETRI_OK;
 }
 
 static PetriStatus read_protected(PetriSession *session, Reading reading) {
     arena_reset(&session->prompt.arena);
-    PetriStatus status = session_protect(session, NULL, read_text, &reading);
+    PetriStatus status = session_run(session, read_text, &reading, "the input");
     arena_reset(&session->prompt.arena);
-    return session_report_abort(session, status, "the input");
+    return status;
 }
 
 PetriStatus petri_tokenise(PetriSession *session, const char *text, size_t length, PetriTokenCallback *callback,

@@ -8,9 +8,10 @@ static const Node *node_of(const PetriNode *node) {
     return (const Node *)node;
 }
 
-static void expand_batches(PetriSession *session, void *context) {
+static PetriStatus expand_batches(PetriSession *session, void *context) {
     (void)context;
     session->frame.tree = value_expand_batches(&session->frame.systems_arena, session->frame.tree);
+    return PETRI_OK;
 }
 
 // Expands node batches first, because the public interface has single nodes only.

@@ -52,12 +52,13 @@ typedef struct Printed {
     const char *text;
 } Printed;
 
-static void print_value(PetriSession *session, void *context) {
+static PetriStatus print_value(PetriSession *session, void *context) {
     Printed *printed = context;
     Value value;
     arena_reset(&session->text_arena);
     if (session_import_value(&session->text_arena, printed->value, &value))
         printed->text = format_text(&session->text_arena, &session->symbols, value).bytes;
+    return PETRI_OK;
 }
 
 const char *petri_format_value(PetriSession *session, PetriValue value) {
@@ -72,9 +73,10 @@ typedef struct SymbolRequest {
     const Symbol *symbol;
 } SymbolRequest;
 
-static void intern_symbol(PetriSession *session, void *context) {
+static PetriStatus intern_symbol(PetriSession *session, void *context) {
     SymbolRequest *request = context;
     request->symbol = symbol_register(&session->symbols, str_from(request->name));
+    return PETRI_OK;
 }
 
 double petri_symbol(PetriSession *session, const char *name) {

@@ -97,8 +97,9 @@ static void test_performance_rewinds(void **state) {
     petri_snapshot_free(snapshot);
 }
 
-static void find_draw_memory(PetriSession *session, void *context) {
+static PetriStatus find_draw_memory(PetriSession *session, void *context) {
     *(int **)context = session_draw_memory(session, sizeof(int));
+    return PETRI_OK;
 }
 
 static int *draw_memory(Player *player) {
