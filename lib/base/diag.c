@@ -12,11 +12,11 @@ void diag_sink_free(DiagSink *sink) {
 
 static bool is_same_diag(const void *owner, uint32_t entry, const void *key) {
     const Diag *a = &((const DiagSink *)owner)->items[entry], *b = key;
-    return a->source == b->source && a->span.start == b->span.start && str_equal(a->text, b->text);
+    return a->at.source == b->at.source && a->at.span.start == b->at.span.start && str_equal(a->text, b->text);
 }
 
 bool diag_report(DiagSink *sink, const Diag *diag) {
-    uint64_t hash = hash_bytes(diag->span.start, diag->text.bytes, diag->text.len);
+    uint64_t hash = hash_bytes(diag->at.span.start, diag->text.bytes, diag->text.len);
     if (hash_index_find(&sink->index, hash, is_same_diag, sink, diag) != HASH_INDEX_NONE)
         return false;
     if (sink->count >= sink->limit) {
@@ -93,10 +93,10 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
     const char *bold = colour ? "\033[1m" : "", *plain = colour ? "\033[0m" : "";
     const char *tint = colour ? level_colours[diag->level] : "";
     SourcePosition position = {0};
-    if (diag->source) {
-        position = source_locate(diag->source, diag->span.start);
+    if (diag->at.source) {
+        position = source_locate(diag->at.source, diag->at.span.start);
         text_add_c(out, bold);
-        add_printable(out, diag->source->name);
+        add_printable(out, diag->at.source->name);
         text_add_format(out, ":%u:%u:%s ", position.line, position.column, plain);
     }
     text_add_format(out, "%s%s:%s ", tint, level_names[diag->level], plain);
@@ -104,12 +104,12 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
     if (diag->code)
         text_add_format(out, " [%s]", diag->code);
     text_add_char(out, '\n');
-    if (diag->source) {
+    if (diag->at.source) {
         uint32_t column = position.column;
         Str line = excerpt(position.text, &column);
-        size_t len = diag->span.end > diag->span.start ? diag->span.end - diag->span.start : 1;
-        size_t left = diag->source->text.len - diag->span.start;
-        size_t width = utf8_length((Str){diag->source->text.bytes + diag->span.start, len < left ? len : left});
+        size_t len = diag->at.span.end > diag->at.span.start ? diag->at.span.end - diag->at.span.start : 1;
+        size_t left = diag->at.source->text.len - diag->at.span.start;
+        size_t width = utf8_length((Str){diag->at.source->text.bytes + diag->at.span.start, len < left ? len : left});
         text_add_c(out, "    ");
         add_printable(out, line);
         text_add_format(out, "\n    %s", tint);
@@ -125,9 +125,9 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
 Str diag_one_line(Arena *arena, const Diag *diag) {
     Text out = text_new(arena);
     add_text(&out, diag);
-    if (diag->source) {
-        SourcePosition position = source_locate(diag->source, diag->span.start);
-        text_add_format(&out, " (%.*s:%u)", STR_ARGS(diag->source->name), position.line);
+    if (diag->at.source) {
+        SourcePosition position = source_locate(diag->at.source, diag->at.span.start);
+        text_add_format(&out, " (%.*s:%u)", STR_ARGS(diag->at.source->name), position.line);
     }
     return text_str(&out);
 }

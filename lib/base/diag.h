@@ -11,8 +11,7 @@ typedef enum DiagLevel { DIAG_ERROR, DIAG_WARNING, DIAG_NOTE } DiagLevel;
 
 typedef struct Diag {
     DiagLevel level;
-    const Source *source; // source that contains the location; NULL: the diagnostic has no location
-    Span span;
+    Origin at; // location; its source is NULL if the diagnostic has none
     Str text;
     Str hint;         // advice for fixing the problem; empty: none
     const char *code; // short name of the kind of diagnostic, such as "unbound-name"; NULL: none

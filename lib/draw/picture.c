@@ -369,7 +369,7 @@ void petri_picture_report(PetriSession *session, PetriPicture *picture) {
         return;
     for (uint32_t i = 0; i < picture->faults.count; i++)
         if (!session_has_source(session, &picture->faults.items[i]))
-            picture->faults.items[i].source = NULL;
+            picture->faults.items[i].at.source = NULL;
     session_report_all(session, &picture->faults);
     session_add_work(session, picture->work);
     picture->work = 0;

@@ -292,9 +292,7 @@ static bool is_good_size(Walk *walk, NodeKind kind, Origin place, int width, int
         return true;
     Str text = str_format(walk->faults->arena, "!%s: a picture can have 1 to %d pixels in width and height",
                           schema_kinds[kind].name, PETRI_MAX_PICTURE_SIDE);
-    diag_report(
-        walk->faults,
-        &(Diag){.level = DIAG_WARNING, .source = place.source, .span = place.span, .text = text, .code = "bad-size"});
+    diag_report(walk->faults, &(Diag){DIAG_WARNING, place, text, .code = "bad-size"});
     return false;
 }
 

@@ -77,10 +77,8 @@ void draw_report_args(DiagSink *faults, const Origin *place, DiagLevel level, co
     Text text = text_new(faults->arena);
     text_add_va(&text, format, args);
     Diag diag = {.level = level, .text = text_str(&text), .code = code};
-    if (place) {
-        diag.source = place->source;
-        diag.span = place->span;
-    }
+    if (place)
+        diag.at = *place;
     diag_report(faults, &diag);
 }
 

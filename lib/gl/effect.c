@@ -74,11 +74,7 @@ void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str pro
     while (line < problem.len && problem.bytes[line] != '\n')
         line++;
     text_add_format(&text, "!%s: %.*s", schema_kinds[node->kind].name, (int)line, problem.bytes);
-    diag_report(faults, &(Diag){.level = DIAG_WARNING,
-                                .source = node->origin.source,
-                                .span = node->origin.span,
-                                .text = text_str(&text),
-                                .code = code});
+    diag_report(faults, &(Diag){DIAG_WARNING, node->origin, text_str(&text), .code = code});
 }
 
 // Returns the cost of an effect in nanoseconds per pixel, as measured with llvmpipe on two processors. A GPU is faster,

@@ -19,11 +19,7 @@ typedef struct InheritedState {
 
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem) {
     Str text = str_format(scene->faults->arena, "!%s: %s", schema_kinds[node->kind].name, problem);
-    diag_report(scene->faults, &(Diag){.level = DIAG_WARNING,
-                                       .source = node->origin.source,
-                                       .span = node->origin.span,
-                                       .text = text,
-                                       .code = code});
+    diag_report(scene->faults, &(Diag){DIAG_WARNING, node->origin, text, .code = code});
 }
 
 static double clamp(double x, double low, double high) {

@@ -79,13 +79,8 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     if (gl_run_passes(gl, effect, passes, count, &out))
         return out;
     if (isinf(gl->shader_seconds)) {
-        diag_report(faults,
-                    &(Diag){.level = DIAG_ERROR,
-                            .source = node->origin.source,
-                            .span = node->origin.span,
-                            .text = STR("!shader: the shader took longer to draw than the work limit allows (--work); "
-                                        "it is left out"),
-                            .code = "drawing-limit"});
+        Str text = STR("!shader: the shader took longer to draw than the work limit allows (--work); it is left out");
+        diag_report(faults, &(Diag){DIAG_ERROR, node->origin, text, .code = "drawing-limit"});
         gl_image_free(gl, out);
     }
     return (GlImage){0};

@@ -124,16 +124,13 @@ void gl_report_shader_error(DiagSink *faults, const DrawNode *node, const GlShad
     const Source *source = node->origin.source;
     CompilerMessage message = read_message(fault->text);
     uint32_t start = UINT32_MAX;
-    Diag diag = {.level = fault->failed ? DIAG_ERROR : DIAG_WARNING,
-                 .source = source,
-                 .span = node->origin.span,
-                 .code = "bad-shader"};
+    Diag diag = {.level = fault->failed ? DIAG_ERROR : DIAG_WARNING, .at = node->origin, .code = "bad-shader"};
     if (source && own && message.line > 0) {
         start = find_text(source->text, own->as.text, node->origin.span.start);
         start = start == UINT32_MAX ? find_text(source->text, own->as.text, 0) : start;
     }
     if (start != UINT32_MAX) {
-        diag.span = span_of(source->text, start, &message);
+        diag.at.span = span_of(source->text, start, &message);
         message.line = 0;
     }
     diag.text = format_message(faults->arena, node, &message);

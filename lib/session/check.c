@@ -23,15 +23,9 @@ void session_lint_top_nodes(PetriSession *session) {
         Str kind = last->name, nearest = nearest_top_kind(kind);
         if (!nearest.len)
             continue;
-        Origin place = node_origin(item->as.node, NULL);
-        session_report(
-            session,
-            &(Diag){.level = DIAG_WARNING,
-                    .source = place.source,
-                    .span = place.span,
-                    .text = str_format(&session->frame.systems_arena, "'!%.*s' does nothing", STR_ARGS(kind)),
-                    .hint = str_format(&session->frame.systems_arena, "did you mean '!%.*s'?", STR_ARGS(nearest)),
-                    .code = "unknown-node"});
+        Str text = str_format(&session->frame.systems_arena, "'!%.*s' does nothing", STR_ARGS(kind));
+        Str hint = str_format(&session->frame.systems_arena, "did you mean '!%.*s'?", STR_ARGS(nearest));
+        session_report(session, &(Diag){DIAG_WARNING, node_origin(item->as.node, NULL), text, hint, "unknown-node"});
     }
 }
 

@@ -102,12 +102,12 @@ static void store_hash(Diagnostics *diagnostics, uint64_t hash) {
 static void send_diagnostic(PetriSession *session, const Diag *diag, Str rendered) {
     Arena *arena = &session->text_arena;
     SourcePosition place = {0}, end = {0};
-    if (diag->source) {
-        place = source_locate(diag->source, diag->span.start);
-        end = source_locate(diag->source, diag->span.end);
+    if (diag->at.source) {
+        place = source_locate(diag->at.source, diag->at.span.start);
+        end = source_locate(diag->at.source, diag->at.span.end);
     }
     PetriDiagnostic public_diag = {.level = (PetriLevel)diag->level,
-                                   .file = diag->source ? str_to_c(arena, diag->source->name) : NULL,
+                                   .file = diag->at.source ? str_to_c(arena, diag->at.source->name) : NULL,
                                    .line = place.line,
                                    .column = place.column,
                                    .text = str_to_c(arena, diag_text(diag)),

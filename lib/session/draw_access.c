@@ -49,8 +49,8 @@ void session_add_work(PetriSession *session, uint64_t work) {
 bool session_has_source(const PetriSession *session, const Diag *fault) {
     const Unit *program = session->config.program;
     for (const Unit *unit = program; unit; unit = unit == program ? session->loader.modules : unit->next)
-        if (unit->source == fault->source && fault->source)
-            return fault->span.end <= fault->source->text.len;
+        if (unit->source == fault->at.source && fault->at.source)
+            return fault->at.span.end <= fault->at.source->text.len;
     return false;
 }
 

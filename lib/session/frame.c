@@ -19,13 +19,9 @@ static double pragma_number(PetriSession *session, const Pragma *pragma, bool po
     bool good = positive ? number > 0 && isfinite(number) : !isnan(number);
     if (good)
         return number;
-    Diag diag = {.level = DIAG_WARNING,
-                 .source = pragma->source,
-                 .span = pragma->span,
-                 .text = positive ? STR("the value of this pragma must be a number above 0; the pragma is ignored")
-                                  : STR("the value of this pragma must be a number; the pragma is ignored"),
-                 .code = "bad-pragma"};
-    session_report(session, &diag);
+    Str text = positive ? STR("the value of this pragma must be a number above 0; the pragma is ignored")
+                        : STR("the value of this pragma must be a number; the pragma is ignored");
+    session_report(session, &(Diag){DIAG_WARNING, {pragma->source, pragma->span}, text, .code = "bad-pragma"});
     return default_value;
 }
 

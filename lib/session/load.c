@@ -177,7 +177,8 @@ static void sort_by_place(DiagSink *sink) {
     for (uint32_t i = 1; i < sink->count; i++) {
         Diag diag = sink->items[i];
         uint32_t at = i;
-        for (; at > 0 && sink->items[at - 1].source == diag.source && sink->items[at - 1].span.start > diag.span.start;
+        for (; at > 0 && sink->items[at - 1].at.source == diag.at.source &&
+               sink->items[at - 1].at.span.start > diag.at.span.start;
              at--)
             sink->items[at] = sink->items[at - 1];
         sink->items[at] = diag;

@@ -314,11 +314,8 @@ static bool reject_pragmas(PetriSession *session, const Unit *unit) {
     const Ast *ast = unit->ast;
     if (ast->count == 0 || ast->children[0]->kind != AST_PRAGMA)
         return false;
-    session_report(session, &(Diag){.level = DIAG_ERROR,
-                                    .source = unit->source,
-                                    .span = ast->children[0]->span,
-                                    .text = STR("pragmas are allowed only at the start of a script"),
-                                    .code = "syntax"});
+    Str text = STR("pragmas are allowed only at the start of a script");
+    session_report(session, &(Diag){DIAG_ERROR, {unit->source, ast->children[0]->span}, text, .code = "syntax"});
     return true;
 }
 
@@ -359,11 +356,8 @@ static bool is_expression(PetriSession *session, const Unit *unit) {
     const Ast *ast = unit->ast;
     if (ast->count == 1 && ast->children[0]->kind != AST_PRAGMA && !binds(ast->children[0]))
         return true;
-    session_report(session, &(Diag){.level = DIAG_ERROR,
-                                    .source = unit->source,
-                                    .span = {0, (uint32_t)unit->source->text.len},
-                                    .text = STR("the input must be a single expression"),
-                                    .code = "syntax"});
+    Origin all = {unit->source, {0, (uint32_t)unit->source->text.len}};
+    session_report(session, &(Diag){DIAG_ERROR, all, STR("the input must be a single expression"), .code = "syntax"});
     return false;
 }
 

@@ -43,14 +43,13 @@ static void report_scene(void *host, DiagLevel level, const char *code, const Or
     Arena *arena = &session->frame.systems_arena;
     Str whole = str_format(arena, "%.*s: %.*s", STR_ARGS(node), STR_ARGS(text));
     Diag diag = {.level = level, .text = whole, .code = code};
-    if (origin) {
-        diag.source = origin->source;
-        diag.span = origin->span;
-    }
+    if (origin)
+        diag.at = *origin;
     diag_report(&session->frame.errors, &diag);
     // A loop can create a thousand nodes from one position in the script. A problem that they share is reported once,
     // because the key contains their position instead of their names.
-    Str where = diag.source ? str_format(arena, "%.*s %u", STR_ARGS(diag.source->path), diag.span.start) : node;
+    Str where =
+        diag.at.source ? str_format(arena, "%.*s %u", STR_ARGS(diag.at.source->path), diag.at.span.start) : node;
     session_report_keyed(session, &diag, str_format(arena, "%s %.*s %.*s", code, STR_ARGS(where), STR_ARGS(key)));
 }
 
@@ -156,13 +155,10 @@ PetriStatus session_report_abort(PetriSession *session, PetriStatus status, cons
         snprintf(text, sizeof text, "%s exceeded its memory limit of %zu MiB and was aborted", what,
                  session->options.memory_limit >> 20);
     Diag diag = {.level = DIAG_ERROR, .text = str_from(text), .code = work ? "work-limit" : "memory-limit"};
-    Origin place = session->vm.at                 ? *session->vm.at
-                   : session->schema.current_node ? node_origin(session->schema.current_node, NULL)
-                                                  : (Origin){0};
-    if (status == PETRI_LIMIT_EXCEEDED) {
-        diag.source = place.source;
-        diag.span = place.span;
-    }
+    if (status == PETRI_LIMIT_EXCEEDED)
+        diag.at = session->vm.at                 ? *session->vm.at
+                  : session->schema.current_node ? node_origin(session->schema.current_node, NULL)
+                                                 : (Origin){0};
     size_t limit = session->budget.memory_limit;
     session->budget.memory_limit = SIZE_MAX; // the report itself needs memory
     session_report(session, &diag);

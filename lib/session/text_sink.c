@@ -42,10 +42,6 @@ PetriStatus text_sink_finish(PetriSession *session, const TextSink *out) {
     char text[80];
     snprintf(text, sizeof text, "the printed tree exceeds %zu MiB: truncated here", MAX_BYTES >> 20);
     Origin place = node_origin(out->truncated_at, NULL);
-    session_report(session, &(Diag){.level = DIAG_ERROR,
-                                    .source = place.source,
-                                    .span = place.span,
-                                    .text = str_from(text),
-                                    .code = "memory-limit"});
+    session_report(session, &(Diag){DIAG_ERROR, place, str_from(text), .code = "memory-limit"});
     return PETRI_LIMIT_EXCEEDED;
 }

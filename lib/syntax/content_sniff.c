@@ -58,7 +58,7 @@ static Tally count_lines(const Source *source, const DiagSink *diags) {
     Tally tally = {0};
     uint32_t last = 0;
     for (uint32_t i = 0; i < diags->count; i++) { // diagnostics are in source order
-        uint32_t line = source_line(source, diags->items[i].span.start);
+        uint32_t line = source_line(source, diags->items[i].at.span.start);
         tally.bad += line > last;
         last = line > last ? line : last;
     }

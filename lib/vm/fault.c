@@ -23,7 +23,7 @@ static bool first_fault(Vm *vm, const Origin *at, uint64_t what) {
 }
 
 static void report_diagnostic(Vm *vm, const Origin *at, DiagLevel level, const char *code, Str text) {
-    Diag diag = {.level = level, .source = at->source, .span = at->span, .text = text, .code = code};
+    Diag diag = {level, *at, text, .code = code};
     vm->host.report(vm->host.user_data, &diag);
 }
 

@@ -51,7 +51,7 @@ static void test_caret_marks_span(void **state) {
         {"a\x1b[31m\x7f\xff", {1, 2}, "a.fl:1:2: error: bad\n    a?[31m??\n     ^\n"}, // control characters
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        Diag diag = {.source = source_of(rows[i].text), .span = rows[i].span, .text = STR("bad")};
+        Diag diag = {.at = {source_of(rows[i].text), rows[i].span}, .text = STR("bad")};
         assert_text(rows[i].text, formatted(&diag, false), rows[i].wanted);
     }
 }
@@ -60,10 +60,7 @@ static void test_caret_marks_span(void **state) {
 static void test_control_characters_are_replaced(void **state) {
     (void)state;
     const Source *source = source_new(&arena, STR("a\x1b[1m.fl"), STR("a.fl"), str_from("ab"));
-    Diag diag = {.source = source,
-                 .span = {1, 2},
-                 .text = STR("no '\x1b]0;x\x07'"),
-                 .hint = STR("did you mean '\xc2\x9b\x7f'?")};
+    Diag diag = {.at = {source, {1, 2}}, .text = STR("no '\x1b]0;x\x07'"), .hint = STR("did you mean '\xc2\x9b\x7f'?")};
     assert_text("name, text, line and hint", formatted(&diag, false),
                 "a?[1m.fl:1:2: error: no '?]0;x?'\n    ab\n     ^\n    did you mean '\?\?'?\n");
 }
@@ -75,7 +72,7 @@ static void test_level_code_and_hint_are_printed(void **state) {
     diag.code = "some-code";
     assert_text("code", formatted(&diag, false), "warning: odd [some-code]\n");
     diag.level = DIAG_NOTE;
-    diag.source = source_of("x");
+    diag.at.source = source_of("x");
     diag.hint = STR("try y");
     assert_text("hint", formatted(&diag, false), "a.fl:1:1: note: odd [some-code]\n    x\n    ^\n    try y\n");
     const char *coloured = formatted(&diag, true);
@@ -93,7 +90,7 @@ static void test_long_lines_are_shortened(void **state) {
     for (size_t i = 0; i < COUNT_OF(places); i++) {
         memset(line, 'x', LENGTH);
         line[places[i]] = '?';
-        Diag diag = {.source = source_of(line), .span = {places[i], places[i] + 1}, .text = STR("bad")};
+        Diag diag = {.at = {source_of(line), {places[i], places[i] + 1}}, .text = STR("bad")};
         const char *text = formatted(&diag, false);
         assert_true(strlen(text) < 500);
         char place[40];
@@ -105,8 +102,7 @@ static void test_long_lines_are_shortened(void **state) {
 }
 
 static bool report_at(const Source *source, uint32_t start, const char *text) {
-    return diag_report(
-        &sink, &(Diag){.level = DIAG_ERROR, .source = source, .span = {start, start + 1}, .text = str_from(text)});
+    return diag_report(&sink, &(Diag){.level = DIAG_ERROR, .at = {source, {start, start + 1}}, .text = str_from(text)});
 }
 
 static void test_duplicates_are_stored_once(void **state) {
@@ -150,8 +146,8 @@ static void test_one_line_form_names_location(void **state) {
     (void)state;
     Diag diag = {.text = STR("bad")};
     assert_text("no location", str_to_c(&arena, diag_one_line(&arena, &diag)), "bad");
-    diag.source = source_of("a\nb\n");
-    diag.span = (Span){2, 3};
+    diag.at.source = source_of("a\nb\n");
+    diag.at.span = (Span){2, 3};
     assert_text("location", str_to_c(&arena, diag_one_line(&arena, &diag)), "bad (a.fl:2)");
 }
 

@@ -119,7 +119,7 @@ static inline const Program *compile(Desk *desk, const char *script) {
     desk->compiled =
         program_compile(&desk->program, &desk->scratch, &desk->world.symbols, source, ast, &desk->options, &sink);
     for (uint32_t i = 0; i < sink.count; i++) {
-        SourcePosition at = source_locate(sink.items[i].source, sink.items[i].span.start);
+        SourcePosition at = source_locate(sink.items[i].at.source, sink.items[i].at.span.start);
         text_add_format(&desk->reported, "%u:%u %.*s [%s]\n", at.line, at.column, (int)sink.items[i].text.len,
                         sink.items[i].text.bytes, sink.items[i].code);
     }

@@ -75,7 +75,7 @@ static inline const char *complaints(World *world, Str program) {
     Text out = text_new(&world->arena);
     for (uint32_t i = 0; i < parsed.diags.count; i++) {
         const Diag *diag = &parsed.diags.items[i];
-        SourcePosition place = source_locate(diag->source, diag->span.start);
+        SourcePosition place = source_locate(diag->at.source, diag->at.span.start);
         text_add_format(&out, "%s%u:%u: ", i ? "\n" : "", place.line, place.column);
         text_add(&out, diag->text);
         if (diag->hint.len)

@@ -11,8 +11,8 @@ static const char *reports_of(World *world, const char *name, const char *path, 
     Text out = text_new(&world->arena);
     for (uint32_t i = 0; i < diags.count; i++) {
         const Diag *diag = &diags.items[i];
-        if (diag->source)
-            text_add_format(&out, "%u: ", source_locate(diag->source, diag->span.start).line);
+        if (diag->at.source)
+            text_add_format(&out, "%u: ", source_locate(diag->at.source, diag->at.span.start).line);
         text_add_format(&out, "%.*s", (int)diag->text.len, diag->text.bytes);
         if (diag->hint.len)
             text_add_format(&out, " | %.*s", (int)diag->hint.len, diag->hint.bytes);

@@ -202,7 +202,7 @@ static void test_mutated_programs_never_crash(void **state) {
         for (uint32_t i = 0; i < diags.count; i++) {
             Text out = text_new(&world->arena);
             diag_format(&out, &diags.items[i], false);
-            assert_true(diags.items[i].span.start <= source->text.len && out.len > 0);
+            assert_true(diags.items[i].at.span.start <= source->text.len && out.len > 0);
         }
         diag_sink_free(&diags);
         symbol_table_free(&symbols);

@@ -34,7 +34,7 @@ typedef struct Runner {
 
 static inline void runner_report(void *host, const Diag *diag) {
     Runner *runner = host;
-    SourcePosition place = source_locate(diag->source, diag->span.start);
+    SourcePosition place = source_locate(diag->at.source, diag->at.span.start);
     text_add_format(&runner->reported, "%u:%u %.*s [%s]\n", place.line, place.column, (int)diag->text.len,
                     diag->text.bytes, diag->code);
 }
