@@ -1,0 +1,108 @@
+// text.c: the growing string buffer Text; see str.h.
+#include "base/str.h"
+
+#include <assert.h>
+#include <stdio.h>
+#include <string.h>
+
+Text text_new(Arena *arena) {
+    return (Text){.arena = arena};
+}
+
+static char *text_reserve(Text *text, size_t more) {
+    if (text->capacity - text->len < more) {
+        size_t capacity = text->capacity ? text->capacity * 2 : 64;
+        if (capacity < text->len + more)
+            capacity = text->len + more;
+        text->bytes = arena_grow(text->arena, text->bytes, text->capacity, capacity);
+        text->capacity = capacity;
+    }
+    return text->bytes + text->len;
+}
+
+void text_add(Text *text, Str part) {
+    if (part.len)
+        memcpy(text_reserve(text, part.len), part.bytes, part.len);
+    text->len += part.len;
+}
+
+void text_add_c(Text *text, const char *part) {
+    text_add(text, str_from(part));
+}
+
+void text_add_char(Text *text, char c) {
+    *text_reserve(text, 1) = c;
+    text->len++;
+}
+
+void text_add_code_point(Text *text, uint32_t code_point) {
+    text->len += utf8_encode(code_point, text_reserve(text, UTF8_MAX));
+}
+
+void text_add_va(Text *text, const char *format, va_list args) {
+    assert(format); // avoids a GCC warning in sanitizer builds, where a NULL format seems possible
+    va_list again;
+    va_copy(again, args);
+    int len = vsnprintf(NULL, 0, format, args);
+    if (len > 0) {
+        vsnprintf(text_reserve(text, (size_t)len + 1), (size_t)len + 1, format, again);
+        text->len += (size_t)len;
+    }
+    va_end(again);
+}
+
+void text_add_format(Text *text, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    text_add_va(text, format, args);
+    va_end(args);
+}
+
+Str text_str(const Text *text) {
+    return (Str){text->bytes, text->len};
+}
+
+int str_hex_digit(char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+// Appends a colour component from 0 to 255 as a number from 0 to 1 with up to three decimals.
+static void add_component(Text *text, unsigned part) {
+    char digits[8];
+    int len = snprintf(digits, sizeof digits, "%u.%03u", part / 255, (part % 255 * 1000 + 127) / 255);
+    while (digits[len - 1] == '0')
+        len--;
+    len -= digits[len - 1] == '.';
+    text_add(text, (Str){digits, (size_t)len});
+}
+
+bool text_add_hex_colour(Text *text, Str hex) {
+    size_t skip = str_starts_with(hex, STR("#")) ? 1 : str_starts_with(hex, STR("0x")) ? 2 : 0, count = 0;
+    unsigned digits[8];
+    for (; skip + count < hex.len && str_hex_digit(hex.bytes[skip + count]) >= 0; count++)
+        if (count < 8)
+            digits[count] = (unsigned)str_hex_digit(hex.bytes[skip + count]);
+    char next = skip + count < hex.len ? hex.bytes[skip + count] : ' ';
+    bool ends = !(next == '_' || (next >= '0' && next <= '9') || ((next | 32) >= 'a' && (next | 32) <= 'z'));
+    if (!skip || !ends || !(count == 3 || count == 4 || count == 6 || count == 8))
+        return false;
+    size_t each = count > 4 ? 2 : 1;
+    for (size_t i = 0; i < count; i += each) {
+        if (i > 0)
+            text_add_c(text, ";");
+        add_component(text, each == 2 ? digits[i] * 16 + digits[i + 1] : digits[i] * 17);
+    }
+    return true;
+}
+
+Str str_format(Arena *arena, const char *format, ...) {
+    Text text = text_new(arena);
+    va_list args;
+    va_start(args, format);
+    text_add_va(&text, format, args);
+    va_end(args);
+    return text_str(&text);
+}
