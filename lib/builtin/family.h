@@ -58,9 +58,8 @@ Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArra
 // (B0.4). Returns null if there are no vectors, or if any of them is not numeric.
 Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f)(const double *x, uint32_t count));
 
-// These functions sort stably in ascending order (B3.3). They return the sorted array, which is either the argument or
-// another array in the arena. If there is a NaN, the order is unspecified.
-double *builtin_sort_numbers(Arena *arena, double *numbers, uint32_t len);
+// Sorts stably in ascending order (B3.3). Returns the sorted array, which is either the argument or another array in
+// the arena.
 Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len);
 
 // Returns the length of the longest prefix of the text that consists of digits, with or without single underscores

@@ -115,7 +115,8 @@ static void *merge_sort(Arena *arena, void *items, void *other, uint32_t len, Me
     return items;
 }
 
-double *builtin_sort_numbers(Arena *arena, double *numbers, uint32_t len) {
+// Like builtin_sort_texts. If there is a NaN, the order is unspecified.
+static double *sort_numbers(Arena *arena, double *numbers, uint32_t len) {
     return merge_sort(arena, numbers, arena_alloc_array(arena, len, sizeof *numbers), len, merge_numbers);
 }
 
@@ -138,7 +139,7 @@ Value builtin_sort(BuiltinContext *context, const Value *args, uint32_t count) {
         return v.len ? v : VALUE_NULL;
     if (v.kind == VALUE_NUMBERS) {
         double *numbers = arena_copy(arena, v.as.numbers, v.len * sizeof *numbers);
-        return value_numbers_view(builtin_sort_numbers(arena, numbers, v.len), v.len);
+        return value_numbers_view(sort_numbers(arena, numbers, v.len), v.len);
     }
     if (!all_texts(v))
         return builtin_error(context, "sort", "the elements must be all numbers or all strings");
@@ -177,7 +178,7 @@ static Census read_census(Arena *arena, const Value *v) {
         else if (item.as.number == item.as.number)
             census.numbers[census.number_count++] = item.as.number;
     }
-    census.numbers = builtin_sort_numbers(arena, census.numbers, census.number_count);
+    census.numbers = sort_numbers(arena, census.numbers, census.number_count);
     if (census.text_count)
         census.texts = builtin_sort_texts(arena, census.texts, census.text_count);
     return census;

@@ -225,7 +225,8 @@ static void describe_closure(Expr *expr) {
     }
 }
 
-const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_count) {
+// Lowers an expression to code with `slot_count` slots.
+static const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_count) {
     LowerOptions options = {.arena = compiler->arena,
                             .values = compiler->arena,
                             .scratch = compiler->scratch,
@@ -234,7 +235,8 @@ const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_cou
     return program_lower(&options, expr, slot_count);
 }
 
-const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
+// Compiles a FUNC, named or anonymous, to a closure.
+static const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     const Ast *params = ast->children[0];
     const Symbol **names = arena_alloc_array(compiler->arena, params->count, sizeof *names);
     const Expr **defaults = arena_alloc_array(compiler->scratch, params->count, sizeof *defaults);

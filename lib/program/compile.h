@@ -84,10 +84,6 @@ typedef struct ScopeMark {
 } ScopeMark;
 
 const Expr *compile_expr(Compiler *compiler, const Ast *ast);
-// Lowers an expression to code with `slot_count` slots.
-const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_count);
-// Compiles a FUNC, named or anonymous, to a closure.
-const Expr *compile_closure(Compiler *compiler, const Ast *ast);
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count);
 Expr *compile_constant(Compiler *compiler, const Ast *ast, Value value);
 void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *code, Str text, Str hint);
@@ -98,8 +94,6 @@ void compile_scope_close(Compiler *compiler, ScopeMark mark);
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value);
 // Binds the names of a NAMES node in consecutive slots and returns the first slot.
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value);
-// Returns the value of the name at index `element` if `value` is unpacked to `count` names (L8.3).
-Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count);
 // Marks the last `count` bindings as constant, with this value. If `count` is greater than 1, the value is unpacked to
 // them.
 void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
@@ -131,8 +125,6 @@ void compile_note_define(Compiler *compiler, const Binding *binding);
 const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark);
 // Sets the dependencies of a new expression, which follow from its kind and its children.
 void fold_set_dependencies(Expr *expr);
-// Adds the dependencies of `child` to an expression.
-void fold_add_dependency(Expr *expr, const Expr *child);
 
 // Lints for `petri check` (lint.c): code that is valid but unlikely to be intended. They do nothing unless
 // CompileOptions.lint is set.

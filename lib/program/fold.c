@@ -15,7 +15,7 @@
 // Vectors with more elements are not folded: evaluating them again costs less than keeping them in memory.
 enum { MAX_ELEMENTS = 1 << 22 };
 
-void fold_add_dependency(Expr *expr, const Expr *child) {
+static void add_dependency(Expr *expr, const Expr *child) {
     expr->dynamic |= child->dynamic;
     expr->uses_closure |= child->uses_closure;
     if (child->lowest_slot < expr->lowest_slot)
@@ -41,7 +41,7 @@ void fold_set_dependencies(Expr *expr) {
         break;
     }
     for (uint32_t i = 0; i < expr->count; i++)
-        fold_add_dependency(expr, expr->children[i]);
+        add_dependency(expr, expr->children[i]);
 }
 
 // Returns false for expressions of a kind that binds names, is already constant, or is evaluated as fast as a constant.
@@ -171,7 +171,8 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
     return replace_with_constant(compiler, expr, value);
 }
 
-Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count) {
+// Returns the value of the name at index `element` if `value` is unpacked to `count` names (L8.3).
+static Value unpack_value(Compiler *compiler, Value value, uint32_t element, uint32_t count) {
     if (count == 1)
         return value;
     if (value.kind == VALUE_STREAM)
@@ -183,6 +184,6 @@ void compile_set_constant(Compiler *compiler, uint32_t count, Value value) {
     Binding *binding = compiler->function->scope;
     for (uint32_t i = count; i > 0; i--, binding = binding->outer) {
         binding->is_constant = true;
-        binding->constant = compile_unpack(compiler, value, i - 1, count);
+        binding->constant = unpack_value(compiler, value, i - 1, count);
     }
 }

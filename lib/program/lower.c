@@ -44,14 +44,16 @@ void lower_emit(Lowering *lowering, const Expr *at, Instr instr) {
     lowering->instrs[lowering->instr_count++] = instr;
 }
 
-int32_t lower_temporary(Lowering *lowering) {
+// Allocates a register, which stays in use until next_register is reset.
+static int32_t add_temporary(Lowering *lowering) {
     int32_t temporary = lowering->next_register++;
     if (lowering->next_register > lowering->register_count)
         lowering->register_count = lowering->next_register;
     return temporary;
 }
 
-int32_t lower_constant(Lowering *lowering, Value value) {
+// Adds a constant and returns the operand that refers to it.
+static int32_t add_constant(Lowering *lowering, Value value) {
     lowering->constants = arena_grow_array(lowering->options->scratch, lowering->constants, lowering->constant_count,
                                            &lowering->constant_capacity, sizeof(Value));
     lowering->constants[lowering->constant_count++] = value;
@@ -60,16 +62,17 @@ int32_t lower_constant(Lowering *lowering, Value value) {
 
 int32_t lower_operand(Lowering *lowering, const Expr *expr) {
     if (expr->kind == EXPR_CONST)
-        return lower_constant(lowering, expr->as.value);
+        return add_constant(lowering, expr->as.value);
     if (expr->kind == EXPR_SLOT)
         return (int32_t)expr->slot;
-    int32_t temporary = lower_temporary(lowering);
+    int32_t temporary = add_temporary(lowering);
     lower_into(lowering, expr, temporary);
     return temporary;
 }
 
 // Must be called after all operands have been lowered, because lowering nested expressions also appends lists.
-uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count) {
+// Appends a list of operands and returns its start in Code.operands.
+static uint32_t add_operands(Lowering *lowering, const int32_t *operands, uint32_t count) {
     uint32_t start = lowering->operand_count;
     for (uint32_t i = 0; i < count; i++) {
         lowering->operands = arena_grow_array(lowering->options->scratch, lowering->operands, lowering->operand_count,
@@ -83,7 +86,7 @@ uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t c
     int32_t *operands = arena_alloc_array(lowering->options->scratch, count, sizeof *operands);
     for (uint32_t i = 0; i < count; i++)
         operands[i] = lower_operand(lowering, exprs[i]);
-    return lower_list(lowering, operands, count);
+    return add_operands(lowering, operands, count);
 }
 
 void lower_patch_jump(Lowering *lowering, uint32_t jump) {
@@ -169,17 +172,17 @@ static void lower_compose(Lowering *lowering, const Expr *expr, int32_t d) {
         else
             parts[count++] = lower_operand(lowering, expr->children[i]);
     if (count < 2) {
-        emit_move(lowering, d, count ? parts[0] : lower_constant(lowering, VALUE_NULL), expr);
+        emit_move(lowering, d, count ? parts[0] : add_constant(lowering, VALUE_NULL), expr);
         return;
     }
-    uint32_t list = lower_list(lowering, parts, count);
+    uint32_t list = add_operands(lowering, parts, count);
     lower_emit(lowering, expr, (Instr){.op = OP_COMPOSE, .d = d, .list = list, .count = count});
 }
 
 // Emits `or` or `and`: the right side is evaluated only if the result is not the left value.
 static void lower_short_circuit(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t left = lower_operand(lowering, expr->children[0]);
-    int32_t result = lower_temporary(lowering);
+    int32_t result = add_temporary(lowering);
     emit_move(lowering, result, left, expr);
     uint32_t jump = emit_jump(lowering, expr->kind == EXPR_OR ? OP_JUMP_TRUE : OP_JUMP_FALSE, result, expr);
     lower_into(lowering, expr->children[1], result);
@@ -211,9 +214,9 @@ void lower_if(Lowering *lowering, const Expr *expr, const Target *target) {
     if (i < expr->count)
         lower_branch(lowering, expr->children[i], target);
     else if (target->to_loop)
-        lower_yield(lowering, lower_constant(lowering, VALUE_NULL), target->loop, expr);
+        lower_yield(lowering, add_constant(lowering, VALUE_NULL), target->loop, expr);
     else
-        emit_move(lowering, target->d, lower_constant(lowering, VALUE_NULL), expr);
+        emit_move(lowering, target->d, add_constant(lowering, VALUE_NULL), expr);
     while (end_count > 0)
         lower_patch_jump(lowering, ends[--end_count]);
 }
@@ -295,7 +298,7 @@ static void lower_move(Lowering *lowering, const Expr *expr, int32_t d) {
 
 static void lower_binding(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_statement(lowering, expr);
-    emit_move(lowering, d, lower_constant(lowering, VALUE_NULL), expr);
+    emit_move(lowering, d, add_constant(lowering, VALUE_NULL), expr);
 }
 
 static void lower_if_value(Lowering *lowering, const Expr *expr, int32_t d) {

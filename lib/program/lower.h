@@ -55,16 +55,10 @@ void lower_emit(Lowering *lowering, const Expr *at, Instr instr);
 const Origin *lower_origin(Lowering *lowering, const Expr *expr);
 // Returns a copy of names, in the code's arena.
 const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *names, uint32_t count);
-// Allocates a register, which stays in use until next_register is reset.
-int32_t lower_temporary(Lowering *lowering);
-// Adds a constant and returns the operand that refers to it.
-int32_t lower_constant(Lowering *lowering, Value value);
 // Emits the instructions, if any, that compute an expression. Returns the operand that contains its value.
 int32_t lower_operand(Lowering *lowering, const Expr *expr);
 // Like lower_operand for several expressions. Returns the start of the list of their operands.
 uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t count);
-// Appends a list of operands and returns its start in Code.operands.
-uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count);
 // Emits instructions that compute an expression into register `d`.
 void lower_into(Lowering *lowering, const Expr *expr, int32_t d);
 // Emits a statement that only binds names.

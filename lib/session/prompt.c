@@ -59,7 +59,8 @@ PromptList *prompt_list_new(Names host_names, const Program *script) {
     return make_list((Names){host_names.items, script ? script->param_count : 0}, 0, script);
 }
 
-PromptList *prompt_list_add(const PromptList *before, const PromptStatement *statement) {
+// Returns a copy of a list with one more statement, or NULL if out of memory.
+static PromptList *add_statement(const PromptList *before, const PromptStatement *statement) {
     PromptList *list = make_list(before->names, before->count + 1, statement->program);
     if (!list)
         return NULL;
@@ -89,7 +90,7 @@ void prompt_list_compile(PetriSession *session, const PromptList *list, const Pr
         statement.program = unit_compile(session, statement.unit, statement.ast, false, (*result)->names);
         arena_free(&statement.unit->scratch);
         PromptList *shorter = *result;
-        *result = prompt_list_add(shorter, &statement);
+        *result = add_statement(shorter, &statement);
         prompt_list_free(shorter);
     }
     if (!*result)
@@ -253,7 +254,7 @@ static void prepare_statement(PetriSession *session, Job *job) {
         vector_add(&tree, job->value);
         job->tree = vector_finish(&tree);
     }
-    job->list = prompt_list_add(session->config.prompts, &statement);
+    job->list = add_statement(session->config.prompts, &statement);
     if (!job->list)
         arena_exhausted(job->arena);
 }
