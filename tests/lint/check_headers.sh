@@ -29,7 +29,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
     # shellcheck disable=SC2086 # $isa may be empty
     if ! ${CC:-cc} $isa -std=c17 -D_XOPEN_SOURCE=700 -D_DEFAULT_SOURCE -fsyntax-only -Wall -Wextra -Wno-unused-variable \
         -Wno-unused-const-variable -Wno-unused-function -Werror -Ilib -Ilib/include -Isrc -Itests/support \
-        -I"$build/grammar" "$scratch/alone.c"; then
+        -I"$build/grammar" -I"$build/lib" "$scratch/alone.c"; then
         echo "$header does not compile alone"
         faults=1
     fi
