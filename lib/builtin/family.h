@@ -1,8 +1,8 @@
 // family.h: helpers shared by the built-ins; private to lib/builtin.
 #pragma once
 
-#include "base/cpu.h"
 #include "builtin/builtin.h"
+#include "maths/arrays.h"
 
 #define BUILTIN(name, ...) BuiltinCall builtin_##name;
 #include "builtin/builtin_list.h"
@@ -68,3 +68,12 @@ size_t builtin_scan_digits(Str text);
 // Returns true if the text is an integer: digits as in builtin_scan_digits, with an optional sign and surrounding white
 // space.
 bool builtin_is_integer(Str text);
+
+// These functions return the noise at the point c, which has two, three or four coordinates. `permutation` contains the
+// numbers 0 to 255.
+double noise_point_2(const uint8_t *permutation, const double *c);
+double noise_point_3(const uint8_t *permutation, const double *c);
+double noise_point_4(const uint8_t *permutation, const double *c);
+
+// Returns the constants with which ArraysIsa.plane_noise computes the same results as noise_point_2.
+PlaneNoise noise_plane(void);

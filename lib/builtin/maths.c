@@ -3,7 +3,6 @@
 
 #include "base/number.h"
 #include "builtin/family.h"
-#include "maths/arrays.h"
 #include "maths/random.h"
 
 #include <math.h>

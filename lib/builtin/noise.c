@@ -3,8 +3,6 @@
 #include "builtin/noise.h"
 
 #include "builtin/family.h"
-#include "builtin/noise_point.h"
-#include "maths/arrays.h"
 #include "maths/random.h"
 #include "value/value_hash.h"
 

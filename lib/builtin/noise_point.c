@@ -1,12 +1,11 @@
-// noise_point.c: classic OpenSimplex noise at one point (spec builtins.md B10.4 to B10.9); see noise_point.h.
+// noise_point.c: classic OpenSimplex noise at one point (spec builtins.md B10.4 to B10.9); see family.h.
 //
 // A point is in a cell of the skewed lattice. Each cell is divided into regions: A at the base corner, B at the far
 // corner, C and D between. Which vertices influence the point depends on its region. Each region has a fixed set of
 // core vertices. The position of the point in the region determines a few extra vertices: other corners of the cell, or
 // vertices outside it. The noise is the sum of the contributions of all these vertices, in the order of the spec.
-#include "builtin/noise_point.h"
-
 #include "base/number.h"
+#include "builtin/family.h"
 #include "builtin/noise_tables.h"
 
 #include <math.h>

@@ -1,7 +1,17 @@
-// info.c: information that does not depend on a session: version, texts of statuses, built-ins, and kinds of nodes with
-// their attributes.
+// info.c: functions that do not depend on a session: allocator, version, texts of statuses, built-ins, and kinds of
+// nodes with their attributes.
 #include "ast/literal.h"
+#include "base/heap.h"
 #include "session/session.h"
+
+PetriStatus petri_set_allocator(const PetriAllocator *allocator) {
+    if (!allocator)
+        return heap_set_allocator(NULL) ? PETRI_OK : PETRI_INVALID;
+    if (allocator->size != sizeof *allocator || !allocator->allocate || !allocator->resize || !allocator->release)
+        return PETRI_INVALID;
+    HeapAllocator source = {allocator->allocate, allocator->resize, allocator->release, allocator->user_data};
+    return heap_set_allocator(&source) ? PETRI_OK : PETRI_INVALID;
+}
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {
     if (!builtin || index >= builtin_table_count)

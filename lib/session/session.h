@@ -4,6 +4,7 @@
 // checkpoint.c. Every public function that allocates does so within session_protect.
 #pragma once
 
+#include "base/sha256.h"
 #include "builtin/files.h"
 #include "builtin/noise.h"
 #include "petri.h"
@@ -14,7 +15,6 @@
 #include "session/draw_access.h"
 #include "session/frame.h"
 #include "session/prompt.h"
-#include "session/text_sink.h"
 #include "session/unit.h"
 #include "vm/vm.h"
 
@@ -155,3 +155,25 @@ void session_set_globals(const PetriSession *session, Vm *vm);
 // Warns about top-level nodes that have no effect and are probably misspelled: their kind resembles a kind with an
 // effect. Called within a protected call.
 void session_lint_top_nodes(PetriSession *session);
+
+// Text output to a callback of the host, in chunks (text_sink.c).
+typedef struct TextSink {
+    Text text;                 // text not flushed yet
+    PetriWriteCallback *write; // callback of the host; NULL: the text is discarded
+    void *user_data;
+    bool stopped;             // true if the host stopped the output, or it was truncated
+    const Node *truncated_at; // root of the tree that was truncated, or NULL
+    size_t written;           // bytes flushed so far
+    Sha256 *hash;             // hash that receives the same text; NULL: none
+    bool muted;               // true: only the hash receives the text, not the host
+} TextSink;
+
+// Passes the accumulated text to the host (unless muted or stopped) and to the hash.
+void text_sink_flush(TextSink *out);
+// Ends a line; flushes if enough text has accumulated.
+void text_sink_end_line(TextSink *out);
+// Adds a tree as text. Shared nodes are written each time they occur, so even a small tree may result in a huge output.
+// The output is truncated at 512 MiB.
+void text_sink_add_tree(TextSink *out, const SymbolTable *symbols, const Node *node);
+// Returns the status of the whole output, and reports an error if a tree was truncated. Called after the last flush.
+PetriStatus text_sink_finish(PetriSession *session, const TextSink *out);

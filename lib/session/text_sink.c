@@ -1,5 +1,6 @@
-// text_sink.c: implementation of text_sink.h.
+// text_sink.c: text output to a callback of the host, in chunks; see session.h.
 #include "session/session.h"
+#include "value/format.h"
 
 #include <stdio.h>
 
