@@ -83,7 +83,7 @@ EXACT(tan, exact_trig, TANGENT)
 typedef enum Octant { AS_IT_IS, FROM_QUARTER, PAST_QUARTER, FROM_HALF } Octant;
 
 static Fixed in_octant(const Fixed *angle, Octant octant) {
-    Fixed constant = fixed_constant(fixed_half_pi, FIXED_MAX_LIMBS, angle->size);
+    Fixed constant = fixed_constant(fixed_half_pi, angle->size);
     if (octant == FROM_HALF)
         constant = fixed_add(&constant, &constant);
     return octant == AS_IT_IS       ? *angle
@@ -209,7 +209,7 @@ double exact_atan2(double y, double x) {
 // rounded value of e^t, sets *result to that value and returns true.
 static bool decide_exp(const Fixed *t, int slack, double *result) {
     int k = (int)(fixed_to_double(t) * LOG_2E_HIGH);
-    Fixed log_2 = fixed_constant(fixed_log_2, FIXED_MAX_LIMBS, t->size);
+    Fixed log_2 = fixed_constant(fixed_log_2, t->size);
     log_2 = fixed_mul_small(&log_2, (uint64_t)(k < 0 ? -k : k));
     Fixed r = k < 0 ? fixed_add(t, &log_2) : fixed_sub(t, &log_2);
     r = fixed_exp(&r);
@@ -248,7 +248,7 @@ static double exact_logarithm(double x, const uint64_t *scale) {
     for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
         Fixed log = fixed_log_of(x, size);
         if (scale) {
-            Fixed by = fixed_constant(scale, FIXED_MAX_LIMBS, size);
+            Fixed by = fixed_constant(scale, size);
             log = fixed_mul(&log, &by);
         }
         done = fixed_decides(&log, SLACK, 0, &result);

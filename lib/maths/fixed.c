@@ -108,10 +108,10 @@ Fixed fixed_from_double(double x, int size) {
     return x < 0 ? fixed_negate(&r) : r;
 }
 
-Fixed fixed_constant(const uint64_t *constant, int limbs, int size) {
+Fixed fixed_constant(const uint64_t *constant, int size) {
     Fixed r;
     r.size = size;
-    memcpy(r.limb, constant + (limbs - size), sizeof *constant * (size_t)(size + 1));
+    memcpy(r.limb, constant + (FIXED_MAX_LIMBS - size), sizeof *constant * (size_t)(size + 1));
     return r;
 }
 
@@ -163,7 +163,7 @@ static inline __attribute__((always_inline)) void sum_series(const Fixed *x, Ser
 
 Fixed fixed_series(const Fixed *x, Series series) {
     assert((size_t)series.last < sizeof fixed_inverse_factorial / sizeof *fixed_inverse_factorial);
-    Fixed sum = fixed_constant(fixed_inverse_factorial[series.last], FIXED_MAX_LIMBS, x->size);
+    Fixed sum = fixed_constant(fixed_inverse_factorial[series.last], x->size);
     if (x->size == 3)
         sum_series(x, series, sum.limb, 4);
     else

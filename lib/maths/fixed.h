@@ -18,9 +18,9 @@ typedef struct Fixed {
 // Convert x, |x| < 2^63. Bits below one ulp are truncated towards zero; otherwise the result is exact.
 Fixed fixed_from_double(double x, int size);
 Fixed fixed_from_int(int64_t x, int size);
-// Returns a constant of maths_tables.h, truncated from `limbs` to `size` limbs of fraction. The result is too small by
-// less than an ulp.
-Fixed fixed_constant(const uint64_t *constant, int limbs, int size);
+// Returns a constant of maths_tables.h, truncated from FIXED_MAX_LIMBS to `size` limbs of fraction. The result is too
+// small by less than an ulp.
+Fixed fixed_constant(const uint64_t *constant, int size);
 
 bool fixed_is_negative(const Fixed *a);
 Fixed fixed_negate(const Fixed *a);

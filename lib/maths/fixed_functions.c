@@ -71,7 +71,7 @@ Fixed fixed_log(double m, int exponent, int size) {
     }
     series = fixed_mul(&series, &d);
     Fixed sum = fixed_sub(&series, &minus);
-    Fixed log_2 = fixed_constant(fixed_log_2, FIXED_MAX_LIMBS, size);
+    Fixed log_2 = fixed_constant(fixed_log_2, size);
     log_2 = fixed_mul_small(&log_2, (uint64_t)(exponent < 0 ? -exponent : exponent));
     return exponent < 0 ? fixed_sub(&sum, &log_2) : fixed_add(&sum, &log_2);
 }
@@ -133,6 +133,6 @@ Fixed fixed_reduce(double x, int size, int *quadrant) {
         part = fixed_negate(&part);
         *quadrant = (int)(-whole & 3);
     }
-    Fixed half_pi = fixed_constant(fixed_half_pi, FIXED_MAX_LIMBS, size);
+    Fixed half_pi = fixed_constant(fixed_half_pi, size);
     return fixed_mul(&part, &half_pi);
 }

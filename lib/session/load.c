@@ -231,7 +231,8 @@ static void load_text(PetriSession *session, Unit *unit, Str name, Str text, boo
     compile_unit(session, unit, parse_source(session, unit, &unit->scratch, unit->source), module);
 }
 
-Unit *unit_parse(PetriSession *session, Str name, Str text) {
+Unit *unit_parse(PetriSession *session, Str text) {
+    const Str name = STR("prompt");
     Unit *unit = session->loader.pending = unit_new(session);
     unit->path = name;
     unit->source = source_new(&unit->arena, name, name, text);

@@ -145,7 +145,7 @@ static PetriStatus run_statement(PetriSession *session, Job *job, uint32_t max_l
 
 static PetriStatus parse_text(PetriSession *session, void *context) {
     Job *job = context;
-    job->unit = unit_parse(session, STR("prompt"), job->text);
+    job->unit = unit_parse(session, job->text);
     return PETRI_OK;
 }
 

@@ -70,8 +70,8 @@ Unit *unit_load_text(PetriSession *session, Str name, Str text);
 // Compiles the text of a unit again with the current definitions. Returns the new unit. Only the first reload of a text
 // parses it; later reloads use the parse cache.
 Unit *unit_reload(PetriSession *session, Unit *unit);
-// Returns a unit with parsed but uncompiled text. Its `ast` is NULL if the text has syntax errors.
-Unit *unit_parse(PetriSession *session, Str name, Str text);
+// Returns a unit with parsed but uncompiled text of the prompt. Its `ast` is NULL if the text has syntax errors.
+Unit *unit_parse(PetriSession *session, Str text);
 // Compiles a syntax tree of the unit into a program with the given parameters.
 const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params);
 // Releases a reference. Frees the unit when no reference is left. NULL is ignored.

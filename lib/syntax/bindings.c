@@ -116,13 +116,13 @@ static void walk_function(Walker *walker, const Ast *ast) {
     leave_scope(walker, self ? self : outer);
 }
 
-// Walks the children of a node, beginning with child `first`, in a new scope that ends with the node.
-static void walk_scope(Walker *walker, const Ast *ast, uint32_t first) {
+// Walks the children of a node in a new scope that ends with the node.
+static void walk_scope(Walker *walker, const Ast *ast) {
     ScopeEntry *outer = walker->scope;
     uint32_t end = walker->end;
     walker->end = ast->span.end;
     walker->depth++;
-    for (uint32_t i = first; i < ast->count; i++)
+    for (uint32_t i = 0; i < ast->count; i++)
         walk_ast(walker, ast->children[i]);
     walker->depth--;
     walker->end = end;
@@ -198,7 +198,7 @@ static void walk_ast(Walker *walker, const Ast *ast) {
         walk_where(walker, ast);
         break;
     case AST_SUITE:
-        walk_scope(walker, ast, 0);
+        walk_scope(walker, ast);
         break;
     case AST_CALL:
     case AST_TEMPLATE:

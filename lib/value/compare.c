@@ -68,14 +68,12 @@ static bool equal_items(Comparison *comparison, Item a, Item b) {
     }
 }
 
-// Compares the elements of a from index a_start with those of b from index b_start. Returns how many pairs are equal
-// before the first difference, at most `len`.
-static uint32_t equal_prefix_length(Comparison *comparison, Value a, uint32_t a_start, Value b, uint32_t b_start,
-                                    uint32_t len) {
+// Returns how many pairs of the first `len` elements of a and b are equal before the first difference.
+static uint32_t equal_prefix_length(Comparison *comparison, Value a, Value b, uint32_t len) {
     for (uint32_t i = 0; i < len; i++) {
         if (i % BUDGET_CHUNK == 0 && comparison->arena)
             arena_charge(comparison->arena, (len - i < BUDGET_CHUNK ? len - i : BUDGET_CHUNK) / 4);
-        if (!equal_items(comparison, value_at(&a, a_start + i), value_at(&b, b_start + i)))
+        if (!equal_items(comparison, value_at(&a, i), value_at(&b, i)))
             return i;
     }
     return len;
@@ -84,7 +82,7 @@ static uint32_t equal_prefix_length(Comparison *comparison, Value a, uint32_t a_
 static bool equal_values(Comparison *comparison, Value a, Value b) {
     if (a.kind == VALUE_STREAM || b.kind == VALUE_STREAM)
         return a.kind == b.kind && a.stream == b.stream && a.as.key == b.as.key;
-    return a.len == b.len && equal_prefix_length(comparison, a, 0, b, 0, a.len) == a.len;
+    return a.len == b.len && equal_prefix_length(comparison, a, b, a.len) == a.len;
 }
 
 bool value_equal(Arena *arena, Value a, Value b) {
@@ -123,7 +121,7 @@ int value_compare(Arena *arena, Value a, Value b) {
         return 0; // identical vectors are equal (L5.5 rule 1)
     Comparison comparison = {arena, {0}};
     ArenaMark mark = arena ? arena_mark(arena) : (ArenaMark){0};
-    uint32_t len = a.len < b.len ? a.len : b.len, same = equal_prefix_length(&comparison, a, 0, b, 0, len);
+    uint32_t len = a.len < b.len ? a.len : b.len, same = equal_prefix_length(&comparison, a, b, len);
     if (comparison.memo.entries)
         arena_rewind(arena, mark);
     return same < len ? item_compare_unequal(value_at(&a, same), value_at(&b, same))
