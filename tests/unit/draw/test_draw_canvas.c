@@ -236,7 +236,7 @@ static void test_text_ink_is_at_point(void **state) {
     assert_true(abs(left - 386) <= 1 && abs(right - 893) <= 1 && abs(top - 322) <= 1 && abs(bottom - 397) <= 1);
 }
 
-// More layers than have pixels of their own: the others are drawn directly, with a warning.
+// Layers that are nested too deeply are drawn directly, with a warning.
 static void test_deep_layers_are_drawn(void **state) {
     Player *player = *state;
     uint32_t pixels[SIDE * SIDE];
