@@ -235,6 +235,10 @@ check "run does not install packages for windows" lacks calls libsdl2-dev
 check "run does not install packages for video" lacks calls ffmpeg
 check "run does not install packages for tests" lacks calls libcmocka-dev
 check "run compiles the programs, not the tests" has calls "ninja -C $project/build src/petri src/petri-pictures"
+check "warnings are not errors" lacks calls "--werror"
+rm "$project/build/build.ninja"
+on_machine CI=true sh "$project/dev" run dish.fl >"$work/out" 2>&1
+check "warnings are errors in CI" has calls "meson setup $project/build $project --werror"
 dev run dish.fl
 check "a second run runs the script" has out "this is petri run --show dish.fl"
 check "a second run prints no messages" empty err
