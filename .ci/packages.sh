@@ -103,8 +103,7 @@ command -v xz               : xz-utils
 '
 STATIC_NEEDS='command -v musl-gcc: musl-tools'
 # Options of a build that needs only the C library.
-WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
-    -Dhdf5=disabled -Djson=disabled -Dzlib=disabled -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
+WITHOUT='-Dauto_features=disabled -Dtests=false -Ddefault_library=static'
 CLEAN_INSTALL_NEEDS='command -v debootstrap: debootstrap'
 # Libraries that meson uses if they are installed. If this set changes, build folders are configured again.
 OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 json-c cmocka x11 ompi-c mpfr python3'
