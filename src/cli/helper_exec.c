@@ -20,7 +20,7 @@ enum { HAS_ALL = false };
 #endif
 
 bool helper_exec_is_pictures_command(const char *first) {
-    static const char *const words[] = {"view", "render", "repl", "link", "open", "help", "--help", "-h"};
+    static const char *const words[] = {"view", "render", "repl", "link", "open", "complete", "help", "--help", "-h"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
         if (strcmp(first, words[i]) == 0)
             return !HAS_ALL;

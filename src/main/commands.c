@@ -18,5 +18,9 @@ const Command *command_find(const char *name) {
     for (size_t i = 0; COMMANDS[i]; i++)
         if (strcmp(COMMANDS[i]->name, name) == 0)
             return COMMANDS[i];
+#ifdef PETRI_PICTURES
+    if (strcmp(COMPLETE_COMMAND.name, name) == 0)
+        return &COMPLETE_COMMAND;
+#endif
     return NULL;
 }

@@ -7,5 +7,7 @@
 
 // The commands of this program in the order of help, then NULL.
 extern const Command *const COMMANDS[];
+// A command that is not in the table, because help and the manual do not list it.
+extern const Command COMPLETE_COMMAND;
 // Returns the command with this name, or NULL.
 const Command *command_find(const char *name);

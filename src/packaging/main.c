@@ -1,4 +1,4 @@
-// main.c: a program that writes one manual page, completion script or editor grammar to standard output. Only the
+// main.c: a program that writes one manual page or editor grammar to standard output. Only the
 // build uses it; it is not installed.
 #include "cli/help.h"
 #include "packaging/packaging.h"
@@ -10,8 +10,9 @@ static const struct {
     const char *name;
     void (*write)(Output *output);
 } products[] = {
-    {"petri.1", page_of_petri}, {"petri.5", page_of_language}, {"bash", completion_bash},
-    {"zsh", completion_zsh},    {"fish", completion_fish},     {"tables.json", tables_as_json},
+    {"petri.1", page_of_petri},
+    {"petri.5", page_of_language},
+    {"tables.json", tables_as_json},
 };
 
 static bool write_product(Output *output, const char *name) {

@@ -1,4 +1,4 @@
-// packaging.h: manual pages, shell completions and other products generated from petri's tables.
+// packaging.h: manual pages and other products generated from petri's tables.
 #pragma once
 
 #include "cli/output.h"
@@ -6,8 +6,6 @@
 
 // Returns the next option of the command after `after` (NULL: the first option). Returns NULL after the last.
 const OptionSpec *option_after(const Command *command, const OptionSpec *after);
-// Returns true if the option's value has this name in help, such as "FILE", "DIR" or "LIST".
-bool option_takes(const OptionSpec *option, const char *value);
 
 // A row of the tables in petri(1): environment variables and exit statuses. Each table ends with a row without a name.
 typedef struct PageRow {
@@ -20,11 +18,6 @@ extern const PageRow PAGE_VARIABLES[], PAGE_STATUSES[];
 void page_of_petri(Output *output);
 void page_of_command(Output *output, const Command *command);
 void page_of_language(Output *output);
-
-// These write completion scripts for shells.
-void completion_bash(Output *output);
-void completion_zsh(Output *output);
-void completion_fish(Output *output);
 
 // Writes all tables as JSON, for the manual on the web.
 void tables_as_json(Output *output);

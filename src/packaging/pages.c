@@ -14,10 +14,6 @@ const OptionSpec *option_after(const Command *command, const OptionSpec *after) 
     return !option->name ? NULL : option;
 }
 
-bool option_takes(const OptionSpec *option, const char *value) {
-    return option->value && strcmp(option->value, value) == 0;
-}
-
 const PageRow PAGE_VARIABLES[] = {
     {"NO_COLOR", "if not empty, messages and terminal pictures have no colours"},
     {"PETRI_CPU", "highest level of vector instructions to use: scalar, avx2 or avx512; results do not change"},

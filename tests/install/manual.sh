@@ -45,13 +45,15 @@ else
     without "the pages with man" "man or groff"
 fi
 
+PATH="$prefix/bin:$PATH" # the completions call petri
 bash_completion=$share/bash-completion/completions/petri
-# completes WORD...: prints the completions of bash for the last word, on one line.
+# completes WORD...: prints the completions of bash for the last word, on one line. As in bash, "=" is a word.
 completes() {
-    bash -c 'compopt() { :; }; . "$0" && COMP_WORDS=("$@") && COMP_CWORD=$(($# - 1)) && _petri && echo "${COMPREPLY[*]}"' \
-        "$bash_completion" "$@"
+    bash -c 'compopt() { :; }; . "$0" && COMP_WORDS=("$@") && COMP_CWORD=$(($# - 1)) COMP_LINE="$*" &&
+        COMP_LINE=${COMP_LINE// = /=} && COMP_POINT=${#COMP_LINE} && _petri && echo "${COMPREPLY[*]}"' "$bash_completion" "$@"
 }
-touch one.fl two.txt
+echo 'let DROPS=DROPS or 5    -- 1..9: how many' >one.fl
+touch two.txt
 mkdir -p folder
 if command -v bash >/dev/null; then
     check "bash completes commands" [ "$(completes petri re)" = "render repl" ]
@@ -61,7 +63,13 @@ if command -v bash >/dev/null; then
     check "bash completes option values" [ "$(completes petri run --neighbours n)" = never ]
     check "bash completes lists of values" [ "$(completes petri run --print tree,h)" = tree,hash ]
     check "bash completes values after an equals sign" [ "$(completes petri run --color = al)" = always ]
+    check "bash completes values after an equals sign and a short word" [ "$(completes petri run --color = '')" = "auto always never" ]
+    check "bash completes parameters of the script" [ "$(completes petri run one.fl -D DR)" = DROPS= ]
+    check "bash completes nothing for the value of a parameter" [ -z "$(completes petri run one.fl -D DROPS = '')" ]
     check "bash completes folders" [ "$(completes petri run --allow-read fol)" = folder ]
+    check "bash completes folders after an equals sign" [ "$(completes petri run --allow-read = fol)" = folder ]
+    check "bash completes only folders where these are needed" [ -z "$(completes petri run --allow-read tw)" ]
+    check "bash completes all files after options that take files" [ "$(completes petri run --state tw)" = two.txt ]
     check "bash completes scripts" [ "$(completes petri run o)" = one.fl ]
     check "bash completes no other files as scripts" [ -z "$(completes petri run tw)" ]
     check "bash completes topics of help" [ "$(completes petri help electro)" = electrostatic ]
@@ -69,13 +77,20 @@ else
     without "its completion" bash
 fi
 fish_completion=$share/fish/vendor_completions.d/petri.fish
-offers() { HOME=$work fish --no-config -c "source '$fish_completion'; complete -C '$1'" 2>&1 | cut -f 1 | xargs; }
+complete_fish() { HOME=$work fish --no-config -c "source '$fish_completion'; complete -C '$1'" 2>&1; }
+offers() { complete_fish "$1" | cut -f 1 | xargs; }
 if command -v fish >/dev/null; then
     check "fish completes commands" [ "$(offers 'petri re')" = "render repl" ]
     check "fish completes options" [ "$(offers 'petri run --traj')" = --trajectory ]
     check "fish completes only options of the command" [ -z "$(offers 'petri check --traj')" ]
     check "fish completes option values" [ "$(offers 'petri run --neighbours n')" = never ]
     check "fish completes lists of values" [ "$(offers 'petri run --print tree,h')" = tree,hash ]
+    check "fish completes values after an equals sign" [ "$(offers 'petri run --color=al')" = --color=always ]
+    check "fish completes parameters of the script" [ "$(offers 'petri run one.fl -D DR')" = DROPS= ]
+    check "fish completes scripts" [ "$(offers 'petri run on')" = one.fl ]
+    check "fish completes folders" [ "$(offers 'petri run --allow-read=fol')" = --allow-read=folder/ ]
+    check "fish completes files" [ "$(offers 'petri run --state tw')" = two.txt ]
+    check "fish shows descriptions" [ "$(complete_fish 'petri re' | cut -f 2 | tail -n 1)" = "step through a script interactively" ]
     check "fish completes topics of help" [ "$(offers 'petri help electro')" = electrostatic ]
 else
     without "its completion" fish
@@ -84,7 +99,7 @@ if command -v zsh >/dev/null; then
     # Presses Tab in zsh on a pseudo-terminal, and prints the resulting lines.
     zsh -f "$here/complete.zsh" "$share/zsh/site-functions" >out 2>&1
     check "zsh completes" [ "$(xargs <out)" = \
-        "petri render petri run --trajectory= petri run --neighbours=never petri one.fl --trajectory= petri help electrostatic" ]
+        "petri render petri run --trajectory petri run --neighbours=never petri one.fl --trajectory petri help electrostatic petri run --print tree,hash petri run one.fl -D DROPS= petri run one.fl petri run --allow-read=folder/ petri run --state two.txt" ]
 else
     without "its completion" zsh
 fi
