@@ -21,8 +21,8 @@ static void report_missing(void *faults) {
         &(Diag){.level = DIAG_ERROR,
                 .code = "cannot-draw",
                 .text = STR(
-                    "this build of petri cannot draw: it lacks Cairo, Pango or "
-                    "libjpeg; install them and build it again (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev)")});
+                    "this build of petri cannot draw: it lacks Cairo, Pango, libjpeg or libpng; install them and build "
+                    "it again (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev libpng-dev)")});
 }
 
 static PetriStatus report_no_cairo(DiagSink *faults) {
