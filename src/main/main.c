@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 #ifdef PETRI_RANKS
-#include "ranks/ranks.h"
+#include "mpi/ranks.h"
 #endif
 #if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
 #include "sweep/plot_support.h"

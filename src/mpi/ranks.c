@@ -1,6 +1,6 @@
 // ranks.c: the callbacks of PetriRanks over MPI (ranks.h). MPI delivers messages between two ranks in the order in
 // which they were sent.
-#include "ranks/ranks.h"
+#include "mpi/ranks.h"
 
 #include "base/cpu.h"
 #include "cli/mpi_channel.h"
