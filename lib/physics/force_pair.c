@@ -1,9 +1,9 @@
 // force_pair.c: forces between all pairs of particles (spec physics.md 4.1), in passes. The formulas are in
 // pair_formulas.h.
+#include "physics/division.h"
 #include "physics/integrate.h"
 #include "physics/internal.h"
 #include "physics/neighbour_list.h"
-#include "physics/pair_wavefront.h"
 
 // A pass computes the pair forces that one group declares, for all pairs with a particle of that group or of one group
 // inside it.
@@ -46,8 +46,8 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
     pass.pairs = phys_columns_pass(columns);
     pass.pairs.term_count = (size_t)(forces.end - forces.begin);
     pass.pairs.terms = system->terms.bytes;
-    // With several ranks, an abort must not skip rows, because other ranks wait for them.
-    pass.pairs.stop = system->options.ranks.rank_count > 1 ? NULL : phys_stop(system);
+    // With several processes, an abort must not skip rows, because other processes wait for them.
+    pass.pairs.stop = system->options.division ? NULL : phys_stop(system);
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MAX_TERMS &&
         columns->count >= MIN_FOR_LANES) {
         pass.kernels = phys_kernels(system);
@@ -73,17 +73,21 @@ static void run_wavefront(const Pass *pass, const PairRegion *region, int thread
     move->done = true;
 }
 
+// Divides a region among processes. Returns false if this does not pay off.
+static bool divide_region(const Pass *pass, const PairRegion *region) {
+    const PhysDivision *division = pass->system->options.division;
+    return division && division->compute_pairs(pass->system, region);
+}
+
 // Computes all pairs within one range.
 static void pass_triangle(const Pass *pass, size_t first, size_t end) {
     size_t count = end - first;
-    if (pass->kernel && phys_ranks_should_split(pass->system, count * count / 2)) {
-        PairRegion region = {pass->kernel, &pass->pairs, true, first, end, first, end};
-        phys_pair_ranks(pass->system, &region);
+    PairRegion region = {pass->kernel, &pass->pairs, true, first, end, first, end};
+    if (pass->kernel && divide_region(pass, &region))
         return;
-    }
     int threads = pass->kernel ? phys_wavefront_threads(pass->system, count * count / 2) : 0;
     if (threads) {
-        run_wavefront(pass, &(PairRegion){pass->kernel, &pass->pairs, true, first, end, first, end}, threads);
+        run_wavefront(pass, &region, threads);
         return;
     }
     if (pass->kernel && count > 2) {
@@ -112,10 +116,8 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
     PairRegion region = {pass->kernel, &pass->pairs, false, first, end, other, other_end};
     if (vector_count(pass, rows, columns) > vector_count(pass, columns, rows))
         region = (PairRegion){pass->kernel, &pass->pairs, false, other, other_end, first, end};
-    if (phys_ranks_should_split(pass->system, rows * columns)) {
-        phys_pair_ranks(pass->system, &region);
+    if (divide_region(pass, &region))
         return;
-    }
     int threads = phys_wavefront_threads(pass->system, rows * columns);
     if (threads)
         run_wavefront(pass, &region, threads);

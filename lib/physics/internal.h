@@ -1,4 +1,4 @@
-// internal.h: internal declarations of lib/physics. No other library includes it.
+// internal.h: internal declarations of lib/physics. Of other libraries, only lib/ranks includes it.
 //
 // A system exists in two forms. The first is the description: a record per particle and per force, in the order of the
 // calls that added them. The number of a particle in this order is its handle. The description also has a row for each
@@ -97,6 +97,13 @@ typedef struct Columns {
     bool *anchor;
 } Columns;
 
+// How attributes in the columns have changed. Later values include earlier ones.
+typedef enum ColumnsChange {
+    COLUMNS_SAME,
+    COLUMNS_EDITED, // attributes of some particles
+    COLUMNS_FILLED, // all columns were filled again
+} ColumnsChange;
+
 struct PhysSystem {
     Arena home;               // holds this struct
     uint64_t bytes;           // total capacity of all buffers
@@ -150,17 +157,16 @@ struct PhysSystem {
     // reordering (reorder.c)
     bool can_reorder;   // all particles are in one group, and only the single pass of this group depends on their order
     bool in_cell_order; // columns are in the sorted order (neighbour_list.h) of the list of this pass
-    // domain decomposition (domain.h)
-    uint64_t columns_version; // increases when the columns are filled
-    uint64_t radius_version;  // increases when a radius may have changed
-    uint64_t motion_version;  // increases when a position may have changed
-    bool edited;              // attributes in the columns have changed since the last frame
-    bool columns_stale;       // positions and velocities in the columns are out of date; those in the rows are current
-    Buffer domain;            // Domain
-    PhysRankStats rank_stats;
-    bool *remote;  // in a local system: by column, true for particles of other ranks; in other systems NULL
-    double skin;   // in a local system: skin of all lists
-    bool unlisted; // in a local system: a pass has run without a list since the halo was rebuilt
+    // versions
+    uint64_t radius_version;      // increases when a radius may have changed
+    uint64_t motion_version;      // increases when a position may have changed
+    ColumnsChange columns_change; // what has changed since a hook last read this field
+    // division among processes (division.h)
+    uint64_t steps;  // number of steps since phys_new
+    Buffer division; // data of PhysOptions.division
+    bool *remote;    // in a local system: by column, true for particles of other processes; in other systems NULL
+    double skin;     // in a local system: skin of all lists
+    bool unlisted;   // in a local system: a pass has run without a list since lib/ranks cleared this field
 };
 
 // A range of forces.
@@ -171,6 +177,11 @@ typedef struct ForceRange {
 
 // system.c: returns the kernels for the instruction set in the options.
 const struct Kernels *phys_kernels(const PhysSystem *system);
+
+static inline void phys_note_change(PhysSystem *system, ColumnsChange change) {
+    if (change > system->columns_change)
+        system->columns_change = change;
+}
 
 // Returns the row of a particle.
 static inline double *phys_row(const PhysSystem *system, uint32_t particle) {
@@ -220,7 +231,7 @@ void phys_write_rows(PhysSystem *system, bool keep_last_finite);
 // Copies the particles from `columns` to the rows of `system`. order[i] is the handle of the particle in column i.
 // `columns->anchor` may be NULL if the forces of anchors are 0. If a row keeps its old value because of
 // PhysTime.keep_last_finite, that value is also copied to the columns of `home`, unless `home` is NULL. `home` is
-// `system` itself or its local system (domain.h), whose handles are columns of `system`.
+// `system` itself or its local system (ranks/domain.h), whose handles are columns of `system`.
 void phys_write_column_rows(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep_last_finite,
                             const PhysSystem *home);
 

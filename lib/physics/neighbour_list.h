@@ -83,7 +83,7 @@ void phys_neighbour_list_free(NeighbourList *list);
 // Adapts list->skin after a halo has served `lifetime` steps.
 void phys_adapt_skin(NeighbourList *list, uint32_t lifetime);
 
-// The two functions below are for local systems (domain.h), whose lists are rebuilt when the halo is.
+// The two functions below are for local systems (ranks/domain.h), whose lists are rebuilt when the halo is.
 //
 // Refreshes all lists. Returns false if a list must be rebuilt, or if it has not served exactly `age` steps.
 bool phys_lists_valid(PhysSystem *system, uint32_t age);

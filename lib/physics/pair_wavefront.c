@@ -147,7 +147,7 @@ void phys_pair_wavefront(const PhysSystem *system, const PairRegion *pairs, int 
         atomic_init(&wavefront.rows[row].done, 0);
     }
     int chunks = (int)min_size((size_t)threads, wavefront.blocks.rows);
-    uint64_t count = (pairs->row_end - pairs->row) * (pairs->column_end - pairs->column) / (pairs->triangle ? 2 : 1);
+    uint64_t count = phys_region_pairs(pairs);
     if (count < PAIRS_FOR_THREADS)
         phys_parallel_short(system, chunks, count, run_rows, &wavefront);
     else

@@ -1,4 +1,4 @@
-// pair_wavefront.h: computes all pairs of a pass on several threads or ranks, or row by row.
+// pair_wavefront.h: computes all pairs of a pass on several threads, or row by row.
 #pragma once
 
 #include "physics/internal.h"
@@ -22,6 +22,11 @@ typedef struct PairBlocks {
     size_t columns; // number of blocks in a row
 } PairBlocks;
 
+// Returns the number of pairs in a region.
+static inline uint64_t phys_region_pairs(const PairRegion *region) {
+    return (region->row_end - region->row) * (region->column_end - region->column) / (region->triangle ? 2 : 1);
+}
+
 // Divides a region into about `blocks_per_column` blocks per column, each with at least `min_rows` rows.
 PairBlocks phys_pair_blocks(const PairRegion *pairs, size_t blocks_per_column, size_t min_rows);
 // Computes the pairs of one block.
@@ -40,8 +45,3 @@ typedef struct PairMotion {
 int phys_wavefront_threads(const PhysSystem *system, uint64_t pairs);
 // Computes a region on several threads. `motion` moves the particles of a triangle; NULL: they do not move.
 void phys_pair_wavefront(const PhysSystem *system, const PairRegion *pairs, int threads, const PairMotion *motion);
-
-// pair_ranks.c: returns whether to divide `pairs` pairs among the ranks.
-bool phys_ranks_should_split(const PhysSystem *system, uint64_t pairs);
-// Computes a region on all ranks.
-void phys_pair_ranks(PhysSystem *system, const PairRegion *pairs);

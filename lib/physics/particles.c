@@ -70,7 +70,8 @@ void phys_update_radius_powers(PhysSystem *system) {
     if (volume)
         power_radii(system, n, columns->volume);
     system->radius_powers_valid = true;
-    system->edited |= section || volume;
+    if (section || volume)
+        phys_note_change(system, COLUMNS_EDITED);
 }
 
 static void fill_motion(const PhysSystem *system, size_t i) {
@@ -222,17 +223,15 @@ bool phys_fill_columns(PhysSystem *system) {
     if (!phys_reserve_columns(system, 0))
         return false;
     phys_parallel(system, chunk_count_for(system, system->particle_count), fill_chunk, system);
-    system->columns_version++;
+    phys_note_change(system, COLUMNS_FILLED);
     system->radius_version++;
     system->motion_version++;
-    system->columns_stale = false;
     return true;
 }
 
 void phys_fill_motion(PhysSystem *system) {
     phys_parallel(system, chunk_count_for(system, system->particle_count), fill_motion_chunk, system);
     system->motion_version++;
-    system->columns_stale = false;
 }
 
 void phys_write_column_rows(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep,

@@ -1,5 +1,6 @@
 // system.c: the description of a system (system.h).
-#include "physics/domain.h"
+#include "physics/division.h"
+#include "physics/neighbour_list.h"
 #include "physics/threads.h"
 
 #include <assert.h>
@@ -33,6 +34,11 @@ PhysSystem *phys_new(void) {
     return system;
 }
 
+static void free_division(PhysSystem *system) {
+    if (system->division.bytes)
+        system->options.division->free(system);
+}
+
 void phys_free(PhysSystem *system) {
     if (!system)
         return;
@@ -44,7 +50,7 @@ void phys_free(PhysSystem *system) {
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MAX_LISTS; i++)
         phys_neighbour_list_free(&system->lists[i]);
-    phys_domain_free(system);
+    free_division(system);
     if (system->owns_threads)
         phys_threads_free(system->threads);
     Arena home = system->home; // copied, because its memory holds the struct
@@ -53,6 +59,8 @@ void phys_free(PhysSystem *system) {
 
 void phys_set_options(PhysSystem *system, const PhysOptions *options) {
     CpuLevel best = cpu_detected.level;
+    if (options->division != system->options.division)
+        free_division(system);
     system->options = *options;
     if (options->threads <= 0)
         system->options.threads = cpu_count();
@@ -198,7 +206,7 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
 static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRecord *record, const double *row) {
     if (!system->arranged)
         return;
-    system->edited = true;
+    phys_note_change(system, COLUMNS_EDITED);
     system->motion_version++;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, i = system->column_of[handle];
@@ -345,10 +353,6 @@ PhysColumns phys_columns(const PhysSystem *system) {
         .anchor = &records->anchor,
         .anchor_stride = bytes,
     };
-}
-
-PhysRankStats phys_rank_stats(const PhysSystem *system) {
-    return system->rank_stats;
 }
 
 uint32_t phys_force_count(const PhysSystem *system) {

@@ -79,59 +79,18 @@ typedef struct PhysThreads PhysThreads;
 PhysThreads *phys_threads_new(int count);
 void phys_threads_free(PhysThreads *threads);
 
-// Ranks (processes) that simulate the same systems together. All ranks make the same calls. Large passes over pairs are
-// divided among the ranks. `send`, `receive` and `broadcast` transfer `count` blocks of `block_length` doubles,
-// which begin `stride` doubles apart in memory. If the script is interrupted (Budget.interrupt), all callbacks return
-// without waiting for other ranks, and received numbers are zeros.
-typedef struct PhysRanks {
-    int rank; // number of this process, counted from 0
-    int rank_count;
-    // Minimum number of pairs in a pass that is divided; 0: the engine's default. If this is not 0, domain
-    // decomposition has no minimum number of particles or steps.
-    uint64_t min_pairs;
-    void *user_data;
-    void (*send)(void *user_data, int to, const double *numbers, size_t count, size_t block_length,
-                 size_t stride); // never blocks
-    void (*receive)(void *user_data, int from, double *numbers, size_t count, size_t block_length, size_t stride);
-    // Copies the numbers of rank `from` to all ranks.
-    void (*broadcast)(void *user_data, int from, double *numbers, size_t count, size_t block_length, size_t stride);
-    // Each rank r has filled elements starts[r] to starts[r + 1] - 1. Copies these elements to all other ranks.
-    void (*allgatherv)(void *user_data, double *numbers, const size_t *starts);
-    // Sets each number to its maximum over all ranks. No number is NaN.
-    void (*allreduce_max)(void *user_data, double *numbers, size_t count);
-    // Returns memory for `count` doubles that all ranks share, valid until the next call. Returns NULL on all ranks if
-    // shared memory is unavailable. The function pointer itself may also be NULL.
-    double *(*alloc_shared)(void *user_data, size_t count);
-} PhysRanks;
-
-// How the ranks divide the work for a system.
-typedef enum PhysDecomposition {
-    PHYS_REPLICATED,        // every rank computes everything
-    PHYS_FORCE_DECOMPOSED,  // blocks of pairs are distributed over the ranks
-    PHYS_DOMAIN_DECOMPOSED, // every rank simulates the particles of one region
-} PhysDecomposition;
-// Statistics of this rank for one system.
-typedef struct PhysRankStats {
-    PhysDecomposition decomposition; // in the last frame
-    uint64_t frames;
-    uint64_t steps;
-    uint64_t step_bytes;    // bytes sent in steps: halos, migrating particles, sums of pair forces
-    uint64_t step_messages; // number of messages sent in steps
-    uint64_t reductions;    // number of collective operations
-    uint64_t frame_bytes;   // bytes sent at the end of frames to collect all particles
-    uint64_t own;           // number of particles in this rank's region, summed over steps
-    uint64_t halo;          // number of particles in this rank's halo (domain.h), summed over steps
-} PhysRankStats;
+// Divides the work of systems among processes (division.h).
+typedef struct PhysDivision PhysDivision;
 
 // How a system is computed. Results are bit-identical with all options.
 typedef struct PhysOptions {
     int threads;  // maximum number of threads, including the caller; <= 0: one per processor
     CpuLevel cpu; // instruction set; limited to cpu_detected.level
     PhysNeighbours neighbours;
-    PhysThreads *pool; // shared pool, which must outlive the system; NULL: the system creates its own
-    Budget *budget;    // charged for work and memory; must outlive the system; NULL: none
-    bool keep_forces;  // fill PhysColumns.force, which costs one store per particle and step
-    PhysRanks ranks;   // rank_count 0: one process
+    PhysThreads *pool;            // shared pool, which must outlive the system; NULL: the system creates its own
+    Budget *budget;               // charged for work and memory; must outlive the system; NULL: none
+    bool keep_forces;             // fill PhysColumns.force, which costs one store per particle and step
+    const PhysDivision *division; // other processes, which must outlive the system; NULL: none
 } PhysOptions;
 
 // Replaces the options. A new system has one thread, the detected instruction set and automatic neighbour lists.
@@ -242,7 +201,6 @@ PhysColumns phys_columns(const PhysSystem *system);
 static inline const double *phys_at_particle(PhysColumn column, uint32_t particle) {
     return column.numbers + particle * column.stride;
 }
-PhysRankStats phys_rank_stats(const PhysSystem *system);
 uint32_t phys_force_count(const PhysSystem *system);
 // Copies force applier or barrier `number`, counted from 0 in the order of the calls. Returns false if there is no such
 // force.

@@ -8,7 +8,7 @@
 //       last = last + delta;  remaining = t − last
 //       more = remaining > 1e-9 * resolution
 //   until not (more and (lockstep or this is the frame's first step and performance > 1.5))
-#include "physics/domain.h"
+#include "physics/division.h"
 
 #include <math.h>
 
@@ -28,7 +28,7 @@ static bool arrange_system(PhysSystem *system) {
         if (!system->forces_arranged)
             return false;
     }
-    system->can_reorder = system->options.ranks.rank_count <= 1 && phys_can_reorder(system);
+    system->can_reorder = !system->options.division && phys_can_reorder(system);
     if (system->in_cell_order && !system->can_reorder) {
         phys_restore_order(system);
         if (!phys_arrange_forces(system)) // because links contain columns, which have changed
@@ -42,9 +42,17 @@ static bool arrange_system(PhysSystem *system) {
     return true;
 }
 
-static bool run_step(PhysSystem *system, bool shared, double clock, double delta, double speed_of_light) {
-    return shared ? phys_domain_step(system, clock, delta, speed_of_light)
-                  : phys_step(system, clock, delta, speed_of_light);
+static bool run_step(PhysSystem *system, double clock, double delta, double speed_of_light) {
+    const PhysDivision *division = system->options.division;
+    return (division ? division->step : phys_step)(system, clock, delta, speed_of_light);
+}
+
+// Writes the results to the rows. Returns false if the frame was aborted.
+static bool end_frame(PhysSystem *system, bool keep_last_finite) {
+    if (system->options.division)
+        return system->options.division->end_frame(system, keep_last_finite);
+    phys_write_rows(system, keep_last_finite);
+    return true;
 }
 
 static PhysResult abort_frame(PhysSystem *system, const PhysTime *time) {
@@ -55,12 +63,12 @@ static PhysResult abort_frame(PhysSystem *system, const PhysTime *time) {
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
     system->frame++;
-    system->rank_stats.frames++;
     if (!arrange_system(system) || (time->keep_last_finite && !phys_clear_not_finite(system))) {
         result.status = PHYS_NO_MEMORY;
         return result;
     }
-    bool shared = phys_domain_begin(system, time);
+    if (system->options.division)
+        system->options.division->begin_frame(system, time);
     if (system->failed) {
         result.status = PHYS_NO_MEMORY;
         return result;
@@ -73,20 +81,16 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
             result.status = PHYS_DROPPED_TIME;
             break;
         }
-        if (!run_step(system, shared, result.clock, delta, time->speed_of_light))
+        if (!run_step(system, result.clock, delta, time->speed_of_light))
             return abort_frame(system, time);
         result.clock += delta;
         result.steps++;
-        system->rank_stats.steps++;
+        system->steps++;
         system->has_forces = true;
         last += delta;
         remaining = time->now - last;
         more =
             remaining > 1e-9 * time->resolution && (time->lockstep || (result.steps == 1 && time->performance > 1.5));
     }
-    if (!shared)
-        phys_write_rows(system, time->keep_last_finite);
-    else if (!phys_domain_collect(system, time->keep_last_finite))
-        return abort_frame(system, time);
-    return result;
+    return end_frame(system, time->keep_last_finite) ? result : abort_frame(system, time);
 }

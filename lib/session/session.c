@@ -72,16 +72,12 @@ _Static_assert((int)PETRI_NEIGHBOURS_NEVER == (int)PHYS_NEIGHBOURS_NEVER &&
                    (int)PETRI_NEIGHBOURS_ALWAYS == (int)PHYS_NEIGHBOURS_ALWAYS,
                "the public values match those of the engine");
 
-static PhysOptions physics_options(const PetriOptions *options) {
+static PhysOptions physics_options(const PetriOptions *options, Ranks *ranks) {
     PhysOptions physics = {.threads = options->threads,
                            .neighbours = (PhysNeighbours)options->neighbours,
-                           .keep_forces = options->keep_forces};
+                           .keep_forces = options->keep_forces,
+                           .division = ranks_init(ranks, options->ranks)};
     cpu_choose(options->cpu, &physics.cpu);
-    const PetriRanks *ranks = options->ranks;
-    if (ranks)
-        physics.ranks = (PhysRanks){ranks->rank,          ranks->rank_count,  ranks->min_pairs, ranks->user_data,
-                                    ranks->send,          ranks->receive,     ranks->broadcast, ranks->allgatherv,
-                                    ranks->allreduce_max, ranks->alloc_shared};
     return physics;
 }
 
@@ -110,7 +106,7 @@ static PetriStatus init_components(PetriSession *session, void *context) {
     if (!session->state || !session->files || !session->noise || !session->config.prompts ||
         (options->profile && !session->vm.profile))
         return PETRI_OUT_OF_MEMORY;
-    PhysOptions physics = physics_options(options);
+    PhysOptions physics = physics_options(options, &session->ranks);
     session->options.cpu = NULL; // like `ranks`, it pointed to the host's memory
     session->options.ranks = NULL;
     scene_set_physics(session->scene, &physics);

@@ -8,6 +8,7 @@
 #include "builtin/files.h"
 #include "builtin/noise.h"
 #include "petri.h"
+#include "ranks/ranks.h"
 #include "scene/scene.h"
 #include "session/checkpoint.h"
 #include "session/clock.h"
@@ -77,6 +78,7 @@ struct PetriSession {
     FileCache *files;
     FileAccess reach; // access rights of the script that is loaded or being loaded
     NoiseCache *noise;
+    Ranks ranks; // must outlive `scene`
     Schema schema;
     void *draw_memory; // data of lib/draw (session_draw_memory); NULL: none yet
     size_t draw_memory_size;

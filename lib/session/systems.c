@@ -77,18 +77,7 @@ bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
 
 static PetriStatus find_rank_stats(PetriSession *session, const Request *request, const SceneView *view) {
     (void)session;
-    PhysRankStats stats = phys_rank_stats(view->engine);
-    *(PetriRankStats *)request->out = (PetriRankStats){
-        .decomposition = (PetriDecomposition)stats.decomposition,
-        .frames = stats.frames,
-        .steps = stats.steps,
-        .step_bytes = stats.step_bytes,
-        .step_messages = stats.step_messages,
-        .reductions = stats.reductions,
-        .frame_bytes = stats.frame_bytes,
-        .own = stats.own,
-        .halo = stats.halo,
-    };
+    *(PetriRankStats *)request->out = ranks_stats(view->engine);
     return PETRI_OK;
 }
 

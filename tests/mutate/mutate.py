@@ -28,6 +28,7 @@ from faults import faults_of, plant
 # the others, quick ones before slow ones. Other folders: the suite with the folder's name, and the corpora.
 SUITES = {
     'lib/physics': ['physics', 'scene', 'session'],
+    'lib/ranks': ['test_session_ranks', 'test_hilbert'],
     'lib/vm': ['vm', 'program', 'session', 'simplifier', 'memory', 'repl_sessions', 'cli'],
     'lib/program': ['program', 'vm', 'session', 'simplifier', 'memory', 'repl_sessions', 'cli'],
     'lib/state': ['state', 'session', 'scene', 'memory', 'repl_sessions', 'cli'],

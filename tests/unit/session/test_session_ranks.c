@@ -319,6 +319,11 @@ static const char *const reaching[] = {
     "        if frame > 1\n"
     "            !gravity strength=5 max_distance=1\n"
     "    !constant acceleration=0;0;-9\n",
+    // many particles appear between two frames
+    "!physics state=:a dimensions=2 resolution=1/300\n"
+    "    for i in ..(200 if frame < 3 else 3000)\n"
+    "        !particle id=i position=60*uniform(:p)[2*i..2*i+2] velocity=9*normal(:v)[2*i..2*i+2] radius=0.4\n"
+    "    !collision strength=50\n",
     // one dimension; some positions are not finite, some particles appear, the speed is limited
     "!physics state=:a dimensions=1 resolution=1/500 speed_of_light=300\n"
     "    for i in ..800\n"

@@ -1,5 +1,5 @@
 // domain_balance.c: divides space into patches and assigns them to ranks along a Hilbert curve.
-#include "physics/domain.h"
+#include "ranks/domain.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +26,7 @@ static uint32_t trailing_ones(uint32_t word) {
 
 // At each level, the curve enters a cube at `corner` and leaves it along `axis`. It visits the parts of the cube in the
 // order of a Gray code. The code is reflected according to the corner and rotated according to the axis.
-uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels) {
+uint64_t domain_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels) {
     uint64_t index = 0;
     uint32_t corner = 0, axis = 0;
     for (uint32_t level = levels; level-- > 0;) {
@@ -64,7 +64,7 @@ static void index_patches(const Grid *grid, Patch *patches, uint32_t count) {
         uint32_t cell[PHYS_VECTOR_DIMENSIONS] = {0}, rest = i;
         for (size_t k = 0; k < grid->dimensions; k++, rest /= grid->cells[k - 1])
             cell[k] = rest % grid->cells[k];
-        patches[i] = (Patch){phys_hilbert_index(cell, (uint32_t)grid->dimensions, levels), i, 0};
+        patches[i] = (Patch){domain_hilbert_index(cell, (uint32_t)grid->dimensions, levels), i, 0};
     }
 }
 
@@ -85,13 +85,13 @@ static void assign_patches(Patch *patches, uint32_t count, uint32_t ranks, uint3
 static void price_particles(const PhysSystem *system, const Domain *domain, double *prices) {
     const uint32_t *counts = domain->counts.bytes;
     const double *rank_seconds = domain->rank_seconds.bytes;
-    int ranks = system->options.ranks.rank_count;
+    uint32_t ranks = ranks_count(system);
     double highest = 0;
-    for (int r = 0; r < ranks; r++) {
+    for (uint32_t r = 0; r < ranks; r++) {
         prices[r] = domain->steps && counts[r] && rank_seconds[r] > 0 ? rank_seconds[r] / counts[r] : 0;
         highest = prices[r] > highest ? prices[r] : highest;
     }
-    for (int r = 0; r < ranks; r++) // a rank without particles has no measured cost and gets the highest one
+    for (uint32_t r = 0; r < ranks; r++) // a rank without particles has no measured cost and gets the highest one
         prices[r] = prices[r] > 0 ? prices[r] : highest > 0 ? highest : 1;
 }
 
@@ -112,13 +112,13 @@ static bool layout_patches(PhysSystem *system, Domain *domain) {
     PairPass pass = phys_columns_pass(&system->columns);
     survey->ranges = (PassRanges){.count = 1, .at = {{0, system->particle_count}}};
     survey->total = system->particle_count;
-    survey->contact_only = domain->bound == 0;
-    survey->bound = domain->bound;
+    survey->contact_only = domain->reach.bound == 0;
+    survey->bound = domain->reach.bound;
     if (!phys_buffer_reserve(system, &survey->cells, 0, system->particle_count, sizeof(uint32_t)))
         return false;
     survey->cell = survey->cells.bytes;
     domain->patches = (Grid){.dimensions = system->dimensions, .cells = {1, 1, 1}};
-    double max = (double)PATCHES_PER_RANK * system->options.ranks.rank_count;
+    double max = (double)PATCHES_PER_RANK * ranks_count(system);
     if (!phys_grid_layout(&pass, survey, max, &domain->patches, &domain->max_radius))
         return false;
     round_patches(&domain->patches);
@@ -133,29 +133,28 @@ static bool layout_patches(PhysSystem *system, Domain *domain) {
 static bool assign_owners(PhysSystem *system, Domain *domain) {
     const uint32_t *at = domain->survey.cell, *patch_owners = domain->patch_owners.bytes,
                    *interior = domain->interior.bytes;
-    uint32_t *owners = phys_owners(domain), *counts = domain->counts.bytes;
-    memset(counts, 0, (size_t)system->options.ranks.rank_count * sizeof *counts);
+    uint32_t *owners = domain_owners(domain), *counts = domain->counts.bytes;
+    memset(counts, 0, ranks_count(system) * sizeof *counts);
     domain->boundary.count = domain->arrivals.count = 0;
     for (uint32_t i = 0; i < system->particle_count; i++) {
         owners[i] = patch_owners[at[i]];
         counts[owners[i]]++;
-        if (owners[i] == (uint32_t)system->options.ranks.rank && !interior[at[i]] &&
-            !phys_list_column(system, &domain->boundary, i))
+        if (owners[i] == ranks_self(system) && !interior[at[i]] && !domain_list_column(system, &domain->boundary, i))
             return false;
     }
     return true;
 }
 
-bool phys_domain_balance(PhysSystem *system, Domain *domain) {
+bool domain_balance(PhysSystem *system, Domain *domain) {
     const Columns *columns = &system->columns;
-    uint32_t count = system->particle_count, ranks = (uint32_t)system->options.ranks.rank_count;
+    uint32_t count = system->particle_count, ranks = ranks_count(system);
     if (!layout_patches(system, domain))
         return false;
     uint32_t cells = domain->patches.cells[0] * domain->patches.cells[1] * domain->patches.cells[2],
              *at = domain->survey.cell;
     if (!phys_buffer_reserve(system, &domain->message, 0, cells * sizeof(Patch) + ranks * sizeof(double), 1) ||
         !phys_buffer_reserve(system, &domain->patch_owners, 0, cells, sizeof(uint32_t)) ||
-        !phys_buffer_reserve(system, &domain->owners, (uint64_t)domain->is_valid * count * sizeof(uint32_t), count,
+        !phys_buffer_reserve(system, &domain->owners, domain->steps ? count * sizeof(uint32_t) : 0, count,
                              sizeof(uint32_t)) ||
         !phys_buffer_reserve(system, &domain->counts, 0, ranks, sizeof(uint32_t)) ||
         !phys_buffer_reserve(system, &domain->rank_seconds, 0, ranks, sizeof(double)))
@@ -166,12 +165,12 @@ bool phys_domain_balance(PhysSystem *system, Domain *domain) {
     index_patches(&domain->patches, patches, cells);
     for (uint32_t i = 0; i < count; i++) {
         at[i] = phys_cell_of(&domain->patches, columns->position + i, columns->stride);
-        patches[at[i]].load += prices[domain->steps ? phys_owners(domain)[i] : 0];
+        patches[at[i]].load += prices[domain->steps ? domain_owners(domain)[i] : 0];
     }
     qsort(patches, cells, sizeof *patches, compare_patches);
     assign_patches(patches, cells, ranks, domain->patch_owners.bytes);
     memset(domain->rank_seconds.bytes, 0, ranks * sizeof(double));
     domain->steps = 0;
     domain->seconds = 0;
-    return phys_domain_find_interior(system, domain) && assign_owners(system, domain);
+    return domain_find_interior(system, domain) && assign_owners(system, domain);
 }

@@ -1,11 +1,11 @@
 // domain_halo.c: transfers of particles between ranks: migration and halos.
 //
 // Before a transfer, ranks exchange the numbers of particles. So each rank knows which messages it will receive.
-#include "physics/domain.h"
+#include "ranks/domain.h"
 
 #include <string.h>
 
-bool phys_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column) {
+bool domain_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column) {
     uint64_t count = domain->transfer_count;
     if (!phys_buffer_reserve(system, &domain->transfers, count * sizeof(Transfer), count + 1, sizeof(Transfer)))
         return false;
@@ -13,7 +13,7 @@ bool phys_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32
     return true;
 }
 
-bool phys_list_column(PhysSystem *system, ColumnList *list, uint32_t column) {
+bool domain_list_column(PhysSystem *system, ColumnList *list, uint32_t column) {
     uint64_t count = list->count;
     if (!phys_buffer_reserve(system, &list->columns, count * sizeof column, count + 1, sizeof column))
         return false;
@@ -22,7 +22,7 @@ bool phys_list_column(PhysSystem *system, ColumnList *list, uint32_t column) {
 }
 
 static bool reserve_transfers(PhysSystem *system, Transfers *transfers, uint64_t count) {
-    uint64_t ranks = (uint64_t)system->options.ranks.rank_count;
+    uint64_t ranks = ranks_count(system);
     if (!phys_buffer_reserve(system, &transfers->starts, 0, ranks + 1, sizeof(uint32_t)) ||
         !phys_buffer_reserve(system, &transfers->items, 0, count, sizeof(uint32_t)))
         return false;
@@ -33,7 +33,7 @@ static bool reserve_transfers(PhysSystem *system, Transfers *transfers, uint64_t
 // Copies domain->transfers to `to`, sorted by rank. The sort is stable.
 static bool sort_transfers(PhysSystem *system, const Domain *domain, Transfers *to) {
     const Transfer *transfers = domain->transfers.bytes;
-    uint32_t ranks = (uint32_t)system->options.ranks.rank_count;
+    uint32_t ranks = ranks_count(system);
     if (!reserve_transfers(system, to, domain->transfer_count))
         return false;
     memset(to->start, 0, (ranks + 1) * sizeof *to->start);
@@ -46,29 +46,29 @@ static bool sort_transfers(PhysSystem *system, const Domain *domain, Transfers *
     return true;
 }
 
-void phys_domain_reduce(PhysSystem *system, double *numbers, size_t count) {
-    const PhysRanks *ranks = &system->options.ranks;
+void domain_reduce(const PhysSystem *system, Domain *domain, double *numbers, size_t count) {
+    const PetriRanks *ranks = ranks_of(system);
     ranks->allreduce_max(ranks->user_data, numbers, count);
-    system->rank_stats.reductions++;
-    system->rank_stats.step_bytes += count * sizeof *numbers;
+    domain->stats.reductions++;
+    domain->stats.step_bytes += count * sizeof *numbers;
 }
 
-static void send_message(PhysSystem *system, const Domain *domain, uint32_t to, size_t count) {
-    const PhysRanks *ranks = &system->options.ranks;
+static void send_message(const PhysSystem *system, Domain *domain, uint32_t to, size_t count) {
+    const PetriRanks *ranks = ranks_of(system);
     ranks->send(ranks->user_data, (int)to, domain->message.bytes, 1, count, count);
-    system->rank_stats.step_messages++;
-    system->rank_stats.step_bytes += count * sizeof(double);
+    domain->stats.step_messages++;
+    domain->stats.step_bytes += count * sizeof(double);
 }
 
 static void receive_message(const PhysSystem *system, const Domain *domain, uint32_t from, size_t count) {
-    const PhysRanks *ranks = &system->options.ranks;
+    const PetriRanks *ranks = ranks_of(system);
     ranks->receive(ranks->user_data, (int)from, domain->message.bytes, 1, count, count);
 }
 
 // Exchanges the number of particles that each rank sends to each other rank. Returns these numbers as a table with a
 // row per sender and a column per receiver. Returns NULL if out of memory.
 static const double *exchange_counts(PhysSystem *system, Domain *domain, const Transfers *to) {
-    size_t ranks = (size_t)system->options.ranks.rank_count, self = (size_t)system->options.ranks.rank;
+    size_t ranks = ranks_count(system), self = ranks_self(system);
     if (!phys_buffer_reserve(system, &domain->transfer_counts, 0, ranks * ranks, sizeof(double)) ||
         !phys_buffer_reserve(system, &domain->starts, 0, ranks + 1, sizeof(size_t)))
         return NULL;
@@ -78,10 +78,10 @@ static const double *exchange_counts(PhysSystem *system, Domain *domain, const T
     for (size_t r = 0; r <= ranks; r++)
         starts[r] = r * ranks;
     for (size_t r = 0; r < ranks; r++)
-        table[self * ranks + r] = (double)phys_transfer_count(to, r);
-    system->options.ranks.allgatherv(system->options.ranks.user_data, table, starts);
-    system->rank_stats.reductions++;
-    system->rank_stats.step_bytes += ranks * sizeof *table;
+        table[self * ranks + r] = (double)domain_transfer_count(to, r);
+    ranks_of(system)->allgatherv(ranks_of(system)->user_data, table, starts);
+    domain->stats.reductions++;
+    domain->stats.step_bytes += ranks * sizeof *table;
     return table;
 }
 
@@ -114,23 +114,23 @@ static void change_owner(const Domain *domain, uint32_t from, uint32_t to, uint3
     uint32_t *counts = domain->counts.bytes;
     counts[from]--;
     counts[to]++;
-    phys_owners(domain)[column] = to;
+    domain_owners(domain)[column] = to;
 }
 
 // Sends positions and velocities of migrating particles to their new owners. Sends the columns of all particles that
 // leave this rank to every rank, so that all ranks know the new owners.
 static bool send_movers(PhysSystem *system, Domain *domain, const Transfers *to) {
     const Columns *columns = &system->columns;
-    uint32_t ranks = (uint32_t)system->options.ranks.rank_count, all = to->start[ranks];
+    uint32_t ranks = ranks_count(system), all = to->start[ranks];
     size_t n = columns->dimensions;
     double *numbers = reserve_numbers(system, domain, (1 + 2 * n) * all);
     for (uint32_t r = 0; numbers && all && r < ranks; r++) {
-        size_t count = phys_transfer_count(to, r);
-        if (r == (uint32_t)system->options.ranks.rank)
+        size_t count = domain_transfer_count(to, r);
+        if (r == ranks_self(system))
             continue;
-        pack_columns(phys_transfer(to, 0), all, numbers);
-        pack_vectors(columns->position, columns, NULL, phys_transfer(to, r), count, numbers + all);
-        pack_vectors(columns->velocity, columns, NULL, phys_transfer(to, r), count, numbers + all + n * count);
+        pack_columns(domain_transfer(to, 0), all, numbers);
+        pack_vectors(columns->position, columns, NULL, domain_transfer(to, r), count, numbers + all);
+        pack_vectors(columns->velocity, columns, NULL, domain_transfer(to, r), count, numbers + all + n * count);
         send_message(system, domain, r, all + 2 * n * count);
     }
     return numbers;
@@ -138,7 +138,7 @@ static bool send_movers(PhysSystem *system, Domain *domain, const Transfers *to)
 
 static bool receive_movers(PhysSystem *system, Domain *domain, const double *table, uint32_t from, Transfers *moved) {
     const Columns *columns = &system->columns;
-    uint32_t ranks = (uint32_t)system->options.ranks.rank_count, self = (uint32_t)system->options.ranks.rank, all = 0;
+    uint32_t ranks = ranks_count(system), self = ranks_self(system), all = 0;
     size_t n = columns->dimensions;
     const double *row = table + (size_t)from * ranks;
     for (uint32_t r = 0; r < ranks; r++)
@@ -157,8 +157,8 @@ static bool receive_movers(PhysSystem *system, Domain *domain, const double *tab
             if (r != self)
                 continue;
             ((uint32_t *)moved->items.bytes)[i] = column;
-            if (!phys_list_column(system, &domain->arrivals, column) ||
-                !phys_list_column(system, &domain->boundary, column))
+            if (!domain_list_column(system, &domain->arrivals, column) ||
+                !domain_list_column(system, &domain->boundary, column))
                 return false;
         }
     unpack_vectors(columns->position, columns, NULL, moved->items.bytes, mine, numbers + all);
@@ -184,8 +184,8 @@ static void copy_link_ends_back(const PhysSystem *system, const Domain *domain) 
             continue;
         uint32_t ends[2] = {forces[f].given.from, forces[f].given.to};
         for (int i = 0; i < 2; i++)
-            if (phys_owners(domain)[ends[i]] == (uint32_t)system->options.ranks.rank)
-                copy_back(system, domain, phys_local_column(domain, ends[i]), ends[i]);
+            if (domain_owners(domain)[ends[i]] == ranks_self(system))
+                copy_back(system, domain, domain_local_column(domain, ends[i]), ends[i]);
     }
 }
 
@@ -233,7 +233,7 @@ static bool scan_boundary(PhysSystem *system, Domain *domain) {
     const bool *remote = domain->local->remote;
     const Grid patches = domain->patches;
     const uint32_t *interior = domain->interior.bytes, *owners = domain->patch_owners.bytes;
-    uint32_t self = (uint32_t)system->options.ranks.rank;
+    uint32_t self = ranks_self(system);
     for (uint32_t i = 0; i < columns->count; i++) {
         while (i % RUN_LENGTH == 0 && i + RUN_LENGTH <= columns->count &&
                run_is_interior(columns, &patches, interior, i))
@@ -245,27 +245,27 @@ static bool scan_boundary(PhysSystem *system, Domain *domain) {
             continue;
         uint32_t column = domain->local->order[i];
         copy_back(system, domain, i, column);
-        if (owners[patch] == self ? !phys_list_column(system, &domain->boundary, column)
-                                  : !phys_add_transfer(system, domain, owners[patch], column))
+        if (owners[patch] == self ? !domain_list_column(system, &domain->boundary, column)
+                                  : !domain_add_transfer(system, domain, owners[patch], column))
             return false;
     }
     return true;
 }
 
-bool phys_domain_move(PhysSystem *system, Domain *domain) {
-    uint32_t ranks = (uint32_t)system->options.ranks.rank_count, self = (uint32_t)system->options.ranks.rank;
+bool domain_move(PhysSystem *system, Domain *domain) {
+    uint32_t ranks = ranks_count(system), self = ranks_self(system);
     domain->transfer_count = domain->boundary.count = domain->arrivals.count = 0;
     const double *table;
     copy_link_ends_back(system, domain);
-    if (!phys_domain_find_interior(system, domain) || !scan_boundary(system, domain) ||
+    if (!domain_find_interior(system, domain) || !scan_boundary(system, domain) ||
         !sort_transfers(system, domain, &domain->to) || !(table = exchange_counts(system, domain, &domain->to)) ||
         !send_movers(system, domain, &domain->to))
         return false;
     for (uint32_t r = 0; r < ranks; r++)
-        for (size_t i = 0; i < phys_transfer_count(&domain->to, r); i++) {
-            uint32_t column = phys_transfer(&domain->to, r)[i];
+        for (size_t i = 0; i < domain_transfer_count(&domain->to, r); i++) {
+            uint32_t column = domain_transfer(&domain->to, r)[i];
             change_owner(domain, self, r, column);
-            domain->local->remote[phys_local_column(domain, column)] = true;
+            domain->local->remote[domain_local_column(domain, column)] = true;
         }
     bool done = true;
     for (uint32_t r = 0; r < ranks && done; r++)
@@ -275,16 +275,16 @@ bool phys_domain_move(PhysSystem *system, Domain *domain) {
 
 static bool send_halo(PhysSystem *system, Domain *domain) {
     const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, ranks = (size_t)system->options.ranks.rank_count;
+    size_t n = columns->dimensions, ranks = ranks_count(system);
     for (uint32_t r = 0; r < ranks; r++) {
-        size_t count = phys_transfer_count(&domain->to, r);
+        size_t count = domain_transfer_count(&domain->to, r);
         if (!count)
             continue;
         double *numbers = reserve_numbers(system, domain, (1 + n) * count);
         if (!numbers)
             return false;
-        pack_columns(phys_transfer(&domain->to, r), count, numbers);
-        pack_vectors(columns->position, columns, NULL, phys_transfer(&domain->to, r), count, numbers + count);
+        pack_columns(domain_transfer(&domain->to, r), count, numbers);
+        pack_vectors(columns->position, columns, NULL, domain_transfer(&domain->to, r), count, numbers + count);
         send_message(system, domain, r, (1 + n) * count);
     }
     return true;
@@ -292,8 +292,8 @@ static bool send_halo(PhysSystem *system, Domain *domain) {
 
 static bool receive_halo(PhysSystem *system, Domain *domain, const double *table) {
     const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, ranks = (size_t)system->options.ranks.rank_count;
-    size_t self = (size_t)system->options.ranks.rank, total = 0;
+    size_t n = columns->dimensions, ranks = ranks_count(system);
+    size_t self = ranks_self(system), total = 0;
     for (size_t r = 0; r < ranks; r++)
         total += (size_t)table[r * ranks + self];
     if (!reserve_transfers(system, &domain->from, total))
@@ -312,7 +312,7 @@ static bool receive_halo(PhysSystem *system, Domain *domain, const double *table
         uint32_t *items = (uint32_t *)from->items.bytes + from->start[r];
         for (size_t i = 0; i < count; i++) {
             items[i] = (uint32_t)numbers[i];
-            if (!phys_list_column(system, &domain->arrivals, items[i]))
+            if (!domain_list_column(system, &domain->arrivals, items[i]))
                 return false;
         }
         unpack_vectors(columns->position, columns, NULL, items, count, numbers + count);
@@ -320,36 +320,36 @@ static bool receive_halo(PhysSystem *system, Domain *domain, const double *table
     return true;
 }
 
-bool phys_domain_find_halo(PhysSystem *system, Domain *domain) {
+bool domain_find_halo(PhysSystem *system, Domain *domain) {
     const double *table;
-    return phys_domain_select(system, domain) && sort_transfers(system, domain, &domain->to) &&
+    return domain_select(system, domain) && sort_transfers(system, domain, &domain->to) &&
            (table = exchange_counts(system, domain, &domain->to)) && send_halo(system, domain) &&
            receive_halo(system, domain, table) && phys_may_continue(system); // an interrupted exchange delivers zeros
 }
 
-bool phys_domain_exchange(PhysSystem *system, Domain *domain) {
+bool domain_exchange(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
-    size_t n = system->dimensions, ranks = (size_t)system->options.ranks.rank_count;
+    size_t n = system->dimensions, ranks = ranks_count(system);
     for (uint32_t r = 0; r < ranks; r++) {
-        size_t count = phys_transfer_count(&domain->to, r);
+        size_t count = domain_transfer_count(&domain->to, r);
         double *numbers = count ? reserve_numbers(system, domain, n * count) : NULL;
         if (!count)
             continue;
         if (!numbers)
             return false;
-        pack_vectors(columns->position, columns, domain->local->column_of, phys_transfer(&domain->to, r), count,
+        pack_vectors(columns->position, columns, domain->local->column_of, domain_transfer(&domain->to, r), count,
                      numbers);
         send_message(system, domain, r, n * count);
     }
     for (uint32_t r = 0; r < ranks; r++) {
-        size_t count = phys_transfer_count(&domain->from, r);
+        size_t count = domain_transfer_count(&domain->from, r);
         const double *numbers = count ? reserve_numbers(system, domain, n * count) : NULL;
         if (!count)
             continue;
         if (!numbers)
             return false;
         receive_message(system, domain, r, n * count);
-        unpack_vectors(columns->position, columns, domain->local->column_of, phys_transfer(&domain->from, r), count,
+        unpack_vectors(columns->position, columns, domain->local->column_of, domain_transfer(&domain->from, r), count,
                        numbers);
     }
     return true;

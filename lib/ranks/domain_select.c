@@ -2,7 +2,7 @@
 //
 // Nearly all owned particles are in interior patches, whose particles no other rank needs. So patches are tested before
 // particles.
-#include "physics/domain.h"
+#include "ranks/domain.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -11,8 +11,8 @@
 // Returns the distance up to which two particles can interact before the next rebuild, if their radii are `radius` and
 // `partner`.
 static double interaction_range(const Domain *domain, double radius, double partner) {
-    double touch = domain->contact ? radius + partner : 0;
-    return (fmax(touch, domain->bound) + domain->survey.skin) * (1 + 1e-9);
+    double touch = domain->reach.contact ? radius + partner : 0;
+    return (fmax(touch, domain->reach.bound) + domain->survey.skin) * (1 + 1e-9);
 }
 
 // On each line of patches along one axis, clears the patches within `margin` of a patch that is 0. The line has
@@ -42,7 +42,7 @@ static uint32_t patch_margin(const Domain *domain, size_t k) {
     return margin < grid->cells[k] ? (uint32_t)margin : grid->cells[k];
 }
 
-bool phys_domain_find_interior(PhysSystem *system, Domain *domain) {
+bool domain_find_interior(PhysSystem *system, Domain *domain) {
     const Grid *grid = &domain->patches;
     uint32_t count = grid->cells[0] * grid->cells[1] * grid->cells[2], stride = 1;
     if (!phys_buffer_reserve(system, &domain->interior, 0, count, sizeof(uint32_t)))
@@ -51,7 +51,7 @@ bool phys_domain_find_interior(PhysSystem *system, Domain *domain) {
     const uint32_t *owners = domain->patch_owners.bytes;
     bool near = !domain->large_count; // large particles may reach any patch, so that no patch is interior
     for (uint32_t i = 0; i < count; i++)
-        interior[i] = near && owners[i] == (uint32_t)system->options.ranks.rank;
+        interior[i] = near && owners[i] == ranks_self(system);
     for (size_t k = 0; k < grid->dimensions; stride *= grid->cells[k], k++)
         if (grid->cells[k] > 1)
             shrink_interior(interior, count, grid->cells[k], stride, patch_margin(domain, k));
@@ -78,7 +78,7 @@ static bool select_for_patches(PhysSystem *system, Domain *domain, uint32_t colu
                 if (last_sent[owner] == column + 1)
                     continue;
                 last_sent[owner] = column + 1;
-                if (!phys_add_transfer(system, domain, owner, column))
+                if (!domain_add_transfer(system, domain, owner, column))
                     return false;
             }
     return true;
@@ -90,7 +90,7 @@ static bool select_for_large(PhysSystem *system, Domain *domain, uint32_t column
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions;
     for (uint32_t l = 0; l < domain->large_count; l++) {
-        uint32_t owner = phys_owners(domain)[domain->large[l]];
+        uint32_t owner = domain_owners(domain)[domain->large[l]];
         double far = interaction_range(domain, columns->radius[column], columns->radius[domain->large[l]]);
         bool near = last_sent[owner] != column + 1;
         for (size_t k = 0; k < n; k++)
@@ -98,7 +98,7 @@ static bool select_for_large(PhysSystem *system, Domain *domain, uint32_t column
         if (!near)
             continue;
         last_sent[owner] = column + 1;
-        if (!phys_add_transfer(system, domain, owner, column))
+        if (!domain_add_transfer(system, domain, owner, column))
             return false;
     }
     return true;
@@ -115,10 +115,10 @@ static const double *large_positions(PhysSystem *system, Domain *domain) {
     for (uint32_t l = 0; l < domain->large_count; l++)
         for (size_t k = 0; k < n; k++) {
             double x = columns->position[k * columns->stride + domain->large[l]];
-            bool own = phys_owners(domain)[domain->large[l]] == (uint32_t)system->options.ranks.rank;
+            bool own = domain_owners(domain)[domain->large[l]] == ranks_self(system);
             positions[l * n + k] = own && !isnan(x) ? x : -INFINITY;
         }
-    phys_domain_reduce(system, positions, domain->large_count * n);
+    domain_reduce(system, domain, positions, domain->large_count * n);
     return positions;
 }
 
@@ -133,14 +133,14 @@ static int compare_transfers(const void *left, const void *right) {
 // transfers.
 static bool select_for_links(PhysSystem *system, Domain *domain) {
     const Force *forces = system->forces.bytes;
-    const uint32_t *owners = phys_owners(domain);
-    uint32_t self = (uint32_t)system->options.ranks.rank, before = domain->transfer_count;
+    const uint32_t *owners = domain_owners(domain);
+    uint32_t self = ranks_self(system), before = domain->transfer_count;
     for (uint32_t f = 0; f < system->force_count; f++) {
         const PhysForce *link = &forces[f].given;
         if (phys_force_row(link->kind).stage != STAGE_LINK || owners[link->from] == owners[link->to])
             continue;
-        if ((owners[link->from] == self && !phys_add_transfer(system, domain, owners[link->to], link->from)) ||
-            (owners[link->to] == self && !phys_add_transfer(system, domain, owners[link->from], link->to)))
+        if ((owners[link->from] == self && !domain_add_transfer(system, domain, owners[link->to], link->from)) ||
+            (owners[link->to] == self && !domain_add_transfer(system, domain, owners[link->from], link->to)))
             return false;
     }
     if (domain->transfer_count == before)
@@ -155,8 +155,8 @@ static bool select_for_links(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-bool phys_domain_select(PhysSystem *system, Domain *domain) {
-    uint32_t self = (uint32_t)system->options.ranks.rank, ranks = (uint32_t)system->options.ranks.rank_count;
+bool domain_select(PhysSystem *system, Domain *domain) {
+    uint32_t self = ranks_self(system), ranks = ranks_count(system);
     const double *positions = domain->large_count ? large_positions(system, domain) : NULL;
     if ((domain->large_count && !positions) ||
         !phys_buffer_reserve(system, &domain->to.items, 0, ranks, sizeof(uint32_t)))

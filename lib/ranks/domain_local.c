@@ -3,8 +3,8 @@
 // The handles of the local system are columns of the whole system, with gaps. The columns of the local system are in
 // ascending order of handles, or in the sorted order of a list (reorder.c). In sorted order, a rebuild of the halo
 // leaves nearly all owned particles in their columns. Arrivals fill the columns that have become free.
-#include "physics/domain.h"
 #include "physics/threads.h"
+#include "ranks/domain.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -44,20 +44,21 @@ static bool reserve_orders(PhysSystem *system, Domain *domain, uint64_t count) {
 // there is none, owned particles are found in the system's columns.
 static bool order_columns(PhysSystem *system, Domain *domain, uint32_t spare) {
     PhysSystem *local = domain->local;
-    uint32_t self = (uint32_t)system->options.ranks.rank, arrivals = domain->arrivals.count, next = 0, here = 0;
-    const uint32_t *last_order = local->order, *owners = phys_owners(domain),
+    bool had_local = domain->state != DOMAIN_NONE;
+    uint32_t self = ranks_self(system), arrivals = domain->arrivals.count, next = 0, here = 0;
+    const uint32_t *last_order = local->order, *owners = domain_owners(domain),
                    *arriving = domain->arrivals.columns.bytes;
     const bool *remote = local->remote;
-    uint64_t last = domain->is_valid ? local->particle_count : phys_own_count(system, domain);
+    uint64_t last = had_local ? local->particle_count : domain_own_count(system, domain);
     if (!reserve_orders(system, domain, last + arrivals + spare + LINE))
         return false;
-    if (!domain->is_valid) {
+    if (!had_local) {
         memset(local->column_of, 0xff, system->particle_count * sizeof *local->column_of); // NO_COLUMN
         phys_forget_order(local);
     }
-    for (uint32_t i = 0, end = domain->is_valid ? local->particle_count : system->particle_count; i < end; i++) {
-        uint32_t column = domain->is_valid ? last_order[i] : i;
-        if (domain->is_valid ? remote[i] : owners[i] != self)
+    for (uint32_t i = 0, end = had_local ? local->particle_count : system->particle_count; i < end; i++) {
+        uint32_t column = had_local ? last_order[i] : i;
+        if (had_local ? remote[i] : owners[i] != self)
             continue;
         for (; !local->in_cell_order && next < arrivals && arriving[next] < column; next++)
             set_column(domain, here++, arriving[next], 0);
@@ -212,7 +213,7 @@ static int chunk_count_for(const PhysSystem *local) {
     return phys_chunk_count(local, local->particle_count, PHYS_MIN_FOR_THREADS);
 }
 
-void phys_domain_reload(const PhysSystem *system, Domain *domain) {
+void domain_reload(const PhysSystem *system, Domain *domain) {
     ColumnCopy copy = {system, domain, system->columns, domain->local->order};
     domain->local->radius_version++;
     domain->local->motion_version++;
@@ -221,16 +222,16 @@ void phys_domain_reload(const PhysSystem *system, Domain *domain) {
 
 static void copy_arrivals(const PhysSystem *system, const Domain *domain) {
     const Columns *to = &domain->local->columns;
-    const uint32_t *arrivals = domain->arrivals.columns.bytes, *owners = phys_owners(domain);
+    const uint32_t *arrivals = domain->arrivals.columns.bytes, *owners = domain_owners(domain);
     uint32_t *sources = domain->sources.bytes;
     ColumnCopy copy = {system, domain, system->columns, sources};
     for (uint32_t f = 0; f < domain->arrivals.count; f++) {
-        uint32_t here = phys_local_column(domain, arrivals[f]);
+        uint32_t here = domain_local_column(domain, arrivals[f]);
         sources[here] = arrivals[f];
         copy_range(&copy, here, here + 1);
         for (size_t k = 0; k < to->dimensions; k++)
             to->force[k * to->stride + here] = 0;
-        domain->local->remote[here] = owners[arrivals[f]] != (uint32_t)system->options.ranks.rank;
+        domain->local->remote[here] = owners[arrivals[f]] != ranks_self(system);
         to->anchor[here] |= domain->local->remote[here];
     }
 }
@@ -238,11 +239,11 @@ static void copy_arrivals(const PhysSystem *system, const Domain *domain) {
 // Copies all particles to new columns that have spare capacity, so that later arrivals fit into them.
 static bool copy_all(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
-    uint32_t spare = phys_own_count(system, domain) / 32 + 256;
+    uint32_t spare = domain_own_count(system, domain) / 32 + 256;
     const Columns last = local->columns;
     if (!order_columns(system, domain, spare))
         return false;
-    ColumnCopy copy = {system, domain, domain->is_valid ? last : system->columns, domain->sources.bytes};
+    ColumnCopy copy = {system, domain, domain->state == DOMAIN_NONE ? system->columns : last, domain->sources.bytes};
     Buffer memory = domain->spare;
     domain->spare = local->column_data;
     local->column_data = memory;
@@ -288,13 +289,14 @@ static void fill_gaps(const PhysSystem *system, const Domain *domain) {
 // Builds the columns of the owned and halo particles.
 static bool build_particles(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
+    bool had_local = domain->state != DOMAIN_NONE;
     uint32_t arrivals = domain->arrivals.count;
     if (arrivals)
         qsort(domain->arrivals.columns.bytes, arrivals, sizeof(uint32_t), compare_columns);
-    uint32_t i = domain->is_valid ? phys_next_remote(local, 0) : local->particle_count;
+    uint32_t i = had_local ? phys_next_remote(local, 0) : local->particle_count;
     for (; i < local->particle_count; i = phys_next_remote(local, i + 1))
         local->column_of[local->order[i]] = NO_COLUMN;
-    if (domain->is_valid && local->in_cell_order && (uint64_t)local->particle_count + arrivals <= local->columns.stride)
+    if (had_local && local->in_cell_order && (uint64_t)local->particle_count + arrivals <= local->columns.stride)
         fill_gaps(system, domain);
     else if (!copy_all(system, domain))
         return false;
@@ -310,14 +312,14 @@ static bool record_built(PhysSystem *system, Domain *domain) {
     domain->built_valid = domain->local->unlisted;
     if (!domain->built_valid)
         return true;
-    if (!phys_buffer_reserve(system, &domain->built, 0, (n + 1) * (uint64_t)phys_own_count(system, domain),
+    if (!phys_buffer_reserve(system, &domain->built, 0, (n + 1) * (uint64_t)domain_own_count(system, domain),
                              sizeof(double)))
         return false;
     double *built = domain->built.bytes;
     for (uint32_t c = 0; c < system->particle_count; c++) {
-        if (phys_owners(domain)[c] != (uint32_t)system->options.ranks.rank)
+        if (domain_owners(domain)[c] != ranks_self(system))
             continue;
-        size_t at = phys_local_column(domain, c);
+        size_t at = domain_local_column(domain, c);
         for (size_t k = 0; k < n; k++)
             *built++ = columns->position[k * columns->stride + at];
         *built++ = columns->radius[at];
@@ -325,10 +327,10 @@ static bool record_built(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-bool phys_domain_build_local(PhysSystem *system, Domain *domain) {
+bool domain_build_local(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
-    if (!build_particles(system, domain) || !build_groups(system, domain) ||
-        !phys_domain_update_forces(system, domain) || !record_built(system, domain)) {
+    if (!build_particles(system, domain) || !build_groups(system, domain) || !domain_update_forces(system, domain) ||
+        !record_built(system, domain)) {
         system->failed = true;
         return false;
     }
@@ -343,14 +345,14 @@ bool phys_domain_build_local(PhysSystem *system, Domain *domain) {
 static bool localise_force(const PhysSystem *system, const Domain *domain, Force *force) {
     if (phys_force_row(force->given.kind).stage != STAGE_LINK)
         return true;
-    uint32_t self = (uint32_t)system->options.ranks.rank, from = force->given.from, to = force->given.to;
-    const uint32_t *owners = phys_owners(domain);
-    force->given.from = phys_local_column(domain, from);
-    force->given.to = phys_local_column(domain, to);
+    uint32_t self = ranks_self(system), from = force->given.from, to = force->given.to;
+    const uint32_t *owners = domain_owners(domain);
+    force->given.from = domain_local_column(domain, from);
+    force->given.to = domain_local_column(domain, to);
     return (owners[from] == self || owners[to] == self) && from != to;
 }
 
-bool phys_domain_update_forces(PhysSystem *system, Domain *domain) {
+bool domain_update_forces(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     uint64_t slots = (uint64_t)system->group_count * STAGE_COUNT;
     if (!phys_buffer_reserve(local, &local->indices, 0, slots + 1, sizeof(uint32_t)) ||
@@ -376,7 +378,7 @@ bool phys_domain_update_forces(PhysSystem *system, Domain *domain) {
     return build_random_offsets(system, domain);
 }
 
-void phys_domain_return_items(PhysSystem *system, const PhysSystem *local) {
+void domain_return_items(PhysSystem *system, const PhysSystem *local) {
     Force *to = system->forces.bytes;
     const Force *from = local->forces.bytes;
     for (uint64_t s = STAGE_SINGLE; s < (uint64_t)system->group_count * STAGE_COUNT; s += STAGE_COUNT)

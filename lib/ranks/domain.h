@@ -10,9 +10,27 @@
 // The halo is valid until a particle has moved by half the skin (neighbour_list.h). Then particles migrate, and halos
 // and lists are rebuilt on all ranks together. At the end of a frame all ranks receive all rows. The columns of the
 // whole system are not updated then, because they are not used while the decomposition continues.
+// States of a domain. Only domain.c changes them.
+//
+//              domain_begin                        domain_end
+//     NONE ──────────────────────▶ STEPPING ──────────────────────▶ COLLECTED
+//      ▲  ▲                         │    ▲                           │  │
+//      │  └─────────────────────────┘    └───────────────────────────┘  │
+//      │    domain_step, domain_end:       domain_begin: the same       │
+//      │    out of memory or aborted       particles are divided again  │
+//      └────────────────────────────────────────────────────────────────┘
+//        domain_begin: the frame is not divided, or the columns were filled again
+//
+//   NONE       There is no valid local system. The columns of the whole system are current.
+//   STEPPING   A frame is divided. The local system has the current values of its owned particles.
+//   COLLECTED  As STEPPING, and all rows are current. In the columns of the whole system, positions and velocities are
+//              out of date.
 #pragma once
 
 #include "physics/grid.h"
+#include "ranks/ranks.h"
+
+typedef enum DomainState { DOMAIN_NONE, DOMAIN_STEPPING, DOMAIN_COLLECTED } DomainState;
 
 // A particle that must be sent to another rank.
 typedef struct Transfer {
@@ -32,14 +50,19 @@ typedef struct ColumnList {
     Buffer columns; // uint32_t
 } ColumnList;
 
+// Distances at which the pair forces of a system act.
+typedef struct ForceReach {
+    bool contact; // some pair force needs contact
+    double bound; // largest max_distance of the pair forces that need no contact; 0: no such force
+} ForceReach;
+
 typedef struct Domain {
-    bool is_valid; // the fields below are up to date
+    DomainState state;
+    PetriRankStats stats;
     PhysSystem *local;
-    Buffer spare;             // memory for the next columns of `local`, which are copied from the current ones
-    uint64_t columns_version; // PhysSystem.columns_version for which `local` was built
+    Buffer spare; // memory for the next columns of `local`, which are copied from the current ones
     // interaction ranges
-    bool contact;         // some pair force needs contact
-    double bound;         // largest max_distance of the pair forces that need no contact; 0: no such force
+    ForceReach reach;
     double max_radius;    // largest radius of the particles that are not in `large`
     NeighbourList survey; // holds no lists; `cell` is the patch of each particle, and `skin` is the skin of all lists
     uint32_t large[PHYS_MAX_LARGE]; // columns of particles much larger than the others
@@ -59,7 +82,7 @@ typedef struct Domain {
     bool built_valid;     // true if `built` was recorded
     Buffer movers;        // uint32_t by column: number of earlier particles of the same group that are not anchors
     Buffer random_offset; // uint32_t by local column: element of `movers` for the particle
-    Transfers to, from;   // particles to send and to receive: those of halos or, in phys_domain_move, migrating ones
+    Transfers to, from;   // particles to send and to receive: those of halos or, in domain_move, migrating ones
     // Used during a rebuild. The system's columns are then up to date for all particles that are sent or received.
     ColumnList boundary; // columns of owned particles that other ranks possibly need
     ColumnList arrivals; // columns of received particles, which are now owned or in the halo
@@ -70,7 +93,7 @@ typedef struct Domain {
     Buffer transfer_counts; // double[ranks][ranks]: number of particles sent from one rank to another
     Buffer message;         // scratch memory, for example for one message
     Buffer gathered;        // double: one section per rank with its particles (domain_collect.c)
-    Buffer starts;          // size_t by rank: argument of PhysRanks.allgatherv
+    Buffer starts;          // size_t by rank: argument of PetriRanks.allgatherv
     // rebuilding and load balancing
     uint32_t age;                // number of steps since the last rebuild
     uint64_t padded;             // upper bound of the number of list entries on all ranks, including dummies
@@ -80,78 +103,77 @@ typedef struct Domain {
     Buffer rank_seconds;         // double by rank: `seconds` of that rank
 } Domain;
 
-// domain.c: decides whether this frame uses domain decomposition, with the same result on all ranks. If so, prepares it
-// and returns true. Returns false and sets system->failed if out of memory.
-bool phys_domain_begin(PhysSystem *system, const PhysTime *time);
-// Updates or rebuilds the halo and takes one step. Returns false if the step was aborted.
-bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
-void phys_domain_free(PhysSystem *system);
+// domain.c: the hooks of PhysDivision (physics/division.h), and ends of states. domain_begin decides whether this frame
+// uses domain decomposition, with the same result on all ranks. domain_step then updates or rebuilds the halo.
+void domain_begin(PhysSystem *system, const PhysTime *time);
+bool domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
+bool domain_end(PhysSystem *system, bool keep_last_finite);
+void domain_free(PhysSystem *system);
 
-// domain_collect.c: writes the rows of all particles on every rank, as phys_write_rows does for one process. The
-// system's columns are then out of date (PhysSystem.columns_stale). If the frame was aborted, leaves the rows unchanged
-// and returns false.
-bool phys_domain_collect(PhysSystem *system, bool keep_last_finite);
+// domain_collect.c: writes the rows of all particles on every rank, as phys_write_rows does for one process. If the
+// frame was aborted, leaves the rows unchanged and returns false.
+bool domain_collect(PhysSystem *system, Domain *domain, bool keep_last_finite);
 
 // domain_balance.c: assigns patches to ranks by the measured cost of their particles. The system's columns must be up
 // to date. Returns false if space cannot be divided into patches, or if out of memory.
-bool phys_domain_balance(PhysSystem *system, Domain *domain);
+bool domain_balance(PhysSystem *system, Domain *domain);
 
 // Returns the index of a cell along a Hilbert curve through a cube with n = 1 to 3 axes and 2^levels cells along each.
-uint64_t phys_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels);
+uint64_t domain_hilbert_index(const uint32_t *cell, uint32_t n, uint32_t levels);
 
 // domain_select.c: finds the interior patches: owned patches that no particle of another rank can reach with the
 // current skin. Returns false if out of memory.
-bool phys_domain_find_interior(PhysSystem *system, Domain *domain);
+bool domain_find_interior(PhysSystem *system, Domain *domain);
 // Adds a transfer of each boundary particle to each rank that needs it in its halo. The system's columns must be up to
 // date for boundary particles. Returns false if out of memory.
-bool phys_domain_select(PhysSystem *system, Domain *domain);
+bool domain_select(PhysSystem *system, Domain *domain);
 
 // domain_halo.c. These functions return false if out of memory or if the frame is interrupted.
 //
 // Sends the owned particles that have left this rank's patches to their new owners, and receives those that have
 // entered.
-bool phys_domain_move(PhysSystem *system, Domain *domain);
+bool domain_move(PhysSystem *system, Domain *domain);
 // Determines the new halos. Sends the positions that other ranks need, and receives those of this rank's halo into the
 // system's columns.
-bool phys_domain_find_halo(PhysSystem *system, Domain *domain);
+bool domain_find_halo(PhysSystem *system, Domain *domain);
 // Exchanges the positions of halo particles before a step.
-bool phys_domain_exchange(PhysSystem *system, Domain *domain);
+bool domain_exchange(PhysSystem *system, Domain *domain);
 // Append to a list of columns or to domain->transfers.
-bool phys_list_column(PhysSystem *system, ColumnList *list, uint32_t column);
-bool phys_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column);
+bool domain_list_column(PhysSystem *system, ColumnList *list, uint32_t column);
+bool domain_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column);
 // Sets each number to its maximum over all ranks.
-void phys_domain_reduce(PhysSystem *system, double *numbers, size_t count);
+void domain_reduce(const PhysSystem *system, Domain *domain, double *numbers, size_t count);
 
 // domain_local.c: builds the local system of owned and halo particles. Particles in `arrivals` are copied from the
 // system's columns. The other particles are copied from the previous local system, or from the system's columns if
-// there is none (!domain->is_valid).
-bool phys_domain_build_local(PhysSystem *system, Domain *domain);
+// there is none (DOMAIN_NONE).
+bool domain_build_local(PhysSystem *system, Domain *domain);
 // Copies the system's forces to the local system.
-bool phys_domain_update_forces(PhysSystem *system, Domain *domain);
+bool domain_update_forces(PhysSystem *system, Domain *domain);
 // Copies Force.item, the position in a random stream, of all single-particle forces from `local` to `system`. The
 // positions are the same on all ranks.
-void phys_domain_return_items(PhysSystem *system, const PhysSystem *local);
+void domain_return_items(PhysSystem *system, const PhysSystem *local);
 // After attributes have changed between frames, copies attributes and rows to the local system. All rows must be up to
 // date.
-void phys_domain_reload(const PhysSystem *system, Domain *domain);
+void domain_reload(const PhysSystem *system, Domain *domain);
 
 // Returns the local column of the particle with the global column `column`.
-static inline uint32_t phys_local_column(const Domain *domain, uint32_t column) {
+static inline uint32_t domain_local_column(const Domain *domain, uint32_t column) {
     return domain->local->column_of[column];
 }
 
-static inline uint32_t phys_own_count(const PhysSystem *system, const Domain *domain) {
-    return ((const uint32_t *)domain->counts.bytes)[system->options.ranks.rank];
+static inline uint32_t domain_own_count(const PhysSystem *system, const Domain *domain) {
+    return ((const uint32_t *)domain->counts.bytes)[ranks_self(system)];
 }
 
-static inline uint32_t *phys_owners(const Domain *domain) {
+static inline uint32_t *domain_owners(const Domain *domain) {
     return domain->owners.bytes;
 }
 
-static inline const uint32_t *phys_transfer(const Transfers *transfers, size_t rank) {
+static inline const uint32_t *domain_transfer(const Transfers *transfers, size_t rank) {
     return (const uint32_t *)transfers->items.bytes + transfers->start[rank];
 }
 
-static inline size_t phys_transfer_count(const Transfers *transfers, size_t rank) {
+static inline size_t domain_transfer_count(const Transfers *transfers, size_t rank) {
     return transfers->start[rank + 1] - transfers->start[rank];
 }

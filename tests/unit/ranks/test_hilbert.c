@@ -1,6 +1,6 @@
-// test_hilbert.c: the Hilbert curve along which patches are assigned to ranks (lib/physics/domain_balance.c).
-#include "physics/domain.h"
-#include "support.h"
+// test_hilbert.c: the Hilbert curve along which patches are assigned to ranks (lib/ranks/domain_balance.c).
+#include "../physics/support.h"
+#include "ranks/domain.h"
 
 // The curve visits every cell once, and each step leads to an adjacent cell. Of the 2^n equal parts of the cube, the
 // curve completes one before it enters the next.
@@ -13,7 +13,7 @@ static void test_curve_visits_adjacent_cells(void **state) {
         memset(visited, 0, sizeof visited);
         for (uint32_t c = 0; c < count; c++) {
             uint32_t cell[3] = {c % side, c / side % side, c / side / side};
-            uint64_t index = phys_hilbert_index(cell, n, LEVELS);
+            uint64_t index = domain_hilbert_index(cell, n, LEVELS);
             assert_true(index < count);
             assert_int_equal(visited[index], 0);
             visited[index] = c + 1;

@@ -2,8 +2,8 @@
 //
 // Each rank fills one section of a common array. A section has three parts: columns of the rank's own particles in
 // local order, the handles of these particles, and a tail.
-#include "physics/domain.h"
 #include "physics/threads.h"
+#include "ranks/domain.h"
 
 enum {
     LINE = 8,    // doubles in a cache line; the parts of a section are padded to whole lines
@@ -87,12 +87,10 @@ static void pack_section(const PhysSystem *system, const Domain *domain, RankSec
     *section.tail = domain->seconds;
 }
 
-bool phys_domain_collect(PhysSystem *system, bool keep_last_finite) {
-    Domain *domain = system->domain.bytes;
-    const PhysRanks *ranks = &system->options.ranks;
+bool domain_collect(PhysSystem *system, Domain *domain, bool keep_last_finite) {
+    const PetriRanks *ranks = ranks_of(system);
     const uint32_t *counts = domain->counts.bytes;
     size_t n = system->dimensions, vectors = system->options.keep_forces ? 3 : 2;
-    domain->is_valid = false;
     if (!phys_buffer_reserve(system, &domain->starts, 0, (size_t)ranks->rank_count + 1, sizeof(size_t)))
         return false;
     size_t *starts = domain->starts.bytes;
@@ -110,7 +108,7 @@ bool phys_domain_collect(PhysSystem *system, bool keep_last_finite) {
         ranks->allreduce_max(ranks->user_data, &nothing, 1); // used as a barrier: waits until all ranks have written
     else
         ranks->allgatherv(ranks->user_data, gathered, starts);
-    system->rank_stats.frame_bytes += shared ? 0 : (starts[ranks->rank + 1] - starts[ranks->rank]) * sizeof(double);
+    domain->stats.frame_bytes += shared ? 0 : (starts[ranks->rank + 1] - starts[ranks->rank]) * sizeof(double);
     if (!phys_may_continue(system))
         return false;
     for (int r = 0; r < ranks->rank_count; r++) {
@@ -120,6 +118,5 @@ bool phys_domain_collect(PhysSystem *system, bool keep_last_finite) {
                                r == ranks->rank ? domain->local : NULL);
     }
     system->any_from_attribute &= !keep_last_finite || system->any_not_finite;
-    system->columns_stale = true;
-    return domain->is_valid = true;
+    return true;
 }

@@ -4,23 +4,18 @@
 // sums of a block's columns are sent to the rank of the next row, one message per block. So all sums have the order of
 // a single process. At the end every rank broadcasts the complete sums of its rows, so all ranks can move all
 // particles.
-#include "physics/pair_wavefront.h"
+#include "ranks/domain.h"
 
 enum {
-    MIN_PAIRS = 200000, // default of PhysRanks.min_pairs
+    MIN_PAIRS = 200000, // default of PetriRanks.min_pairs
     BLOCKS_PER_COLUMN = 32,
     MIN_BLOCK = 64, // minimum number of rows in a block
-    TEST_BLOCK = 8, // used instead of MIN_BLOCK if PhysRanks.min_pairs is not 0, as in tests
+    TEST_BLOCK = 8, // used instead of MIN_BLOCK if PetriRanks.min_pairs is not 0, as in tests
 };
 
-bool phys_ranks_should_split(const PhysSystem *system, uint64_t pairs) {
-    const PhysRanks *ranks = &system->options.ranks;
-    return ranks->rank_count > 1 && pairs >= (ranks->min_pairs ? ranks->min_pairs : MIN_PAIRS);
-}
-
 typedef struct Shared {
-    PhysRankStats *rank_stats;
-    const PhysRanks *ranks;
+    PetriRankStats *stats;
+    const PetriRanks *ranks;
     PairBlocks blocks;
 } Shared;
 
@@ -37,7 +32,7 @@ static double *block_sums(const Shared *shared, size_t first, size_t end, size_t
 }
 
 static void compute_row(const Shared *shared, size_t row) {
-    const PhysRanks *ranks = shared->ranks;
+    const PetriRanks *ranks = shared->ranks;
     const PairRegion *pairs = shared->blocks.pairs;
     const PairPass *pass = pairs->pass;
     for (size_t column = pairs->triangle ? row : 0; column < shared->blocks.columns; column++) {
@@ -52,17 +47,17 @@ static void compute_row(const Shared *shared, size_t row) {
         if (row + 1 == shared->blocks.rows || (pairs->triangle && row == column))
             continue;
         ranks->send(ranks->user_data, row_owner(shared, row + 1), numbers, pass->dimensions, length, pass->stride);
-        shared->rank_stats->step_messages++;
-        shared->rank_stats->step_bytes += length * pass->dimensions * sizeof *numbers;
+        shared->stats->step_messages++;
+        shared->stats->step_bytes += length * pass->dimensions * sizeof *numbers;
     }
 }
 
 static void broadcast_range(const Shared *shared, int from, double *numbers, size_t length) {
-    const PhysRanks *ranks = shared->ranks;
+    const PetriRanks *ranks = shared->ranks;
     const PairPass *pass = shared->blocks.pairs->pass;
     ranks->broadcast(ranks->user_data, from, numbers, pass->dimensions, length, pass->stride);
-    shared->rank_stats->step_messages += ranks->rank == from;
-    shared->rank_stats->step_bytes += ranks->rank == from ? length * pass->dimensions * sizeof *numbers : 0;
+    shared->stats->step_messages += ranks->rank == from;
+    shared->stats->step_bytes += ranks->rank == from ? length * pass->dimensions * sizeof *numbers : 0;
 }
 
 // Broadcasts each sum from the rank on which it is complete. For the particles of a row of blocks, this is the rank
@@ -79,12 +74,16 @@ static void broadcast_sums(const Shared *shared) {
                         pairs->column_end - pairs->column);
 }
 
-void phys_pair_ranks(PhysSystem *system, const PairRegion *pairs) {
-    const PhysRanks *ranks = &system->options.ranks;
-    Shared shared = {&system->rank_stats, ranks,
-                     phys_pair_blocks(pairs, BLOCKS_PER_COLUMN, ranks->min_pairs ? TEST_BLOCK : MIN_BLOCK)};
+bool ranks_compute_pairs(PhysSystem *system, const PairRegion *region) {
+    const PetriRanks *ranks = ranks_of(system);
+    if (phys_region_pairs(region) < (ranks->min_pairs ? ranks->min_pairs : MIN_PAIRS))
+        return false;
+    PetriRankStats *stats = &((Domain *)system->division.bytes)->stats;
+    Shared shared = {stats, ranks,
+                     phys_pair_blocks(region, BLOCKS_PER_COLUMN, ranks->min_pairs ? TEST_BLOCK : MIN_BLOCK)};
     for (size_t row = (size_t)ranks->rank; row < shared.blocks.rows; row += (size_t)ranks->rank_count)
         compute_row(&shared, row);
     broadcast_sums(&shared);
-    system->rank_stats.decomposition = PHYS_FORCE_DECOMPOSED;
+    stats->decomposition = PETRI_FORCE_DECOMPOSED;
+    return true;
 }
