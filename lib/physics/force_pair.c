@@ -146,7 +146,7 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Mo
     pass.move = move;
     if (pass.kernels && phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, number, level, move))
         return;
-    if (system->in_cell_order)
+    if (system->column_order == ORDER_BY_CELL)
         phys_restore_order(system);
     system->unlisted = true;
     size_t first = group->first, end = first + group->count;

@@ -48,7 +48,7 @@ static void sort_doubles(double *values, size_t count) {
 }
 
 static bool is_idle(const PairPass *pass, const NeighbourList *list, size_t column) {
-    bool lost = list->contact_only && pass->radius[column] == 0;
+    bool lost = list->bound == 0 && pass->radius[column] == 0;
     for (size_t k = 0; k < pass->dimensions; k++)
         lost |= !isfinite(pass->position[k * pass->stride + column]);
     return lost;
@@ -289,7 +289,7 @@ static bool reserve_arrays(PhysSystem *system, const PairPass *pass, NeighbourLi
     uint64_t total = (list->total + PHYS_MAX_LANES - 1) / PHYS_MAX_LANES * PHYS_MAX_LANES + PHYS_MAX_LANES,
              n = pass->dimensions;
     enum { SOURCES = 2, WORDS = 4 };
-    uint64_t doubles = (n + 1 + PHYS_QUAD + (list->contact_only ? 0 : SOURCES)) * total;
+    uint64_t doubles = (n + 1 + PHYS_QUAD + (list->bound == 0 ? 0 : SOURCES)) * total;
     if (!phys_buffer_reserve(system, &list->arrays, 0, doubles + total * (WORDS + 2) / 2, sizeof(double)))
         return false;
     double *next = list->arrays.bytes;
@@ -300,8 +300,8 @@ static bool reserve_arrays(PhysSystem *system, const PairPass *pass, NeighbourLi
         view->built[k] = next;
     view->radius = next;
     next += total;
-    view->sources = list->contact_only ? NULL : next;
-    next += list->contact_only ? 0 : SOURCES * total;
+    view->sources = list->bound == 0 ? NULL : next;
+    next += list->bound == 0 ? 0 : SOURCES * total;
     view->at = (uint64_t *)next;
     view->column = (uint32_t *)(view->at + total);
     list->key = view->column + total;
@@ -341,8 +341,8 @@ static bool layout_cells(Sorting *sorting, double max, Survey *survey, Grid *gri
     list->contact_distance = fmax(2 * median, list->bound);
     if (!(list->contact_distance > MIN_LENGTH && list->contact_distance < 1 / MIN_LENGTH))
         return false;
-    if (!list->skin_is_fixed &&
-        !(list->skin >= MIN_SKIN * list->contact_distance && list->skin <= MAX_SKIN * list->contact_distance))
+    bool fixed = sorting->system && sorting->system->remote; // a local system's skin is that of its halo
+    if (!fixed && !(list->skin >= MIN_SKIN * list->contact_distance && list->skin <= MAX_SKIN * list->contact_distance))
         list->skin = 0.3 * list->contact_distance;
     sorting->large = 2 * list->contact_distance;
     *survey = survey_all(sorting);
@@ -369,7 +369,7 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
     Grid grid = {.dimensions = pass->dimensions, .cells = {1, 1, 1}};
     Sorting sorting = {.system = system, .pass = pass, .list = list, .grid = &grid};
     list->total = (uint32_t)phys_ranges_total(&list->ranges);
-    list->order = system->can_reorder ? system->order : NULL;
+    list->order = system->column_order == ORDER_FIXED ? NULL : system->order;
     list->view.direct = false;
     if (list->total > UINT32_MAX / PHYS_QUAD - 2 * PHYS_MAX_LANES || !reserve_arrays(system, pass, list) ||
         !layout_cells(&sorting, INFINITY, &survey, &grid))
@@ -381,7 +381,7 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
     grid.start = list->cells.bytes;
     list->view.regular = survey.regular;
     list->view.listed = survey.regular + survey.large_count;
-    bool one_size = survey.max_radius == survey.min_radius && !survey.large_count && list->contact_only;
+    bool one_size = survey.max_radius == survey.min_radius && !survey.large_count && list->bound == 0;
     list->view.one_radius = one_size ? survey.max_radius : 0;
     list->view.width = one_size && pass->dimensions == 2 ? PHYS_PAIR : PHYS_QUAD;
     sort_by_cell(&sorting, &survey);

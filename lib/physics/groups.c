@@ -13,7 +13,7 @@ static void arrange_particles(PhysSystem *system) {
     if (system->group_count == 1) { // the columns are already in order, or in the sorted order of a list
         groups[0].first = 0;
         groups[0].count = system->particle_count;
-        for (uint32_t i = 0; i < system->particle_count && !system->in_cell_order; i++)
+        for (uint32_t i = 0; i < system->particle_count && system->column_order != ORDER_BY_CELL; i++)
             system->order[i] = system->column_of[i] = i;
         return;
     }
@@ -77,9 +77,10 @@ void phys_link_groups(PhysSystem *system) {
 
 bool phys_arrange(PhysSystem *system) {
     uint64_t particles = system->particle_count, slots = (uint64_t)system->group_count * STAGE_COUNT;
-    if (system->in_cell_order && (system->group_count > 1 || system->particle_count != system->columns.count))
+    if (system->column_order == ORDER_BY_CELL &&
+        (system->group_count > 1 || system->particle_count != system->columns.count))
         phys_forget_order(system);
-    uint64_t retained = system->in_cell_order ? 2 * particles * sizeof(uint32_t) : 0;
+    uint64_t retained = system->column_order == ORDER_BY_CELL ? 2 * particles * sizeof(uint32_t) : 0;
     if (!phys_buffer_reserve(system, &system->indices, retained, 2 * particles + slots + 1, sizeof(uint32_t)))
         return false;
     system->order = system->indices.bytes;

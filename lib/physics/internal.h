@@ -79,7 +79,7 @@ typedef struct Columns {
     size_t stride; // distance between two components of a particle; at least `count`
     double *position;
     double *velocity;
-    double *own_force; // PhysParticle.force; `own_force` and `ease` are valid only if system->has_own_forces
+    double *own_force; // PhysParticle.force; `own_force` and `ease` are invalid if OWN_FORCES_NONE
     double *force;     // sum of all forces of the step
     bool forces_clear; // the previous step has set all elements of `force` to 0
     double *ease;      // ramp time of own_force
@@ -97,6 +97,49 @@ typedef struct Columns {
     bool *anchor;
 } Columns;
 
+// States of a system. Only system.c changes them.
+//
+//               phys_prepare: sorts and      phys_prepare:         phys_prepare: computes
+//               copies particles             sorts forces          powers of radii
+//     DESCRIBED ─────────────────────▶ FILLED ─────────────▶ SORTED ──────────────────────▶ READY
+//      ▲                                  ▲                   ▲                              │ │ │
+//      │                                  │                   └── a radius changes ──────────┘ │ │
+//      │                                  └── phys_begin_forces ──────────────────────────────┘ │
+//      └── phys_begin; the first `force` attribute; a frame was aborted (phys_discard_columns) ──┘
+//
+//   An event that leads to a state has no effect in earlier states. Only in READY can the system take a step.
+//
+//   DESCRIBED  Only the description is valid.
+//   FILLED     The particles are sorted and copied to the columns.
+//   SORTED     Also the forces are sorted.
+//   READY      Also Columns.section and Columns.volume are up to date.
+typedef enum SystemState { SYSTEM_DESCRIBED, SYSTEM_FILLED, SYSTEM_SORTED, SYSTEM_READY } SystemState;
+
+// The order of the columns. Only reorder.c changes it.
+//
+//             phys_allow_reorder                 phys_reorder: a list was rebuilt
+//     FIXED ◀────────────────────▶ BY_HANDLE ─────────────────────────────────────▶ BY_CELL
+//        ▲                             ▲                                             │  │
+//        │                             └─────────────────────────────────────────────┘  │
+//        │                               phys_restore_order: a pass needs the order     │
+//        │                               of handles; phys_forget_order: the columns     │
+//        │                               are about to be filled from scratch            │
+//        └──────────────────────────────────────────────────────────────────────────────┘
+//          phys_allow_reorder: not allowed any more
+//
+//   FIXED      By group, then by handle. Some force depends on this order.
+//   BY_HANDLE  As FIXED. But all particles are in one group, and only the single pass of this group depends on their
+//              order. A pass over all pairs needs this order, because it sums in the order of columns.
+//   BY_CELL    In the sorted order (neighbour_list.h) of the list of this pass.
+typedef enum ColumnOrder { ORDER_FIXED, ORDER_BY_HANDLE, ORDER_BY_CELL } ColumnOrder;
+
+// Which particles have a `force` attribute (PhysParticle.force).
+typedef enum OwnForces {
+    OWN_FORCES_NONE,
+    OWN_FORCES_CONSTANT, // some have one, which is not eased in
+    OWN_FORCES_EASED,    // some have one that is eased in
+} OwnForces;
+
 // How attributes in the columns have changed. Later values include earlier ones.
 typedef enum ColumnsChange {
     COLUMNS_SAME,
@@ -105,31 +148,27 @@ typedef enum ColumnsChange {
 } ColumnsChange;
 
 struct PhysSystem {
-    Arena home;               // holds this struct
-    uint64_t bytes;           // total capacity of all buffers
-    bool failed;              // memory has run out since phys_begin
-    bool arranged;            // particles are sorted and copied to the columns
-    bool forces_arranged;     // forces are sorted
-    bool radius_powers_valid; // section and volume are up to date
-    bool any_not_finite;      // some element of `not_finite` is set
-    bool any_from_attribute;  // some element of `from_attribute` is set
+    Arena home;     // holds this struct
+    uint64_t bytes; // total capacity of all buffers
+    bool failed;    // memory has run out since phys_begin
+    SystemState state;
+    bool any_not_finite;     // some element of `not_finite` is set
+    bool any_from_attribute; // some element of `from_attribute` is set
     PhysOptions options;
     PhysThreads *threads; // options.pool or the system's own pool; NULL: none
-    bool owns_threads;
     // description
     uint32_t dimensions;
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
-    bool has_forces;         // a step was taken since the last phys_begin or phys_skip_frame
-    bool has_own_forces;     // some particle has a `force` attribute
-    bool has_eased_forces;   // some particle's `force` attribute is eased in; implies has_own_forces
+    bool has_forces; // a step was taken since the last phys_begin or phys_skip_frame
+    OwnForces own_forces;
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
     uint32_t record_stride;  // 1: every particle has a record; 0: all particles share the first one
     Buffer particles;        // ParticleRecord; index: handle * record_stride
     Buffer rows;             // 2 n doubles by handle
-    Buffer own_forces;       // n doubles by handle: the `force` attributes; valid if has_own_forces
+    Buffer own_force_rows;   // n doubles by handle: the `force` attributes; valid unless OWN_FORCES_NONE
     Buffer last_rows;        // rows of the previous description, which the host can still read
     Buffer force_rows;       // n doubles by handle: the forces of the last step; used if PhysOptions.keep_forces
     // uint8_t by handle: PHYS_POSITION is set if the position came from an attribute (PhysTime.keep_last_finite), and
@@ -154,9 +193,7 @@ struct PhysSystem {
     // retained between steps and frames
     uint64_t frame;              // number of the current frame
     struct NeighbourList *lists; // PHYS_MAX_LISTS elements
-    // reordering (reorder.c)
-    bool can_reorder;   // all particles are in one group, and only the single pass of this group depends on their order
-    bool in_cell_order; // columns are in the sorted order (neighbour_list.h) of the list of this pass
+    ColumnOrder column_order;
     // versions
     uint64_t radius_version;      // increases when a radius may have changed
     uint64_t motion_version;      // increases when a position may have changed
@@ -208,6 +245,11 @@ static inline const atomic_bool *phys_stop(const PhysSystem *system) {
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, uint64_t count, uint64_t size);
 void phys_buffer_free(Buffer *buffer);
 
+// system.c: makes the system READY. Returns false if out of memory.
+bool phys_prepare(PhysSystem *system);
+// Makes the system DESCRIBED, so that the columns are filled again from the rows.
+void phys_discard_columns(PhysSystem *system);
+
 // groups.c: phys_arrange sorts the particles by group. Then phys_arrange_forces must be called, which sorts the forces.
 // Both return false if out of memory.
 bool phys_arrange(PhysSystem *system);
@@ -244,12 +286,16 @@ void phys_link_groups(PhysSystem *system);
 // step.c: takes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
-// reorder.c: phys_reorder puts the columns into the sorted order of a list, so that kernels need not look up columns.
-// phys_can_reorder returns whether the system allows this. phys_restore_order restores the ascending order of handles
-// and drops all lists. phys_forget_order only drops the lists, for columns that are about to be rebuilt.
+// reorder.c. Returns true if all particles are in one group, and if only the single pass of this group depends on their
+// order.
 bool phys_can_reorder(const PhysSystem *system);
+// Sets whether the columns may be in the order of cells. If they are and must not be, restores their order.
+void phys_allow_reorder(PhysSystem *system, bool allowed);
+// Puts the columns into the sorted order of a list, so that kernels need not look up columns.
 void phys_reorder(PhysSystem *system, struct NeighbourList *list);
+// Restores the ascending order of handles and drops all lists.
 void phys_restore_order(PhysSystem *system);
+// Only drops the lists, for columns that are about to be filled from scratch.
 void phys_forget_order(PhysSystem *system);
 
 // Applies links. The two particles of a link can be in any groups.

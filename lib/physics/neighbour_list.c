@@ -22,18 +22,13 @@ void phys_neighbour_list_free(NeighbourList *list) {
     phys_buffer_free(&list->entries);
 }
 
-// Finds `bound` and `contact_only` (NeighbourList) for a pass. Returns false if one of its forces has no bound.
-static bool is_bounded(const PairPass *pass, double *bound, bool *contact_only) {
-    *bound = 0;
-    *contact_only = true;
-    for (size_t t = 0; t < pass->term_count; t++) {
-        const PairTerm *term = &pass->terms[t];
-        if (phys_force_row(term->kind).reach == REACH_CONTACT)
-            continue;
-        *contact_only = false;
-        *bound = fmax(*bound, term->bound);
-    }
-    return *bound < INFINITY;
+// Returns NeighbourList.bound for a pass, or INFINITY if one of its forces has no bound.
+static double bound_of(const PairPass *pass) {
+    double bound = 0;
+    for (size_t t = 0; t < pass->term_count; t++)
+        if (phys_force_row(pass->terms[t].kind).reach != REACH_CONTACT)
+            bound = fmax(bound, pass->terms[t].bound);
+    return bound;
 }
 
 // Finds the particles of a pass. Returns false if there are too many ranges.
@@ -59,15 +54,13 @@ static NeighbourList *find_list(PhysSystem *system, uint32_t group, uint32_t lev
         if (list->frame < system->frame && (!spare || list->frame < spare->frame))
             spare = list;
     }
-    if (spare)
-        spare->built = false;
     return spare;
 }
 
 static bool still_idle(const PairPass *pass, const NeighbourList *list) {
     for (uint32_t index = list->view.listed; index < list->total; index++) {
         size_t column = list->view.direct ? index : list->view.column[index];
-        bool idle = list->contact_only && pass->radius[column] == 0;
+        bool idle = list->bound == 0 && pass->radius[column] == 0;
         for (size_t k = 0; k < pass->dimensions; k++)
             idle |= !isfinite(pass->position[k * pass->stride + column]);
         if (!idle)
@@ -162,12 +155,13 @@ static bool refresh_remote(const PhysSystem *system, const ListPass *work) {
 // Updates the list's copy of the particles. Returns false if a particle has moved by half the skin.
 static bool refresh_list(const PhysSystem *system, ListPass *work) {
     NeighbourList *list = work->list;
-    if (list->next_motion_version && list->next_motion_version == system->motion_version) {
+    ListState before = list->state;
+    list->state = LIST_BUILT;
+    if (before > LIST_BUILT && list->next_motion_version == system->motion_version) {
         double *quads = list->view.packed;
         list->view.packed = list->next_packed;
         list->next_packed = quads;
-        list->next_motion_version = 0;
-        return refresh_remote(system, work) && list->next_valid;
+        return refresh_remote(system, work) && before == LIST_AHEAD;
     }
     list->view.same_radii = list->radius_version == system->radius_version;
     return run_chunks(system, work, refresh_chunk) && still_idle(work->pass, list);
@@ -183,11 +177,11 @@ static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
         return false;
     Integrator integrator;
     work->sweep = &integrator;
-    work->reuse = !system->has_own_forces && !system->options.keep_forces;
+    work->reuse = system->own_forces == OWN_FORCES_NONE && !system->options.keep_forces;
     move->done = true;
     if (!phys_integrate_begin(system, 0, move->delta, move->speed_of_light, &integrator))
         return true; // the budget is exceeded, so the step is aborted
-    list->next_valid = run_chunks(system, work, step_chunk);
+    list->state = run_chunks(system, work, step_chunk) ? LIST_AHEAD : LIST_SPENT;
     list->next_motion_version = system->motion_version + 1; // the value of motion_version after the step
     phys_integrate_end(&integrator);
     return true;
@@ -220,7 +214,7 @@ static void large_forces(const ListPass *work) {
 
 static double all_pairs_cost(const NeighbourList *list) {
     double n = (double)phys_ranges_total(&list->ranges), own = list->ranges.at[0].count;
-    return (own * (own - 1) / 2 + own * (n - own)) * PAIR_COST(list->contact_only);
+    return (own * (own - 1) / 2 + own * (n - own)) * PAIR_COST(list->bound == 0);
 }
 
 uint64_t phys_max_useful_entries(const NeighbourList *list) {
@@ -266,43 +260,48 @@ void phys_adapt_skin(NeighbourList *list, uint32_t lifetime) {
 // order of columns. So the columns are put back into ascending order of handles.
 static bool sort_particles(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
     bool sorted = phys_grid_build(system, kernels, pass, list);
-    if (!system->in_cell_order || (sorted && list->view.listed == list->view.regular))
+    if (system->column_order != ORDER_BY_CELL || (sorted && list->view.listed == list->view.regular))
         return sorted;
     phys_restore_order(system);
     return sorted && phys_grid_build(system, kernels, pass, list);
 }
 
-static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
-    list->next_motion_version = 0;
-    list->built = sort_particles(system, kernels, pass, list);
-    list->radius_version = system->radius_version;
-    system->failed = false; // running out of memory here is not an error, because a pass can do without a list
-    list->age = 0;
-    if (list->built && (system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS || pays_off(list))) {
-        list->backoff = 0;
-        if (system->can_reorder)
-            phys_reorder(system, list);
-        return true;
-    }
-    list->built = false;
+// Lets a pass do without lists, because they do not pay off or there is no memory for them.
+static void pause_list(const PhysSystem *system, NeighbourList *list) {
+    list->state = LIST_PAUSED;
     if (system->remote) { // this pass gets no list until the halo is rebuilt
         list->cooldown = UINT32_MAX;
-        return false;
+        return;
     }
     list->backoff = list->backoff ? list->backoff * 2 : FIRST_COOLDOWN;
     list->backoff = list->backoff < MAX_COOLDOWN ? list->backoff : MAX_COOLDOWN;
-    list->cooldown = system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS ? 0 : list->backoff;
-    return false;
+    list->cooldown = list->backoff;
+    if (system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS)
+        list->state = LIST_DUE;
 }
 
-// Returns the list for this pass. Unless list->built is set, the list must be built before use. Returns NULL if lists
-// cannot be used.
+static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
+    bool sorted = sort_particles(system, kernels, pass, list);
+    list->radius_version = system->radius_version;
+    system->failed = false; // running out of memory here is not an error, because a pass can do without a list
+    list->age = 0;
+    if (!sorted || (system->options.neighbours != PHYS_NEIGHBOURS_ALWAYS && !pays_off(list))) {
+        pause_list(system, list);
+        return false;
+    }
+    list->state = LIST_BUILT;
+    list->backoff = 0;
+    if (system->column_order != ORDER_FIXED)
+        phys_reorder(system, list);
+    return true;
+}
+
+// Returns the list for this pass, or NULL if lists cannot be used.
 static NeighbourList *prepare_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                                    uint32_t level) {
-    double bound;
-    bool contact_only;
+    double bound = bound_of(pass);
     PassRanges ranges;
-    if (!is_bounded(pass, &bound, &contact_only) || !find_ranges(system, group, level, &ranges))
+    if (!(bound < INFINITY) || !find_ranges(system, group, level, &ranges))
         return NULL;
     uint64_t total = phys_ranges_total(&ranges);
     bool always = system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS;
@@ -313,23 +312,20 @@ static NeighbourList *prepare_list(PhysSystem *system, const Kernels *kernels, c
     if (!list)
         return NULL;
     bool same = list->group == group && list->level == level && list->dimensions == pass->dimensions &&
-                list->lanes == kernels->lanes && list->contact_only == contact_only && list->bound == bound &&
-                !memcmp(&list->ranges, &ranges, sizeof ranges);
+                list->lanes == kernels->lanes && list->bound == bound && !memcmp(&list->ranges, &ranges, sizeof ranges);
     list->frame = system->frame;
     if (!same) {
         list->group = group;
         list->level = level;
         list->dimensions = pass->dimensions;
         list->lanes = kernels->lanes;
-        list->contact_only = contact_only;
         list->bound = bound;
         list->ranges = ranges;
-        list->built = false;
-        list->cooldown = list->backoff = list->lifetime = 0;
+        list->state = LIST_DUE;
+        list->backoff = list->lifetime = 0;
         list->cost = 0;
         list->shrinking = false;
         list->skin = system->skin;
-        list->skin_is_fixed = system->remote;
     }
     return list;
 }
@@ -340,18 +336,23 @@ bool phys_lists_valid(PhysSystem *system, uint32_t age) {
     bool hold = true;
     for (int i = 0; i < PHYS_MAX_LISTS; i++) {
         ListPass work = {.kernels = kernels, .pass = &pass, .list = &system->lists[i]};
-        if (work.list->built)
+        if (phys_list_is_built(work.list))
             hold = refresh_list(system, &work) && hold && work.list->age == age;
     }
     return hold;
+}
+
+void phys_lists_invalidate(PhysSystem *system, const NeighbourList *kept) {
+    for (NeighbourList *list = system->lists; list < system->lists + PHYS_MAX_LISTS; list++)
+        if (list != kept && phys_list_is_built(list))
+            list->state = LIST_DUE;
 }
 
 void phys_lists_drop(PhysSystem *system, double skin) {
     system->skin = skin;
     for (int i = 0; i < PHYS_MAX_LISTS; i++) {
         NeighbourList *list = &system->lists[i];
-        list->built = false;
-        list->cooldown = 0;
+        list->state = LIST_DUE;
         list->skin = skin;
     }
 }
@@ -361,17 +362,18 @@ bool phys_neighbour_list_pass(PhysSystem *system, const Kernels *kernels, const 
     NeighbourList *list = prepare_list(system, kernels, pass, group, level);
     if (!list)
         return false;
-    if (list->cooldown) {
-        list->cooldown--;
+    if (list->state == LIST_PAUSED) {
+        if (--list->cooldown == 0)
+            list->state = LIST_DUE;
         return false;
     }
     ListPass work = {.kernels = kernels, .pass = pass, .list = list};
-    if (list->built && !system->remote && !refresh_list(system, &work)) {
-        list->built = false;
+    if (list->state != LIST_DUE && !system->remote && !refresh_list(system, &work)) {
+        list->state = LIST_DUE;
         list->lifetime = list->age;
         tune_skin(list);
     }
-    if (!list->built) {
+    if (list->state == LIST_DUE) {
         if (!build_list(system, kernels, pass, list))
             return false;
         refresh_list(system, &work);

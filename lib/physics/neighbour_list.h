@@ -33,6 +33,31 @@ typedef struct PassRanges {
     ColumnRange at[PHYS_MAX_RANGES];
 } PassRanges;
 
+// States of the lists of a pass. Only neighbour_list.c changes them.
+//
+//           build_list: lists do not pay off
+//     ┌─▶ DUE ────────────────────────────────────▶ PAUSED
+//     │   │ ▲                                         │
+//     │   │ └──── `cooldown` steps later ─────────────┘
+//     │   │ build_list
+//     │   ▼      step_with_list: also writes next_packed
+//     ├── BUILT ──────────────────────────────────▶ AHEAD, SPENT
+//     │   ▲                                          │ │
+//     │   └── next refresh of AHEAD; of both, if ────┘ │
+//     │       something else has moved particles       │
+//     └── next refresh of SPENT ───────────────────────┘
+//       refresh: a particle has moved by half the skin
+//
+//   From all states, another pass (prepare_list), reordered columns (phys_lists_invalidate, except PAUSED) or another
+//   halo (phys_lists_drop) leads to DUE.
+//
+//   DUE     The lists must be built before use.
+//   PAUSED  The pass computes all pairs.
+//   BUILT   The lists can be used after a refresh, unless it finds that a particle has moved by half the skin.
+//   AHEAD   As BUILT. If nothing else moves particles (next_motion_version), `next_packed` replaces a refresh.
+//   SPENT   As AHEAD, but a particle in `next_packed` has moved by half the skin.
+typedef enum ListState { LIST_DUE, LIST_PAUSED, LIST_BUILT, LIST_AHEAD, LIST_SPENT } ListState;
+
 // The lists of all particles of one pass.
 typedef struct NeighbourList {
     // the pass that the list is for
@@ -41,15 +66,13 @@ typedef struct NeighbourList {
     uint64_t frame; // frame of the last use; 0: never used
     PassRanges ranges;
     size_t dimensions;
-    size_t lanes;      // number of lanes of the kernels that use the list
-    double bound;      // largest max_distance of the forces that need no contact; 0: none
-    bool contact_only; // all forces need contact
+    size_t lanes; // number of lanes of the kernels that use the list
+    double bound; // largest max_distance of the forces that need no contact; 0: all forces need contact
     // contents
-    bool built; // false: the lists must be built before use
+    ListState state;
     ListView view;
     double *next_packed;          // `view.packed` of the next step, written by the current step; NULL for PHYS_QUAD
-    uint64_t next_motion_version; // PhysSystem.motion_version that `next_packed` matches; 0: none
-    bool next_valid;              // true if no particle in `next_packed` has moved by half the skin
+    uint64_t next_motion_version; // AHEAD, SPENT: PhysSystem.motion_version that `next_packed` matches
     uint32_t *key;                // by sorted index: position in the order of the pass
     uint32_t *cell;               // by position in `ranges`: grid cell of the particle; after sorting, its sorted index
     const uint32_t *order;        // by column: position in the order of the pass; NULL: columns are in that order
@@ -57,7 +80,6 @@ typedef struct NeighbourList {
     double contact_distance;      // typical distance of interacting particles, the unit of MIN_SKIN and MAX_SKIN
     double skin;                  // margin added to the interaction range of each pair
     uint64_t radius_version;      // PhysSystem.radius_version for which the lists were built
-    bool skin_is_fixed;           // `skin` is set by the domain decomposition
     uint64_t scanned;             // number of candidates tested in the last build
     uint64_t padded;              // number of entries of all lists, including dummies
     // tuning
@@ -65,8 +87,8 @@ typedef struct NeighbourList {
     uint32_t lifetime; // number of steps that the previous lists served
     double cost;       // cost of a step with the previous lists; 0: unknown
     bool shrinking;    // true: the last adjustment reduced the skin; false: it increased the skin
-    uint32_t cooldown; // number of further steps that compute all pairs instead of using lists
-    uint32_t backoff;  // number of steps at the start of the last `cooldown`; 0: none
+    uint32_t cooldown; // PAUSED: number of further steps that compute all pairs
+    uint32_t backoff;  // length of the last pause in steps; 0: none
     Buffer arrays;
     Buffer cells;
     Buffer entries;
@@ -83,11 +105,14 @@ void phys_neighbour_list_free(NeighbourList *list);
 // Adapts list->skin after a halo has served `lifetime` steps.
 void phys_adapt_skin(NeighbourList *list, uint32_t lifetime);
 
+// Makes all built lists DUE except `kept`, which may be NULL.
+void phys_lists_invalidate(PhysSystem *system, const NeighbourList *kept);
+
 // The two functions below are for local systems (ranks/domain.h), whose lists are rebuilt when the halo is.
 //
 // Refreshes all lists. Returns false if a list must be rebuilt, or if it has not served exactly `age` steps.
 bool phys_lists_valid(PhysSystem *system, uint32_t age);
-// Drops all lists. Lists that are built later use this skin.
+// Makes all lists DUE. Lists that are built later use this skin.
 void phys_lists_drop(PhysSystem *system, double skin);
 
 // grid.c: builds the lists of a pass for the current positions and list->skin. Returns false if out of memory, if
@@ -102,6 +127,10 @@ static inline uint32_t phys_next_remote(const PhysSystem *local, uint32_t from) 
     const bool *mark =
         from < local->particle_count ? memchr(local->remote + from, true, local->particle_count - from) : NULL;
     return mark ? (uint32_t)(mark - local->remote) : local->particle_count;
+}
+
+static inline bool phys_list_is_built(const NeighbourList *list) {
+    return list->state >= LIST_BUILT;
 }
 
 // Returns the square of the distance that a particle may move before lists with this skin are invalid. The distance is

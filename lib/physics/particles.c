@@ -16,7 +16,8 @@ bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
     double **scalars[] = {&columns->radius,  &columns->mass,   &columns->charge,
                           &columns->section, &columns->volume, &columns->ease};
     enum { SCRATCH = 3 };
-    const unsigned vector_count = system->has_own_forces ? 4 : 3, scalar_count = system->has_own_forces ? 6 : 5;
+    bool own = system->own_forces != OWN_FORCES_NONE;
+    const unsigned vector_count = own ? 4 : 3, scalar_count = own ? 6 : 5;
     // n * count cannot overflow, because the rows already exist. Without particles no memory is needed, however large n
     // is. Columns are aligned to cache lines, and kernels may read one vector beyond the end.
     enum { LINE = 8 };
@@ -69,7 +70,6 @@ void phys_update_radius_powers(PhysSystem *system) {
         power_radii(system, n - 1, columns->section);
     if (volume)
         power_radii(system, n, columns->volume);
-    system->radius_powers_valid = true;
     if (section || volume)
         phys_note_change(system, COLUMNS_EDITED);
 }
@@ -102,9 +102,9 @@ static void fill_chunk(void *context, int chunk, int chunks) {
         columns->charge[i] = particle->charge;
         columns->anchor[i] = particle->anchor;
         fill_motion(system, i);
-        if (!system->has_own_forces)
+        if (system->own_forces == OWN_FORCES_NONE)
             continue;
-        const double *own_force = (const double *)system->own_forces.bytes + n * handle;
+        const double *own_force = (const double *)system->own_force_rows.bytes + n * handle;
         columns->ease[i] = particle->ease;
         for (size_t k = 0; k < n; k++)
             columns->own_force[k * stride + i] = own_force[k];

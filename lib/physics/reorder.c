@@ -32,11 +32,12 @@ static void add_arrays(Reordering *reordering, bool positions) {
     if (positions)
         add_vector(reordering, columns->position, columns->dimensions);
     add_vector(reordering, columns->velocity, columns->dimensions);
-    if (system->has_own_forces) {
+    bool own = system->own_forces != OWN_FORCES_NONE;
+    if (own) {
         add_vector(reordering, columns->own_force, columns->dimensions);
         add_vector(reordering, columns->ease, 1);
     }
-    if (system->has_own_forces || positions)
+    if (own || positions)
         add_vector(reordering, columns->force, columns->dimensions); // if neither is true, all forces are still 0
     if (!system->record_stride)
         return;
@@ -141,15 +142,24 @@ void phys_reorder(PhysSystem *system, NeighbourList *list) {
     if (system->remote)
         move_marks(&reordering, system->remote);
     phys_parallel(system, chunks, set_order_chunk, &reordering);
-    for (int i = 0; i < PHYS_MAX_LISTS; i++)
-        system->lists[i].built &= &system->lists[i] == list;
-    list->view.direct = system->in_cell_order = true;
+    phys_lists_invalidate(system, list);
+    list->view.direct = true;
+    system->column_order = ORDER_BY_CELL;
 }
 
 void phys_forget_order(PhysSystem *system) {
-    for (int i = 0; i < PHYS_MAX_LISTS; i++)
-        system->lists[i].built = false;
-    system->in_cell_order = false;
+    phys_lists_invalidate(system, NULL);
+    if (system->column_order == ORDER_BY_CELL)
+        system->column_order = ORDER_BY_HANDLE;
+}
+
+void phys_allow_reorder(PhysSystem *system, bool allowed) {
+    if (!allowed && system->column_order == ORDER_BY_CELL)
+        phys_restore_order(system);
+    if (!allowed)
+        system->column_order = ORDER_FIXED;
+    else if (system->column_order == ORDER_FIXED)
+        system->column_order = ORDER_BY_HANDLE;
 }
 
 // Permutes the columns in place by swaps, because there may be no memory left.

@@ -29,12 +29,12 @@ static void start_chunk(void *context, int chunk, int chunks) {
     size_t count = phys_chunk_begin(columns->count, chunk + 1, chunks) - first;
     for (size_t k = 0; k < n; k++) {
         double *force = columns->force + k * stride + first;
-        if (!system->has_own_forces) { // the column own_force does not exist
+        if (system->own_forces == OWN_FORCES_NONE) { // the column own_force does not exist
             memset(force, 0, count * sizeof *force);
             continue;
         }
         const double *own_force = columns->own_force + k * stride + first;
-        if (!system->has_eased_forces)
+        if (system->own_forces == OWN_FORCES_CONSTANT)
             memcpy(force, own_force, count * sizeof *force);
         else
             for (size_t i = 0; i < count; i++)
@@ -45,7 +45,7 @@ static void start_chunk(void *context, int chunk, int chunks) {
 static void start_forces(PhysSystem *system, double clock) {
     enum { MIN_FOR_THREADS = 50000 }; // with fewer particles, one thread is used
     StartForces start = {system, clock};
-    bool ready = system->columns.forces_clear && !system->has_own_forces;
+    bool ready = system->columns.forces_clear && system->own_forces == OWN_FORCES_NONE;
     system->columns.forces_clear = false;
     if (system->columns.count && !ready)
         phys_parallel(system, phys_chunk_count(system, system->columns.count, MIN_FOR_THREADS), start_chunk, &start);

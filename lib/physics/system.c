@@ -44,14 +44,14 @@ void phys_free(PhysSystem *system) {
         return;
     Buffer *buffers[] = {&system->groups,     &system->particles,  &system->rows,           &system->force_records,
                          &system->vectors,    &system->indices,    &system->forces,         &system->column_data,
-                         &system->last_rows,  &system->not_finite, &system->from_attribute, &system->own_forces,
+                         &system->last_rows,  &system->not_finite, &system->from_attribute, &system->own_force_rows,
                          &system->force_rows, &system->terms,      &system->chain};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MAX_LISTS; i++)
         phys_neighbour_list_free(&system->lists[i]);
     free_division(system);
-    if (system->owns_threads)
+    if (!system->options.pool)
         phys_threads_free(system->threads);
     Arena home = system->home; // copied, because its memory holds the struct
     arena_free(&home);
@@ -61,6 +61,8 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
     CpuLevel best = cpu_detected.level;
     if (options->division != system->options.division)
         free_division(system);
+    if (!system->options.pool)
+        phys_threads_free(system->threads);
     system->options = *options;
     if (options->threads <= 0)
         system->options.threads = cpu_count();
@@ -68,10 +70,8 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
         system->options.threads = PHYS_MAX_THREADS;
     if (options->cpu > best)
         system->options.cpu = best;
-    if (system->owns_threads)
-        phys_threads_free(system->threads);
-    system->owns_threads = !options->pool && system->options.threads > 1;
-    system->threads = system->owns_threads ? phys_threads_new(system->options.threads) : options->pool;
+    bool needs_pool = !options->pool && system->options.threads > 1;
+    system->threads = needs_pool ? phys_threads_new(system->options.threads) : options->pool;
 }
 
 const Kernels *phys_kernels(const PhysSystem *system) {
@@ -89,16 +89,58 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     Buffer rows = system->last_rows;
     system->last_rows = system->rows;
     system->rows = rows;
-    system->failed = system->arranged = system->forces_arranged = false;
+    system->failed = false;
+    system->state = SYSTEM_DESCRIBED;
     system->dimensions = dimensions;
     system->group_count = 0;
     system->particle_count = 0;
     system->record_stride = 0;
     system->force_count = 0;
-    system->has_eased_forces = system->has_own_forces = system->any_from_attribute = false;
-    system->has_forces = false;
+    system->own_forces = OWN_FORCES_NONE;
+    system->any_from_attribute = system->has_forces = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
+}
+
+static void return_to(PhysSystem *system, SystemState state) {
+    if (system->state > state)
+        system->state = state;
+}
+
+void phys_discard_columns(PhysSystem *system) {
+    system->state = SYSTEM_DESCRIBED;
+}
+
+// Sets whether the columns may be reordered. Returns false if out of memory.
+static bool choose_order(PhysSystem *system) {
+    bool by_cell = system->column_order == ORDER_BY_CELL;
+    phys_allow_reorder(system, !system->options.division && phys_can_reorder(system));
+    // Links contain columns, which have changed if the order was restored.
+    return !by_cell || system->column_order == ORDER_BY_CELL || phys_arrange_forces(system);
+}
+
+bool phys_prepare(PhysSystem *system) {
+    if (system->failed)
+        return false;
+    if (system->state == SYSTEM_DESCRIBED) {
+        if (!phys_arrange(system) || !phys_fill_columns(system))
+            return false;
+        system->state = SYSTEM_FILLED;
+    }
+    if (system->state == SYSTEM_FILLED) {
+        if (!phys_arrange_forces(system))
+            return false;
+        system->state = SYSTEM_SORTED;
+    }
+    if (!choose_order(system))
+        return false;
+    if (system->state == SYSTEM_SORTED)
+        phys_update_radius_powers(system);
+    system->state = SYSTEM_READY;
+    Force *forces = system->forces.bytes;
+    for (uint32_t i = 0; i < system->force_count; i++)
+        forces[i].item = 0;
+    return true;
 }
 
 // Reserves memory for one more element of a buffer that holds `count`.
@@ -124,22 +166,22 @@ static void copy_vector(double *to, PhysVector from, size_t dimensions) {
 
 // Stores a particle's `force` attribute. The buffer is allocated only when the first such attribute is set.
 static void set_own_force(PhysSystem *system, uint32_t handle, PhysVector force, double ease) {
-    size_t n = system->dimensions, first = system->has_own_forces ? handle : 0;
-    if (!force && !(ease > 0) && !system->has_own_forces)
+    OwnForces kind = ease > 0 ? OWN_FORCES_EASED : force ? OWN_FORCES_CONSTANT : OWN_FORCES_NONE;
+    bool first = system->own_forces == OWN_FORCES_NONE;
+    size_t n = system->dimensions, retained = first ? 0 : handle;
+    if (first && kind == OWN_FORCES_NONE)
         return;
-    if (!phys_buffer_reserve(system, &system->own_forces, first * n * sizeof(double), system->particle_count,
+    if (!phys_buffer_reserve(system, &system->own_force_rows, retained * n * sizeof(double), system->particle_count,
                              n * sizeof(double)))
         return;
-    double *own_forces = system->own_forces.bytes;
-    if (!system->has_own_forces) {
-        memset(own_forces, 0, system->particle_count * n * sizeof *own_forces);
-        system->arranged = false; // the columns own_force and ease do not exist yet
-    }
-    if (ease > 0 && !system->has_eased_forces)
-        system->arranged = false;
-    copy_vector(own_forces + n * handle, force, n);
-    system->has_own_forces = true;
-    system->has_eased_forces |= ease > 0;
+    double *rows = system->own_force_rows.bytes;
+    if (first)
+        memset(rows, 0, system->particle_count * n * sizeof *rows);
+    copy_vector(rows + n * handle, force, n);
+    if (kind <= system->own_forces)
+        return;
+    system->own_forces = kind;
+    return_to(system, SYSTEM_DESCRIBED); // the columns own_force and ease do not exist yet, or were not filled
 }
 
 static ParticleRecord record_of(const PhysParticle *particle, uint32_t group, bool anchor) {
@@ -204,14 +246,14 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
 
 // Updates the columns, if they exist, with a particle's new attributes.
 static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRecord *record, const double *row) {
-    if (!system->arranged)
+    if (system->state == SYSTEM_DESCRIBED)
         return;
     phys_note_change(system, COLUMNS_EDITED);
     system->motion_version++;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, i = system->column_of[handle];
     if (columns->radius[i] != record->radius) {
-        system->radius_powers_valid = false;
+        return_to(system, SYSTEM_SORTED);
         system->radius_version++;
     }
     columns->radius[i] = record->radius;
@@ -221,11 +263,11 @@ static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRe
         columns->position[k * stride + i] = row[k];
         columns->velocity[k * stride + i] = row[n + k];
     }
-    if (!system->has_own_forces)
+    if (system->own_forces == OWN_FORCES_NONE)
         return;
     columns->ease[i] = record->ease;
     for (size_t k = 0; k < n; k++)
-        columns->own_force[k * stride + i] = ((const double *)system->own_forces.bytes)[n * handle + k];
+        columns->own_force[k * stride + i] = ((const double *)system->own_force_rows.bytes)[n * handle + k];
 }
 
 void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysPreserve preserve) {
@@ -275,7 +317,7 @@ uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *for
 void phys_begin_forces(PhysSystem *system) {
     system->force_count = 0;
     system->vector_doubles = 0;
-    system->forces_arranged = false;
+    return_to(system, SYSTEM_FILLED);
 }
 
 void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key) {
@@ -283,7 +325,7 @@ void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key) {
         return; // `force` comes from a failed call of phys_add_force
     ForceRecord *record = (ForceRecord *)system->force_records.bytes + force;
     record->given.key = key;
-    if (system->forces_arranged)
+    if (system->state >= SYSTEM_SORTED)
         ((Force *)system->forces.bytes)[record->arranged].given.key = key;
 }
 

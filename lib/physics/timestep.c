@@ -12,36 +12,6 @@
 
 #include <math.h>
 
-// Prepares the parts of the system that have changed since the last frame. Returns false if out of memory.
-static bool arrange_system(PhysSystem *system) {
-    if (system->failed)
-        return false;
-    if (!system->arranged) {
-        system->forces_arranged = system->radius_powers_valid = false;
-        system->arranged = phys_arrange(system) && phys_fill_columns(system);
-        if (!system->arranged)
-            return false;
-    }
-    if (!system->forces_arranged) {
-        system->radius_powers_valid = false; // the new forces possibly need other powers
-        system->forces_arranged = phys_arrange_forces(system);
-        if (!system->forces_arranged)
-            return false;
-    }
-    system->can_reorder = !system->options.division && phys_can_reorder(system);
-    if (system->in_cell_order && !system->can_reorder) {
-        phys_restore_order(system);
-        if (!phys_arrange_forces(system)) // because links contain columns, which have changed
-            return false;
-    }
-    if (!system->radius_powers_valid)
-        phys_update_radius_powers(system);
-    Force *forces = system->forces.bytes;
-    for (uint32_t i = 0; i < system->force_count; i++)
-        forces[i].item = 0;
-    return true;
-}
-
 static bool run_step(PhysSystem *system, double clock, double delta, double speed_of_light) {
     const PhysDivision *division = system->options.division;
     return (division ? division->step : phys_step)(system, clock, delta, speed_of_light);
@@ -56,14 +26,14 @@ static bool end_frame(PhysSystem *system, bool keep_last_finite) {
 }
 
 static PhysResult abort_frame(PhysSystem *system, const PhysTime *time) {
-    system->arranged = false; // the columns must be filled again from the rows, which are unchanged
+    phys_discard_columns(system);
     return (PhysResult){.status = system->failed ? PHYS_NO_MEMORY : PHYS_STOPPED, .clock = time->clock};
 }
 
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
     system->frame++;
-    if (!arrange_system(system) || (time->keep_last_finite && !phys_clear_not_finite(system))) {
+    if (!phys_prepare(system) || (time->keep_last_finite && !phys_clear_not_finite(system))) {
         result.status = PHYS_NO_MEMORY;
         return result;
     }

@@ -136,10 +136,8 @@ static bool divide(PhysSystem *system, Domain *domain, ForceReach reach) {
         domain->rebalance_interval *= 2;
     must_rebalance |= !same || domain->reach.contact != reach.contact || domain->reach.bound != reach.bound ||
                       (edited && (!domain->age || sees_farther(system, domain)));
-    bool can_reorder = phys_can_reorder(system);
-    must_rebalance |= domain->can_reorder && !can_reorder;
+    must_rebalance |= domain->local->column_order != ORDER_FIXED && !phys_can_reorder(system);
     domain->reach = reach;
-    domain->can_reorder = can_reorder;
     if (must_rebalance ? !rebalance(system, domain) : !domain_update_forces(system, domain))
         return false;
     if (!must_rebalance && edited)
@@ -201,7 +199,7 @@ static bool update_halo(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     double votes[2] = {!phys_lists_valid(local, domain->age) || (local->unlisted && left_skin(system, domain)), 0};
     for (int i = 0; i < PHYS_MAX_LISTS; i++)
-        votes[1] += local->lists[i].built ? (double)local->lists[i].padded : 0;
+        votes[1] += phys_list_is_built(&local->lists[i]) ? (double)local->lists[i].padded : 0;
     domain_reduce(system, domain, votes, 2);
     domain->padded = (uint64_t)votes[1] * ranks_count(system);
     return !(votes[0] > 0) || rebuild_local(system, domain);

@@ -76,7 +76,6 @@ typedef struct Domain {
     // uint32_t: memory of the local system's `order`, of its previous `order`, and of its `column_of`. The handles of
     // the local system are global columns.
     Buffer orders, last_orders, column_of;
-    bool can_reorder;     // result of phys_can_reorder; the same on all ranks
     Buffer remote;        // bool by local column: the particle is in the halo or has moved to another rank
     Buffer built;         // double: positions and radii of owned particles at the last rebuild, in column order
     bool built_valid;     // true if `built` was recorded

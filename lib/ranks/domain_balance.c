@@ -112,7 +112,6 @@ static bool layout_patches(PhysSystem *system, Domain *domain) {
     PairPass pass = phys_columns_pass(&system->columns);
     survey->ranges = (PassRanges){.count = 1, .at = {{0, system->particle_count}}};
     survey->total = system->particle_count;
-    survey->contact_only = domain->reach.bound == 0;
     survey->bound = domain->reach.bound;
     if (!phys_buffer_reserve(system, &survey->cells, 0, system->particle_count, sizeof(uint32_t)))
         return false;

@@ -60,7 +60,7 @@ static bool order_columns(PhysSystem *system, Domain *domain, uint32_t spare) {
         uint32_t column = had_local ? last_order[i] : i;
         if (had_local ? remote[i] : owners[i] != self)
             continue;
-        for (; !local->in_cell_order && next < arrivals && arriving[next] < column; next++)
+        for (; local->column_order != ORDER_BY_CELL && next < arrivals && arriving[next] < column; next++)
             set_column(domain, here++, arriving[next], 0);
         set_column(domain, here++, column, i);
     }
@@ -166,9 +166,9 @@ static void copy_attributes(const ColumnCopy *copy, size_t first, size_t end) {
         gather_column(sources, first, end, from->section, to->section);
     if (is_needed(system, NEED_VOLUME))
         gather_column(sources, first, end, from->volume, to->volume);
-    if (system->has_eased_forces)
+    if (system->own_forces == OWN_FORCES_EASED)
         gather_column(sources, first, end, from->ease, to->ease);
-    for (size_t k = 0; k < to->dimensions && system->has_own_forces; k++)
+    for (size_t k = 0; k < to->dimensions && system->own_forces != OWN_FORCES_NONE; k++)
         gather_column(sources, first, end, from->own_force + k * from->stride, to->own_force + k * to->stride);
 }
 
@@ -248,8 +248,7 @@ static bool copy_all(PhysSystem *system, Domain *domain) {
     domain->spare = local->column_data;
     local->column_data = memory;
     local->dimensions = system->dimensions;
-    local->has_own_forces = system->has_own_forces;
-    local->has_eased_forces = system->has_eased_forces;
+    local->own_forces = system->own_forces;
     if (!phys_buffer_reserve(system, &domain->remote, 0, (uint64_t)local->particle_count + spare + LINE,
                              sizeof(bool)) ||
         !phys_reserve_columns(local, spare))
@@ -296,7 +295,8 @@ static bool build_particles(PhysSystem *system, Domain *domain) {
     uint32_t i = had_local ? phys_next_remote(local, 0) : local->particle_count;
     for (; i < local->particle_count; i = phys_next_remote(local, i + 1))
         local->column_of[local->order[i]] = NO_COLUMN;
-    if (had_local && local->in_cell_order && (uint64_t)local->particle_count + arrivals <= local->columns.stride)
+    if (had_local && local->column_order == ORDER_BY_CELL &&
+        (uint64_t)local->particle_count + arrivals <= local->columns.stride)
         fill_gaps(system, domain);
     else if (!copy_all(system, domain))
         return false;
@@ -374,7 +374,7 @@ bool domain_update_forces(PhysSystem *system, Domain *domain) {
     local->starts[slots] = local->force_count = count;
     phys_link_groups(local);
     local->record_stride = system->record_stride;
-    local->can_reorder = domain->can_reorder;
+    phys_allow_reorder(local, phys_can_reorder(system));
     return build_random_offsets(system, domain);
 }
 

@@ -118,10 +118,11 @@ static void frames(Twins *twins, int count, bool in_cell_order, int line) {
     }
     bool kept = false;
     for (int i = 0; i < PHYS_MAX_LISTS; i++)
-        kept |= twins->listed->lists[i].built;
-    if (twins->listed->in_cell_order == in_cell_order && kept >= in_cell_order)
+        kept |= phys_list_is_built(&twins->listed->lists[i]);
+    bool by_cell = twins->listed->column_order == ORDER_BY_CELL;
+    if (by_cell == in_cell_order && kept >= in_cell_order)
         return;
-    print_error("line %d: in_cell_order is %d, built is %d\n", line, twins->listed->in_cell_order, kept);
+    print_error("line %d: cell order is %d, built is %d\n", line, by_cell, kept);
     fail();
 }
 
@@ -195,8 +196,8 @@ static void test_resting_particles_keep_lists(void **state) {
         if (linked)
             phys_add_force(system, 0, &link);
         assert_int_equal(run_until(system, STEPS, 1).steps, STEPS);
-        assert_int_equal(system->in_cell_order, !linked);
-        assert_true(system->lists[0].built);
+        assert_int_equal(system->column_order, linked ? ORDER_FIXED : ORDER_BY_CELL);
+        assert_true(phys_list_is_built(&system->lists[0]));
         assert_int_equal(system->lists[0].age, STEPS);
         phys_free(system);
     }
@@ -244,7 +245,7 @@ static void test_chunks(void **state) {
             time.keep_last_finite = f % 2;
             assert_int_equal(phys_simulate(systems[s], &time).status, PHYS_OK);
         }
-        assert_true(systems[s]->in_cell_order);
+        assert_int_equal(systems[s]->column_order, ORDER_BY_CELL);
     }
     for (int s = 1; s < SYSTEMS; s++) {
         for (uint32_t i = 0; i < MANY; i++)
@@ -284,8 +285,10 @@ static void test_strips(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels), cmocka_unit_test(test_kept_forces),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels),
+                                       cmocka_unit_test(test_kept_forces),
                                        cmocka_unit_test(test_resting_particles_keep_lists),
-                                       cmocka_unit_test(test_chunks), cmocka_unit_test(test_strips)};
+                                       cmocka_unit_test(test_chunks),
+                                       cmocka_unit_test(test_strips)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
