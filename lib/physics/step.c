@@ -68,13 +68,14 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
         if (groups[g].count)
             phys_apply_pairs(system, &groups[g], system->group_count == 1 ? &move : NULL);
     }
+    // Before the step can be aborted, because a pass may have moved particles.
+    system->motion_version++;
     if (!phys_may_continue(system))
         return false;
     // 2. Single-particle forces, motion and barriers.
     for (uint32_t g = 0; g < system->group_count && !move.done; g++)
         if (groups[g].count)
             phys_integrate(system, g, delta, speed_of_light);
-    system->motion_version++;
     bool completed = phys_may_continue(system);
     system->columns.forces_clear = completed && !system->options.keep_forces;
     return completed;

@@ -177,6 +177,48 @@ static void check_changes(size_t dimensions, const PhysOptions *options) {
     phys_free(twins.listed);
 }
 
+static bool interrupt_later(void *user_data) {
+    int *calls_left = user_data;
+    return --*calls_left == 0;
+}
+
+// A frame is interrupted at each place where this is possible, then repeated. What it had prepared for the next step is
+// not used.
+static void test_interrupted_frames_leave_no_trace(void **state) {
+    (void)state;
+    int calls_left;
+    atomic_bool interrupt;
+    Budget budget = {.memory_limit = SIZE_MAX, .should_interrupt = interrupt_later, .user_data = &calls_left};
+    PhysResult result = {.status = PHYS_STOPPED};
+    int call = 1;
+    for (; result.status == PHYS_STOPPED; call++) {
+        Twins twins = twins_of(
+            2, &(PhysOptions){
+                   .threads = 2, .cpu = cpu_detected.level, .neighbours = PHYS_NEIGHBOURS_ALWAYS, .budget = &budget});
+        begin_systems(&twins, COUNT, 1, false);
+        for (int i = 0; i < 2; i++) {
+            atomic_store(&interrupt, false);
+            calls_left = 0;
+            budget_begin(&budget, UINT64_MAX, &interrupt);
+            FRAMES(&twins, 2, true);
+            double now = twins.frame * 0.04;
+            calls_left = call;
+            result = phys_simulate(twins.listed, &(PhysTime){.last = now,
+                                                             .now = now + 0.04,
+                                                             .clock = now,
+                                                             .resolution = 0.01,
+                                                             .lockstep = true,
+                                                             .performance = 1});
+            if (result.status != PHYS_STOPPED)
+                break;
+        }
+        phys_free(twins.plain);
+        phys_free(twins.listed);
+    }
+    assert_int_equal(result.status, PHYS_OK);
+    assert_true(call > 2 * 4); // each of the four steps can be interrupted twice
+}
+
 // While no particle moves, lists are not rebuilt, with and without reordered columns.
 static void test_resting_particles_keep_lists(void **state) {
     (void)state;
@@ -287,6 +329,7 @@ static void test_strips(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels),
                                        cmocka_unit_test(test_kept_forces),
+                                       cmocka_unit_test(test_interrupted_frames_leave_no_trace),
                                        cmocka_unit_test(test_resting_particles_keep_lists),
                                        cmocka_unit_test(test_chunks),
                                        cmocka_unit_test(test_strips)};
