@@ -4,13 +4,16 @@
 // also compiles to the scalar functions. Arithmetic is written with C operators; each is one IEEE operation per lane.
 #pragma once
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
 #if defined(__AVX2__) || defined(__FMA__)
 #include <immintrin.h>
 #endif
-#if defined(__aarch64__)
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#elif defined(__aarch64__)
 #include <arm_neon.h>
 #endif
 
@@ -31,6 +34,15 @@ typedef uint64_t Bits;
 #else
 typedef double Real __attribute__((vector_size(8 * LANES)));
 typedef uint64_t Bits __attribute__((vector_size(8 * LANES)));
+#endif
+
+// The result of a comparison: one boolean per lane.
+#if LANES == 1
+typedef bool Mask;
+#elif LANES == 8
+typedef __mmask8 Mask;
+#else
+typedef int64_t Mask __attribute__((vector_size(8 * LANES))); // a lane has all bits set or none
 #endif
 
 // A set of lanes as a bit mask; bit 0 is the first lane.
@@ -240,35 +252,31 @@ KERNEL Real lanes_exponent(Bits a) {
 #endif
 }
 
-// The comparisons return the lanes where they are true. They are false for NaN.
-KERNEL Lanes lanes_equal(Real a, Real b) {
-#if LANES == 1
-    return a == b;
-#elif LANES == 8 && defined(__AVX512F__)
-    return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ);
-#elif LANES == 4 && defined(__AVX2__)
-    return (Lanes)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_EQ_OQ));
+KERNEL Lanes mask_bits(Mask a) {
+#if LANES == 4
+    return (Lanes)_mm256_movemask_pd((__m256d)a);
+#elif LANES == 2 && defined(__SSE2__)
+    return (Lanes)_mm_movemask_pd((__m128d)a);
+#elif LANES == 2
+    return (Lanes)(a[0] & 1) | (Lanes)(a[1] & 2);
 #else
-    Lanes r = 0;
-    for (int i = 0; i < LANES; i++)
-        r |= (Lanes)(a[i] == b[i]) << i;
-    return r;
+    return a;
 #endif
 }
 
-KERNEL Lanes lanes_less(Real a, Real b) {
-#if LANES == 1
-    return a < b;
-#elif LANES == 8 && defined(__AVX512F__)
-    return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
-#elif LANES == 4 && defined(__AVX2__)
-    return (Lanes)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ));
+// Compares two Reals. The result is false for NaN.
+#if LANES == 8
+#define LANES_COMPARE(a, operator, b, predicate) _mm512_cmp_pd_mask(a, b, predicate)
 #else
-    Lanes r = 0;
-    for (int i = 0; i < LANES; i++)
-        r |= (Lanes)(a[i] < b[i]) << i;
-    return r;
+#define LANES_COMPARE(a, operator, b, predicate) ((Mask)(a operator b))
 #endif
+
+KERNEL Lanes lanes_equal(Real a, Real b) {
+    return mask_bits(LANES_COMPARE(a, ==, b, _CMP_EQ_OQ));
+}
+
+KERNEL Lanes lanes_less(Real a, Real b) {
+    return mask_bits(LANES_COMPARE(a, <, b, _CMP_LT_OQ));
 }
 
 // Ziv's rounding test (ACM TOMS 17, 1991). The exact value must be within `error` of high + low. Returns the lanes in

@@ -79,19 +79,23 @@ static bool divide_region(const Pass *pass, const PairRegion *region) {
     return division && division->compute_pairs(pass->system, region);
 }
 
+// Computes a region with the kernel of the pass.
+static void compute_region(const Pass *pass, const PairRegion *region) {
+    if (divide_region(pass, region))
+        return;
+    int threads = phys_wavefront_threads(pass->system, phys_region_pairs(region));
+    if (threads)
+        run_wavefront(pass, region, threads);
+    else if (region->triangle)
+        pass->kernel->triangle(&pass->pairs, region->row, region->row_end);
+    else
+        pass->kernel->tiles(&pass->pairs, region->row, region->row_end, region->column, region->column_end);
+}
+
 // Computes all pairs within one range.
 static void pass_triangle(const Pass *pass, size_t first, size_t end) {
-    size_t count = end - first;
-    PairRegion region = {pass->kernel, &pass->pairs, true, first, end, first, end};
-    if (pass->kernel && divide_region(pass, &region))
-        return;
-    int threads = pass->kernel ? phys_wavefront_threads(pass->system, count * count / 2) : 0;
-    if (threads) {
-        run_wavefront(pass, &region, threads);
-        return;
-    }
-    if (pass->kernel && count > 2) {
-        pass->kernel->triangle(&pass->pairs, first, end);
+    if (pass->kernel && end - first > 2) {
+        compute_region(pass, &(PairRegion){pass->kernel, &pass->pairs, true, first, end, first, end});
         return;
     }
     for (size_t i = first; i < end && !phys_pass_stopped(&pass->pairs); i++)
@@ -116,13 +120,7 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
     PairRegion region = {pass->kernel, &pass->pairs, false, first, end, other, other_end};
     if (vector_count(pass, rows, columns) > vector_count(pass, columns, rows))
         region = (PairRegion){pass->kernel, &pass->pairs, false, other, other_end, first, end};
-    if (divide_region(pass, &region))
-        return;
-    int threads = phys_wavefront_threads(pass->system, rows * columns);
-    if (threads)
-        run_wavefront(pass, &region, threads);
-    else
-        pass->kernel->tiles(&pass->pairs, region.row, region.row_end, region.column, region.column_end);
+    compute_region(pass, &region);
 }
 
 // Charges the work for `pairs` pairs. Returns false if the step must be aborted. A pass with a single force has a

@@ -47,13 +47,6 @@ static void sort_doubles(double *values, size_t count) {
         }
 }
 
-static bool is_idle(const PairPass *pass, const NeighbourList *list, size_t column) {
-    bool lost = list->bound == 0 && pass->radius[column] == 0;
-    for (size_t k = 0; k < pass->dimensions; k++)
-        lost |= !isfinite(pass->position[k * pass->stride + column]);
-    return lost;
-}
-
 // Takes samples of the particles and sorts each component. The grid is chosen from the samples, so that it covers most
 // particles but not the outliers.
 static void sample_particles(const PairPass *pass, const NeighbourList *list, Samples *samples) {
@@ -62,7 +55,7 @@ static void sample_particles(const PairPass *pass, const NeighbourList *list, Sa
     for (uint32_t r = 0; r < list->ranges.count; r++) {
         const ColumnRange *range = &list->ranges.at[r];
         for (; i < range->count; i += every) {
-            if (is_idle(pass, list, range->first + i))
+            if (phys_is_idle(pass, list, range->first + i))
                 continue;
             for (size_t k = 0; k < pass->dimensions; k++)
                 samples->of[k][samples->count] = pass->position[k * pass->stride + range->first + i];
@@ -83,13 +76,6 @@ typedef struct Sorting {
     double large; // radius above which a particle is large
     Survey *surveys;
 } Sorting;
-
-static void run_chunks(Sorting *sorting, PhysTask *work, int chunks) {
-    if (chunks > 1)
-        phys_parallel(sorting->system, chunks, work, sorting);
-    else
-        work(sorting, 0, 1);
-}
 
 static int chunk_count_of(const Sorting *sorting) {
     return sorting->system ? phys_chunk_count(sorting->system, sorting->list->total, PHYS_MIN_FOR_THREADS) : 1;
@@ -171,7 +157,7 @@ static void survey_chunk(void *context, int chunk, int chunks) {
     survey = no_survey();
     for (uint32_t i = first; i < end; i++) {
         size_t column = column_of(list, i);
-        bool lost = is_idle(pass, list, column), large = !lost && pass->radius[column] > sorting->large;
+        bool lost = phys_is_idle(pass, list, column), large = !lost && pass->radius[column] > sorting->large;
         list->cell[i] = lost ? PHYS_CELL_IDLE : large ? PHYS_CELL_LARGE : 0;
         survey.large_count += large;
         if (!lost && !large)
@@ -185,7 +171,7 @@ static Survey survey_all(Sorting *sorting) {
     Survey parts[PHYS_MAX_CHUNKS], all = no_survey();
     int chunks = chunk_count_of(sorting);
     sorting->surveys = parts;
-    run_chunks(sorting, survey_chunk, chunks);
+    phys_parallel(sorting->system, chunks, survey_chunk, sorting);
     for (int s = 0; s < chunks; s++) {
         all.regular += parts[s].regular;
         all.large_count += parts[s].large_count;
@@ -279,9 +265,9 @@ static void store_chunk(void *context, int chunk, int chunks) {
 // Sorts the particles by cell. The sort is stable: within a cell, particles are in the order of the pass.
 static void sort_by_cell(Sorting *sorting, const Survey *survey) {
     int chunks = chunk_count_of(sorting);
-    run_chunks(sorting, find_cells_chunk, chunks);
+    phys_parallel(sorting->system, chunks, find_cells_chunk, sorting);
     number_sorted(sorting->list, survey, sorting->grid);
-    run_chunks(sorting, store_chunk, chunks);
+    phys_parallel(sorting->system, chunks, store_chunk, sorting);
 }
 
 // Reserves memory for the arrays of a list.

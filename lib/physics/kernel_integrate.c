@@ -50,7 +50,7 @@ KERNEL Mask lanes_behind_barrier(const IntegratePass *pass, size_t n, const Bloc
     Real start = real_set(-0.0) - (columns->uniform_mass ? real_set(radius[0]) : real_load(radius + block->first));
     for (uint32_t b = 0; b < pass->barrier_count; b++)
         clear = real_at_most_where(clear, real_zero(), height_above(&barriers[b]->given, n, block, start));
-    return mask_and(block->live, mask_not(clear));
+    return block->live & mask_not(clear);
 }
 
 KERNEL void reflect_lanes(const IntegratePass *pass, size_t n, const Block *block, const Real *before) {

@@ -1,6 +1,6 @@
 // kernel_list.c: forces of bounded range, with neighbour lists. Each lane is a target and processes its own list, in
 // the order of the pass. Every pair is computed twice, once for each particle.
-#include "physics/pair_sum.h"
+#include "physics/pair_geometry.h"
 
 // Returns the index of the radius in a quad of ListView.packed. A quad holds x, y, radius or, in three dimensions, x,
 // y, z, radius.

@@ -5,7 +5,7 @@
 // terms are added to the rows' sums immediately, in ascending order of partners. Then the tile is transposed, and the
 // terms are subtracted from the columns' sums in ascending order of rows. Tiles are processed row by row, so every
 // particle sums its partners in ascending order, as in pair_rows.c.
-#include "physics/pair_sum.h"
+#include "physics/pair_geometry.h"
 
 // The rows of a tile.
 typedef struct Rows {
@@ -27,7 +27,7 @@ KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask l
         return;
     if (shape.lead != LEAD_NONE) {
         Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid, false, false};
-        Mask applies = mask_and(pair.valid, rows->lead);
+        Mask applies = pair.valid & rows->lead;
         if (!lead_applies)
             applies = real_differs_where(applies, pair_source(lead_need(shape), &partner), real_zero());
         Real coefficient = lead_coefficient(shape, &pairs);
@@ -110,8 +110,8 @@ KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size
 // and only the sums of the rows are needed.
 KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
     for (size_t k = 0; k < count; k++) {
-        Mask self = mask_and(mask_first(k + 1), mask_not(mask_first(k)));
-        add_column(pass, shape, rows, mask_and(rows->live, mask_not(self)), i + k, false, NULL, 0);
+        Mask self = mask_first(k + 1) & mask_not(mask_first(k));
+        add_column(pass, shape, rows, rows->live & mask_not(self), i + k, false, NULL, 0);
     }
 }
 

@@ -1,11 +1,12 @@
-// lanes.h: SIMD operations for formulas and kernels. Adds masks to maths/lanes.h.
+// lanes.h: SIMD operations for formulas and kernels, in addition to those of maths/lanes.h.
 //
-// Real holds LANES doubles, and Mask holds one boolean per lane. All operations on Real are single IEEE operations, so
-// a formula gives bit-identical results for every width. 8 lanes use AVX-512 and 4 use AVX2. 2 lanes use the vector
-// extension of gcc and clang, which compiles to SSE2, NEON or SIMD128. One lane is plain C, for cases without vectors:
-// any number of dimensions, groups of a few particles, links and reflections.
+// Real holds LANES doubles, and Mask holds one boolean per lane. Masks are combined with & and |. All operations on
+// Real are single IEEE operations, so a formula gives bit-identical results for every width. 8 lanes use AVX-512 and 4
+// use AVX2. 2 lanes use the vector extension of gcc and clang, which compiles to SSE2, NEON or SIMD128. One lane is
+// plain C, for cases without vectors: any number of dimensions, groups of a few particles, links and reflections.
 #pragma once
 
+#include "maths/arrays.h"
 #include "maths/lanes.h"
 
 #include <float.h>
@@ -13,28 +14,22 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#elif defined(__wasm_simd128__)
+#if defined(__wasm_simd128__)
 #include <wasm_simd128.h>
 #endif
 
 #if LANES == 1
 #define LANES_LEVEL CPU_SCALAR
 #define PER_ISA(name) name##_one
-typedef bool Mask;
-#elif LANES == 8
-#define LANES_LEVEL CPU_AVX512
-#define PER_ISA(name) name##_avx512
-typedef __mmask8 Mask;
-#else
-#define LANES_LEVEL (LANES == 4 ? CPU_AVX2 : CPU_SCALAR)
-#if LANES == 4
+#elif LANES == 2
+#define LANES_LEVEL CPU_SCALAR
+#define PER_ISA(name) name##_two
+#elif LANES == 4
+#define LANES_LEVEL CPU_AVX2
 #define PER_ISA(name) name##_avx2
 #else
-#define PER_ISA(name) name##_two
-#endif
-typedef int64_t Mask __attribute__((vector_size(8 * LANES))); // a lane has all bits set or none
+#define LANES_LEVEL CPU_AVX512
+#define PER_ISA(name) name##_avx512
 #endif
 
 // Returns a mask of the first `count` lanes.
@@ -51,31 +46,11 @@ KERNEL Mask mask_first(size_t count) {
 #endif
 }
 
-KERNEL Mask mask_and(Mask a, Mask b) {
-    return a & b;
-}
-
-KERNEL Mask mask_or(Mask a, Mask b) {
-    return a | b;
-}
-
 KERNEL Mask mask_not(Mask a) {
 #if LANES == 1
     return !a;
 #else
     return (Mask)~a;
-#endif
-}
-
-KERNEL Lanes mask_bits(Mask a) {
-#if LANES == 4
-    return (Lanes)_mm256_movemask_pd((__m256d)a);
-#elif LANES == 2 && defined(__SSE2__)
-    return (Lanes)_mm_movemask_pd((__m128d)a);
-#elif LANES == 2
-    return (Lanes)(a[0] & 1) | (Lanes)(a[1] & 2);
-#else
-    return a;
 #endif
 }
 
@@ -188,6 +163,31 @@ KERNEL Real real_max(Real a, Real b) {
 #else
     return real_select(real_less(b, a), a, b);
 #endif
+}
+
+// Computes base^power with a function call. In lanes outside the mask, uses 1 instead of the base, because pow is slow
+// for some numbers, such as negative ones.
+static __attribute__((noinline, unused)) Real pow_by_lane(Mask mask, Real base, double power) {
+    double lanes[LANES];
+    real_store(lanes, real_select(mask, base, real_set(1)));
+    maths_arrays(LANES_LEVEL)->pow(lanes, &power, 0, LANES, lanes);
+    return real_load(lanes);
+}
+
+// Returns true if the exponent needs no function call.
+static inline bool pow_is_plain(double power) {
+    return power == 1 || power == 2 || power <= 0;
+}
+
+// Returns base^power in the lanes of the mask; other lanes are undefined. A negative exponent counts as 0. `plain` may
+// be true only if pow_is_plain(power). In loops `plain` should be a compile-time constant: even a call that never
+// happens makes the compiler spill registers.
+KERNEL Real real_pow(bool plain, Mask mask, Real base, double power) {
+    if (power == 1)
+        return base;
+    if (power == 2)
+        return base * base;
+    return plain || power <= 0 ? real_set(1) : pow_by_lane(mask, base, power);
 }
 
 #if LANES > 1

@@ -58,14 +58,9 @@ static NeighbourList *find_list(PhysSystem *system, uint32_t group, uint32_t lev
 }
 
 static bool still_idle(const PairPass *pass, const NeighbourList *list) {
-    for (uint32_t index = list->view.listed; index < list->total; index++) {
-        size_t column = list->view.direct ? index : list->view.column[index];
-        bool idle = list->bound == 0 && pass->radius[column] == 0;
-        for (size_t k = 0; k < pass->dimensions; k++)
-            idle |= !isfinite(pass->position[k * pass->stride + column]);
-        if (!idle)
+    for (uint32_t index = list->view.listed; index < list->total; index++)
+        if (!phys_is_idle(pass, list, list->view.direct ? index : list->view.column[index]))
             return false;
-    }
     return true;
 }
 

@@ -122,6 +122,15 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
 // neighbour_list.c: returns the number of entries above which a pass with lists costs more than computing all pairs.
 uint64_t phys_max_useful_entries(const NeighbourList *list);
 
+// Returns true if a particle has no partners: its position is not finite, or all forces need contact and its radius is
+// 0.
+static inline bool phys_is_idle(const PairPass *pass, const NeighbourList *list, size_t column) {
+    bool idle = list->bound == 0 && pass->radius[column] == 0;
+    for (size_t k = 0; k < pass->dimensions; k++)
+        idle |= !isfinite(pass->position[k * pass->stride + column]);
+    return idle;
+}
+
 // Returns the first remote column at or after `from`. If there is none, returns the number of columns.
 static inline uint32_t phys_next_remote(const PhysSystem *local, uint32_t from) {
     const bool *mark =

@@ -11,7 +11,7 @@
 
 #include "physics/forces.h"
 #include "physics/kernels.h"
-#include "physics/pow_lanes.h"
+#include "physics/lanes.h"
 
 // One particle of each of LANES pairs.
 typedef struct PairEnd {
@@ -36,7 +36,7 @@ typedef struct Pairs {
     const PairEnd *target;
     const PairEnd *partner;
     Mask contact; // lanes with l < r₁+r₂ where neither radius is 0
-    bool plain;   // no exponent in the pass needs a function call (pow_lanes.h)
+    bool plain;   // no exponent in the pass needs a function call (pow_is_plain)
     bool linear;  // all exponents are 1
 } Pairs;
 

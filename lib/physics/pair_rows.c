@@ -1,8 +1,23 @@
-// pair_rows.c: forces between one particle and a range of particles, one pair at a time, for any number of dimensions
-// and forces.
+// pair_rows.c: forces between one particle and a range of particles, and between the two particles of a link
+// (`!distance`, spec physics.md 4.1). Computes one pair at a time, for any number of dimensions and forces.
 #define LANES 1
+#include "physics/neighbour_list.h"
 #include "physics/pair_formulas.h"
 #include "physics/pair_wavefront.h"
+
+KERNEL double distance_between(const PairPass *pass, size_t n, size_t i, size_t j) {
+    double square = 0;
+    for (size_t k = 0; k < n; k++) {
+        double d = pass->position[k * pass->stride + j] - pass->position[k * pass->stride + i];
+        square += d * d;
+    }
+    return sqrt(square);
+}
+
+// Returns true if particles at this distance can interact.
+KERNEL bool is_valid_distance(double length) {
+    return length > 0 && length <= DBL_MAX;
+}
 
 // Adds a force with coefficient K along the line between particles i and j.
 KERNEL void add_pair(const PairPass *pass, size_t n, size_t i, size_t j, double inverse, double coefficient) {
@@ -22,13 +37,8 @@ KERNEL PairEnd end_at(const PairPass *pass, size_t i) {
 KERNEL void row_forces(const PairPass *pass, size_t n, size_t i, size_t first, size_t end) {
     const PairEnd target = end_at(pass, i);
     for (size_t j = first; j < end; j++) {
-        double square = 0;
-        for (size_t k = 0; k < n; k++) {
-            double d = pass->position[k * pass->stride + j] - pass->position[k * pass->stride + i];
-            square += d * d;
-        }
-        PairGeometry geometry = {.length = sqrt(square)};
-        geometry.valid = geometry.length > 0 && geometry.length <= DBL_MAX;
+        PairGeometry geometry = {.length = distance_between(pass, n, i, j)};
+        geometry.valid = is_valid_distance(geometry.length);
         if (!geometry.valid)
             continue;
         const PairEnd partner = end_at(pass, j);
@@ -57,5 +67,33 @@ void phys_pair_row(const PairPass *pass, size_t i, size_t first, size_t end) {
         break;
     default:
         row_forces(pass, pass->dimensions, i, first, end);
+    }
+}
+
+static bool link_coefficient(const Force *force, double length, double *coefficient) {
+    switch (force->given.kind) {
+#define LINK(KIND, name)                                                                                               \
+    case PHYS_##KIND:                                                                                                  \
+        return link_##name(&force->given, force->strength, length, coefficient);
+#define OTHER(KIND, ...) case PHYS_##KIND:
+        PHYS_FORCES(PHYS_NO_ROW, LINK, PHYS_NO_ROW, PHYS_NO_ROW)
+        PHYS_FORCES(OTHER, PHYS_NO_ROW, OTHER, OTHER)
+#undef LINK
+#undef OTHER
+    case PHYS_FORCE_KINDS:
+        break;
+    }
+    __builtin_unreachable(); // STAGE_LINK has only links
+}
+
+void phys_apply_links(const Columns *columns, ForceRange forces) {
+    PairPass pass = phys_columns_pass(columns);
+    for (const Force *force = forces.begin; force < forces.end; force++) {
+        uint32_t from = force->given.from, to = force->given.to;
+        if (from == to) // then there may be no particle, and no column
+            continue;
+        double coefficient, length = distance_between(&pass, pass.dimensions, from, to);
+        if (is_valid_distance(length) && link_coefficient(force, length, &coefficient))
+            add_pair(&pass, pass.dimensions, from, to, 1 / length, coefficient);
     }
 }

@@ -5,7 +5,7 @@
 #include "maths/random.h"
 #include "physics/integrate.h"
 #include "physics/kernels.h"
-#include "physics/pow_lanes.h"
+#include "physics/lanes.h"
 
 // LANES particles in a step. Component k of a vector is at [k · step]. With several lanes, the vectors are copies in
 // registers (step 1). With one lane, they point into the columns (step is the columns' stride).
@@ -195,11 +195,11 @@ KERNEL void single_barrier(const Singles *s) {
     if (barrier->has_minimum && barrier->minimum > 0)
         below = real_less_where(real_at_most_where(block->live, real_zero(), height), height, minimum);
     if (barrier->has_maximum)
-        above = real_less_where(mask_and(block->live, mask_not(below)), maximum, height);
+        above = real_less_where(block->live & mask_not(below), maximum, height);
     if (!mask_any(below) && !mask_any(above))
         return;
     Real depth = real_select(below, minimum - height, height - maximum);
-    Real size = real_pow(false, mask_or(below, above), depth, barrier->power) * real_set(s->force->strength);
+    Real size = real_pow(false, below | above, depth, barrier->power) * real_set(s->force->strength);
     for (size_t k = 0; k < s->n; k++) {
         Real f = vector_component(barrier->vector2, k) * size, *sum = &block->force[k * block->step];
         *sum = real_sub_where(above, real_add_where(below, *sum, f), f);

@@ -16,7 +16,7 @@ enum {
 typedef void PhysTask(void *context, int chunk, int chunks);
 
 // Calls `work` for chunks 0 to chunks - 1, in any order, on the caller's thread and idle threads of the pool. Chunk 0
-// runs on the caller's thread.
+// runs on the caller's thread. If there is only one chunk, `system` may be NULL.
 void phys_parallel(const PhysSystem *system, int chunks, PhysTask *work, void *context);
 
 // Returns how many threads to use for a job of `units` of work that takes 10 to 50 µs, which is too short to wake a

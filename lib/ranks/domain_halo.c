@@ -89,20 +89,28 @@ static double *reserve_numbers(PhysSystem *system, Domain *domain, uint64_t coun
     return phys_buffer_reserve(system, &domain->message, 0, count, sizeof(double)) ? domain->message.bytes : NULL;
 }
 
-// Copies one vector of each of the `count` particles in `columns` to `to`, component by component. column_of[c] is the
-// index of column c in `vectors`; NULL: the index is c. `at` describes the layout of `vectors`.
-static void pack_vectors(const double *vectors, const Columns *at, const uint32_t *column_of, const uint32_t *columns,
-                         size_t count, double *to) {
+typedef enum Direction { SEND, RECEIVE } Direction;
+
+// Copies one vector of each of the `count` particles in `columns` to a message, or from a received message, component
+// by component. column_of[c] is the index of column c in `vectors`; NULL: the index is c. `at` describes the layout of
+// `vectors`.
+static void copy_vectors(Direction direction, double *vectors, const Columns *at, const uint32_t *column_of,
+                         const uint32_t *columns, size_t count, double *message) {
     for (size_t k = 0; k < at->dimensions; k++)
-        for (size_t i = 0; i < count; i++)
-            *to++ = vectors[k * at->stride + (column_of ? column_of[columns[i]] : columns[i])];
+        for (size_t i = 0; i < count; i++, message++) {
+            double *number = &vectors[k * at->stride + (column_of ? column_of[columns[i]] : columns[i])];
+            if (direction == SEND)
+                *message = *number;
+            else
+                *number = *message;
+        }
 }
 
-static void unpack_vectors(double *vectors, const Columns *at, const uint32_t *column_of, const uint32_t *columns,
-                           size_t count, const double *from) {
-    for (size_t k = 0; k < at->dimensions; k++)
-        for (size_t i = 0; i < count; i++)
-            vectors[k * at->stride + (column_of ? column_of[columns[i]] : columns[i])] = *from++;
+// Copies positions and velocities in the system's columns to or from a message.
+static void copy_motion(Direction direction, const Columns *at, const uint32_t *columns, size_t count,
+                        double *message) {
+    copy_vectors(direction, at->position, at, NULL, columns, count, message);
+    copy_vectors(direction, at->velocity, at, NULL, columns, count, message + at->dimensions * count);
 }
 
 static void pack_columns(const uint32_t *columns, size_t count, double *to) {
@@ -129,8 +137,7 @@ static bool send_movers(PhysSystem *system, Domain *domain, const Transfers *to)
         if (r == ranks_self(system))
             continue;
         pack_columns(domain_transfer(to, 0), all, numbers);
-        pack_vectors(columns->position, columns, NULL, domain_transfer(to, r), count, numbers + all);
-        pack_vectors(columns->velocity, columns, NULL, domain_transfer(to, r), count, numbers + all + n * count);
+        copy_motion(SEND, columns, domain_transfer(to, r), count, numbers + all);
         send_message(system, domain, r, all + 2 * n * count);
     }
     return numbers;
@@ -146,7 +153,7 @@ static bool receive_movers(PhysSystem *system, Domain *domain, const double *tab
     if (!all)
         return true;
     size_t mine = (size_t)row[self], next = 0;
-    const double *numbers = reserve_numbers(system, domain, all + 2 * n * mine);
+    double *numbers = reserve_numbers(system, domain, all + 2 * n * mine);
     if (!numbers || !reserve_transfers(system, moved, mine))
         return false;
     receive_message(system, domain, from, all + 2 * n * mine);
@@ -161,8 +168,7 @@ static bool receive_movers(PhysSystem *system, Domain *domain, const double *tab
                 !domain_list_column(system, &domain->boundary, column))
                 return false;
         }
-    unpack_vectors(columns->position, columns, NULL, moved->items.bytes, mine, numbers + all);
-    unpack_vectors(columns->velocity, columns, NULL, moved->items.bytes, mine, numbers + all + n * mine);
+    copy_motion(RECEIVE, columns, moved->items.bytes, mine, numbers + all);
     return true;
 }
 
@@ -273,84 +279,58 @@ bool domain_move(PhysSystem *system, Domain *domain) {
     return done && phys_may_continue(system);
 }
 
-static bool send_halo(PhysSystem *system, Domain *domain) {
-    const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, ranks = ranks_count(system);
-    for (uint32_t r = 0; r < ranks; r++) {
-        size_t count = domain_transfer_count(&domain->to, r);
+// Sends or receives the positions of particles. In a new halo, their columns precede the positions.
+static bool transfer_positions(PhysSystem *system, Domain *domain, Direction direction, bool new_halo) {
+    const Transfers *transfers = direction == SEND ? &domain->to : &domain->from;
+    const PhysSystem *home = new_halo ? system : domain->local;
+    const uint32_t *column_of = new_halo ? NULL : home->column_of;
+    for (uint32_t r = 0; r < ranks_count(system); r++) {
+        size_t count = domain_transfer_count(transfers, r), head = new_halo ? count : 0;
+        size_t length = head + system->dimensions * count;
         if (!count)
             continue;
-        double *numbers = reserve_numbers(system, domain, (1 + n) * count);
+        double *numbers = reserve_numbers(system, domain, length);
         if (!numbers)
             return false;
-        pack_columns(domain_transfer(&domain->to, r), count, numbers);
-        pack_vectors(columns->position, columns, NULL, domain_transfer(&domain->to, r), count, numbers + count);
-        send_message(system, domain, r, (1 + n) * count);
-    }
-    return true;
-}
-
-static bool receive_halo(PhysSystem *system, Domain *domain, const double *table) {
-    const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, ranks = ranks_count(system);
-    size_t self = ranks_self(system), total = 0;
-    for (size_t r = 0; r < ranks; r++)
-        total += (size_t)table[r * ranks + self];
-    if (!reserve_transfers(system, &domain->from, total))
-        return false;
-    Transfers *from = &domain->from;
-    from->start[0] = 0;
-    for (uint32_t r = 0; r < ranks; r++) {
-        size_t count = (size_t)table[r * ranks + self];
-        from->start[r + 1] = from->start[r] + (uint32_t)count;
-        if (!count)
-            continue;
-        const double *numbers = reserve_numbers(system, domain, (1 + n) * count);
-        if (!numbers)
-            return false;
-        receive_message(system, domain, r, (1 + n) * count);
-        uint32_t *items = (uint32_t *)from->items.bytes + from->start[r];
-        for (size_t i = 0; i < count; i++) {
+        uint32_t *items = (uint32_t *)transfers->items.bytes + transfers->start[r];
+        if (direction == RECEIVE)
+            receive_message(system, domain, r, length);
+        else
+            pack_columns(items, head, numbers);
+        for (size_t i = 0; i < head && direction == RECEIVE; i++) {
             items[i] = (uint32_t)numbers[i];
             if (!domain_list_column(system, &domain->arrivals, items[i]))
                 return false;
         }
-        unpack_vectors(columns->position, columns, NULL, items, count, numbers + count);
+        copy_vectors(direction, home->columns.position, &home->columns, column_of, items, count, numbers + head);
+        if (direction == SEND)
+            send_message(system, domain, r, length);
     }
+    return true;
+}
+
+// Sets domain->from to the numbers of particles that this rank receives.
+static bool expect_transfers(PhysSystem *system, Domain *domain, const double *table) {
+    size_t ranks = ranks_count(system), total = 0;
+    const double *received = table + ranks_self(system);
+    for (size_t r = 0; r < ranks; r++)
+        total += (size_t)received[r * ranks];
+    if (!reserve_transfers(system, &domain->from, total))
+        return false;
+    domain->from.start[0] = 0;
+    for (size_t r = 0; r < ranks; r++)
+        domain->from.start[r + 1] = domain->from.start[r] + (uint32_t)received[r * ranks];
     return true;
 }
 
 bool domain_find_halo(PhysSystem *system, Domain *domain) {
     const double *table;
     return domain_select(system, domain) && sort_transfers(system, domain, &domain->to) &&
-           (table = exchange_counts(system, domain, &domain->to)) && send_halo(system, domain) &&
-           receive_halo(system, domain, table) && phys_may_continue(system); // an interrupted exchange delivers zeros
+           (table = exchange_counts(system, domain, &domain->to)) && transfer_positions(system, domain, SEND, true) &&
+           expect_transfers(system, domain, table) && transfer_positions(system, domain, RECEIVE, true) &&
+           phys_may_continue(system); // an interrupted exchange delivers zeros
 }
 
 bool domain_exchange(PhysSystem *system, Domain *domain) {
-    const Columns *columns = &domain->local->columns;
-    size_t n = system->dimensions, ranks = ranks_count(system);
-    for (uint32_t r = 0; r < ranks; r++) {
-        size_t count = domain_transfer_count(&domain->to, r);
-        double *numbers = count ? reserve_numbers(system, domain, n * count) : NULL;
-        if (!count)
-            continue;
-        if (!numbers)
-            return false;
-        pack_vectors(columns->position, columns, domain->local->column_of, domain_transfer(&domain->to, r), count,
-                     numbers);
-        send_message(system, domain, r, n * count);
-    }
-    for (uint32_t r = 0; r < ranks; r++) {
-        size_t count = domain_transfer_count(&domain->from, r);
-        const double *numbers = count ? reserve_numbers(system, domain, n * count) : NULL;
-        if (!count)
-            continue;
-        if (!numbers)
-            return false;
-        receive_message(system, domain, r, n * count);
-        unpack_vectors(columns->position, columns, domain->local->column_of, domain_transfer(&domain->from, r), count,
-                       numbers);
-    }
-    return true;
+    return transfer_positions(system, domain, SEND, false) && transfer_positions(system, domain, RECEIVE, false);
 }
