@@ -106,8 +106,7 @@ static void survey_particle(const PairPass *pass, Survey *survey, size_t column)
     }
 }
 
-// Extends *low and *high to cover `count` numbers. Returns false if one of them is not finite.
-static bool find_extremes(const double *numbers, size_t count, double *low, double *high) {
+bool phys_find_extremes(const double *numbers, size_t count, double *low, double *high) {
     enum { WIDE = 8 }; // numbers processed together, so that a compiler can vectorise the loop
     double min[WIDE], max[WIDE], rest[WIDE], lost = 0;
     for (size_t m = 0; m < WIDE; m++) {
@@ -125,8 +124,8 @@ static bool find_extremes(const double *numbers, size_t count, double *low, doub
         }
     }
     for (size_t m = 0; m < WIDE; m++) {
-        *low = fmin(*low, min[m]);
-        *high = fmax(*high, max[m]);
+        *low = min[m] < *low ? min[m] : *low;
+        *high = max[m] > *high ? max[m] : *high;
         lost += rest[m];
     }
     return lost == 0;
@@ -136,9 +135,10 @@ static bool find_extremes(const double *numbers, size_t count, double *low, doub
 // `survey` must not be used.
 static bool survey_regular(const Sorting *sorting, size_t first, size_t count, Survey *survey) {
     const PairPass *pass = sorting->pass;
-    bool regular = find_extremes(pass->radius + first, count, &survey->min_radius, &survey->max_radius);
+    bool regular = phys_find_extremes(pass->radius + first, count, &survey->min_radius, &survey->max_radius);
     for (size_t k = 0; k < pass->dimensions && regular; k++)
-        regular = find_extremes(pass->position + k * pass->stride + first, count, &survey->low[k], &survey->high[k]);
+        regular =
+            phys_find_extremes(pass->position + k * pass->stride + first, count, &survey->low[k], &survey->high[k]);
     survey->regular = (uint32_t)count;
     return regular && survey->min_radius > 0 && survey->max_radius <= sorting->large;
 }

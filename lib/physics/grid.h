@@ -60,6 +60,9 @@ typedef struct ListChunk {
 // value. Returns false if contact_distance is too small or too large.
 bool phys_grid_layout(const PairPass *pass, NeighbourList *list, double max, Grid *grid, double *max_radius);
 
+// grid.c: extends *low and *high to cover `count` numbers. Returns false if one of them is not finite.
+bool phys_find_extremes(const double *numbers, size_t count, double *low, double *high);
+
 // grid_search.c: builds the lists of all regular particles, padded with the sorted index `dummy`. Returns false if out
 // of memory, or if the lists would not pay off.
 bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy,

@@ -10,6 +10,7 @@
 // The halo is valid until a particle has moved by half the skin (neighbour_list.h). Then particles migrate, and halos
 // and lists are rebuilt on all ranks together. At the end of a frame all ranks receive all rows. The columns of the
 // whole system are not updated then, because they are not used while the decomposition continues.
+//
 // States of a domain. Only domain.c changes them.
 //
 //              domain_begin                        domain_end
@@ -102,8 +103,8 @@ typedef struct Domain {
     Buffer rank_seconds;         // double by rank: `seconds` of that rank
 } Domain;
 
-// domain.c: the hooks of PhysDivision (physics/division.h), and ends of states. domain_begin decides whether this frame
-// uses domain decomposition, with the same result on all ranks. domain_step then updates or rebuilds the halo.
+// domain.c: hooks of PhysDivision (physics/division.h). domain_begin decides whether this frame uses domain
+// decomposition, with the same result on all ranks. If so, domain_step updates or rebuilds the halo before each step.
 void domain_begin(PhysSystem *system, const PhysTime *time);
 bool domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 bool domain_end(PhysSystem *system, bool keep_last_finite);

@@ -195,7 +195,7 @@ static void copy_link_ends_back(const PhysSystem *system, const Domain *domain) 
     }
 }
 
-enum { RUN_LENGTH = 64, SIDE_BY_SIDE = 8, MAX_PATCHES = 32 };
+enum { RUN_LENGTH = 64, MAX_PATCHES = 32 };
 
 // Returns true if the RUN_LENGTH particles starting at `first` are certainly in interior patches, which is the
 // common case. Tests all patches that the particles' bounding box overlaps. The box is small if the columns are in
@@ -203,25 +203,13 @@ enum { RUN_LENGTH = 64, SIDE_BY_SIDE = 8, MAX_PATCHES = 32 };
 static bool run_is_interior(const Columns *columns, const Grid *patches, const uint32_t *interior, size_t first) {
     uint32_t low[PHYS_VECTOR_DIMENSIONS] = {0}, high[PHYS_VECTOR_DIMENSIONS] = {0}, count = 1;
     for (size_t k = 0; k < patches->dimensions; k++) {
-        const double *x = columns->position + k * columns->stride + first;
-        double min[SIDE_BY_SIDE], max[SIDE_BY_SIDE], finite[SIDE_BY_SIDE] = {0};
-        memcpy(min, x, sizeof min);
-        memcpy(max, x, sizeof max);
-        for (size_t i = 0; i < RUN_LENGTH; i += SIDE_BY_SIDE)
-            for (size_t l = 0; l < SIDE_BY_SIDE; l++) {
-                min[l] = x[i + l] < min[l] ? x[i + l] : min[l];
-                max[l] = x[i + l] > max[l] ? x[i + l] : max[l];
-                finite[l] += x[i + l] * 0;
-            }
-        for (size_t l = 1; l < SIDE_BY_SIDE; l++) {
-            min[0] = min[l] < min[0] ? min[l] : min[0];
-            max[0] = max[l] > max[0] ? max[l] : max[0];
-            finite[0] += finite[l];
-        }
-        low[k] = phys_axis_cell(patches, k, min[0]);
-        high[k] = phys_axis_cell(patches, k, max[0]);
+        double min = INFINITY, max = -INFINITY;
+        if (!phys_find_extremes(columns->position + k * columns->stride + first, RUN_LENGTH, &min, &max))
+            return false;
+        low[k] = phys_axis_cell(patches, k, min);
+        high[k] = phys_axis_cell(patches, k, max);
         count *= high[k] - low[k] < MAX_PATCHES ? high[k] - low[k] + 1 : MAX_PATCHES + 1;
-        if (!(finite[0] == 0) || count > MAX_PATCHES)
+        if (count > MAX_PATCHES)
             return false;
     }
     bool all = true;
