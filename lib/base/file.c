@@ -49,37 +49,66 @@ bool file_version(Arena *arena, const FileAccess *file_access, const char *path,
     return found;
 }
 
+bool text_read(Text *text, int file, size_t max_len) {
+    enum { BLOCK = 1 << 16 };
+    ssize_t got = 1;
+    text_add_c(text, "");
+    while (got != 0 && text->len <= max_len) {
+        if (text->capacity - text->len < 2)
+            text_reserve(text, text->len > BLOCK ? text->len : BLOCK);
+        got = read(file, text->bytes + text->len, text->capacity - text->len - 1);
+        if (got < 0 && errno != EINTR)
+            return false;
+        text->len += got > 0 ? (size_t)got : 0;
+        text->bytes[text->len] = 0;
+    }
+    return true;
+}
+
+// Returns the reason why a file cannot be read as a whole, or NULL.
+static const char *check_file(const struct stat *info, bool regular, size_t limit) {
+    if (S_ISDIR(info->st_mode))
+        return "it is a directory";
+    if (regular && !S_ISREG(info->st_mode))
+        return "it is not a regular file";
+    return info->st_size > 0 && (uintmax_t)info->st_size > limit ? "it is too large" : NULL;
+}
+
+// Adds at most `limit` bytes of an open file. Returns the reason for a failure, or NULL.
+static const char *read_limited(Text *text, int file, size_t limit) {
+    size_t end = limit > SIZE_MAX - text->len ? SIZE_MAX : text->len + limit;
+    if (!text_read(text, file, end))
+        return strerror(errno);
+    return text->len > end ? "it is too large" : NULL;
+}
+
+const char *text_read_regular(Text *text, int file, size_t limit) {
+    struct stat info;
+    const char *problem = file < 0 || fstat(file, &info) != 0 ? strerror(errno) : check_file(&info, true, limit);
+    text_add_c(text, "");
+    if (!problem)
+        problem = read_limited(text, file, limit);
+    if (file >= 0)
+        close(file);
+    return problem;
+}
+
+const char *text_read_file(Text *text, const char *path, size_t limit) {
+    return text_read_regular(text, file_open_at(AT_FDCWD, path, O_RDONLY | O_NONBLOCK, 0), limit);
+}
+
 typedef struct Reading {
-    Arena *arena;
+    Text text;
     int file;
     size_t expected;
     size_t limit;
-    Str bytes;
     const char *problem; // NULL: success
 } Reading;
 
-// Reads to the end of the file, or until the limit is exceeded.
 static void read_all(void *context) {
     Reading *reading = context;
-    size_t capacity = reading->expected + 1, len = 0;
-    char *buffer = arena_alloc(reading->arena, capacity);
-    for (;;) {
-        if (len + 1 >= capacity) {
-            buffer = arena_grow(reading->arena, buffer, capacity, capacity * 2);
-            capacity *= 2;
-        }
-        ssize_t got = read(reading->file, buffer + len, capacity - len - 1);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0)
-            reading->problem = strerror(errno);
-        else if ((len += (size_t)got) > reading->limit)
-            reading->problem = "it is too large";
-        if (got <= 0 || reading->problem)
-            break;
-    }
-    buffer[len] = 0;
-    reading->bytes = (Str){buffer, len};
+    text_reserve(&reading->text, reading->expected);
+    reading->problem = read_limited(&reading->text, reading->file, reading->limit);
 }
 
 static bool copy_host_file(Arena *arena, Str host_bytes, size_t limit, Str *bytes, Str *version, const char **problem) {
@@ -111,24 +140,22 @@ bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bo
             close(file);
         return false;
     }
-    Reading reading = {arena, file, info.st_size > 0 ? (size_t)info.st_size + 1 : 4096, limit, {0}, NULL};
+    Reading reading = {.text = text_new(arena),
+                       .file = file,
+                       .expected = info.st_size > 0 ? (size_t)info.st_size + 1 : 4096,
+                       .limit = limit,
+                       .problem = check_file(&info, regular, limit)};
     ArenaOutcome outcome = ARENA_OK;
     if (version)
         *version = (Str){0};
-    if (S_ISDIR(info.st_mode))
-        reading.problem = "it is a directory";
-    else if (regular && !S_ISREG(info.st_mode))
-        reading.problem = "it is not a regular file";
-    else if (info.st_size > 0 && (size_t)info.st_size > limit)
-        reading.problem = "it is too large";
-    else
+    if (!reading.problem)
         outcome = arena_protect(&arena, 1, read_all, &reading);
     close(file);
     if (outcome != ARENA_OK)
         arena_escape(arena, outcome); // does not return, so the file was closed before
     if (version && !reading.problem)
         *version = version_of(arena, &info);
-    *bytes = reading.bytes;
+    *bytes = text_str(&reading.text);
     *problem = reading.problem;
     return !reading.problem;
 }

@@ -12,6 +12,16 @@
 // restriction.
 bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
                Str *version, const char **problem);
+// Reads `file` to its end and adds the bytes to `text`. Stops early once text->len exceeds max_len. On failure returns
+// false with errno set.
+bool text_read(Text *text, int file, size_t max_len);
+// Adds the contents of a regular file of at most `limit` bytes. Returns NULL on success. On failure, returns the
+// reason: a string that stays valid until the next call of strerror. For a pipe or a device, fails at once instead of
+// waiting for data.
+const char *text_read_file(Text *text, const char *path, size_t limit);
+// Like text_read_file, for a file that was opened with O_NONBLOCK. Closes `file`, which may be the negative result of a
+// failed open: this function then returns the reason that errno gives.
+const char *text_read_regular(Text *text, int file, size_t limit);
 bool file_exists(const char *path);
 // Sets *version to the same string as file_read would. Returns false if the file does not exist or cannot be accessed.
 bool file_version(Arena *arena, const FileAccess *file_access, const char *path, Str *version);

@@ -230,6 +230,7 @@ const char *file_access_reason(Arena *arena, const FileAccess *file_access, File
     bool is_folder = stat(resolved, &info) == 0 && S_ISDIR(info.st_mode);
     Str folder = is_folder ? str_from(resolved) : path_directory(str_from(resolved));
     folder.len -= folder.len > 1 && !is_folder;
-    return str_to_c(arena, str_format(arena, "scripts are not allowed to %s there; to allow it, use '--allow-%s %.*s'",
-                                      words[kind], words[kind], (int)folder.len, folder.bytes));
+    return str_format(arena, "scripts are not allowed to %s there; to allow it, use '--allow-%s %.*s'", words[kind],
+                      words[kind], (int)folder.len, folder.bytes)
+        .bytes;
 }

@@ -56,6 +56,10 @@ void heap_free(void *block) {
         free(block);
 }
 
+__attribute__((weak)) void heap_exhausted(void) {
+    abort();
+}
+
 char *heap_strndup(const char *bytes, size_t length) {
     char *copy = length < SIZE_MAX ? heap_alloc(length + 1) : NULL;
     if (!copy)

@@ -28,6 +28,9 @@ void *heap_calloc(size_t count, size_t size);
 void *heap_resize(void *block, size_t size);
 // Frees a block. NULL is ignored.
 void heap_free(void *block);
+// Called if memory for a Text on the heap (base/str.h) runs out. In the library, which has no such texts, this function
+// aborts the process. The command replaces it by a function that prints a message and exits.
+_Noreturn void heap_exhausted(void);
 // Returns a copy of `length` bytes, followed by a NUL byte.
 char *heap_strndup(const char *bytes, size_t length);
 // Ensures that the heap array *array can hold at least count + 1 elements of `size` bytes each. Updates *capacity if

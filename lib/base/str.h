@@ -47,15 +47,19 @@ typedef struct StrNearest {
 // Considers one existing name. Returns true if it is the nearest so far.
 bool str_try_nearest(StrNearest *nearest, Str name);
 
-// A growing string buffer in an arena. The result of text_str is valid until the next append.
+// A growing string buffer. A zeroed struct is an empty text on the heap. The result of text_str is valid until the next
+// append.
 typedef struct Text {
-    Arena *arena;
-    char *bytes;
-    size_t len;
-    size_t capacity;
+    Arena *arena;    // where the bytes are; NULL: on the heap (text_free frees them)
+    char *bytes;     // NUL-terminated; NULL until the first append, which may be empty
+    size_t len;      // without the NUL
+    size_t capacity; // of `bytes`
 } Text;
 
 Text text_new(Arena *arena);
+void text_free(Text *text); // frees a text on the heap; it is then empty
+// Ensures space for `more` bytes and a NUL after text->len. Returns the address of that space.
+char *text_reserve(Text *text, size_t more);
 void text_add(Text *text, Str part);
 void text_add_c(Text *text, const char *part);
 void text_add_char(Text *text, char c);
@@ -71,7 +75,7 @@ int str_hex_digit(char c);
 // colour.
 bool text_add_hex_colour(Text *text, Str hex);
 
-// Returns a formatted string in the arena.
+// Returns a formatted string in the arena. It is followed by a NUL byte.
 Str str_format(Arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 enum { UTF8_MAX = 4 };

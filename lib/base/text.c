@@ -1,4 +1,5 @@
 // text.c: the growing string buffer Text; see str.h.
+#include "base/heap.h"
 #include "base/str.h"
 
 #include <assert.h>
@@ -9,21 +10,35 @@ Text text_new(Arena *arena) {
     return (Text){.arena = arena};
 }
 
-static char *text_reserve(Text *text, size_t more) {
-    if (text->capacity - text->len < more) {
+void text_free(Text *text) {
+    heap_free(text->bytes);
+    *text = (Text){0};
+}
+
+char *text_reserve(Text *text, size_t more) {
+    if (text->capacity - text->len <= more) {
         size_t capacity = text->capacity ? text->capacity * 2 : 64;
-        if (capacity < text->len + more)
-            capacity = text->len + more;
-        text->bytes = arena_grow(text->arena, text->bytes, text->capacity, capacity);
+        if (capacity <= text->len + more)
+            capacity = text->len + more + 1;
+        text->bytes = text->arena ? arena_grow(text->arena, text->bytes, text->capacity, capacity)
+                                  : heap_resize(text->bytes, capacity);
+        if (!text->bytes)
+            heap_exhausted();
         text->capacity = capacity;
     }
     return text->bytes + text->len;
 }
 
+static void add_len(Text *text, size_t len) {
+    text->len += len;
+    text->bytes[text->len] = 0;
+}
+
 void text_add(Text *text, Str part) {
+    char *end = text_reserve(text, part.len);
     if (part.len)
-        memcpy(text_reserve(text, part.len), part.bytes, part.len);
-    text->len += part.len;
+        memcpy(end, part.bytes, part.len);
+    add_len(text, part.len);
 }
 
 void text_add_c(Text *text, const char *part) {
@@ -32,11 +47,11 @@ void text_add_c(Text *text, const char *part) {
 
 void text_add_char(Text *text, char c) {
     *text_reserve(text, 1) = c;
-    text->len++;
+    add_len(text, 1);
 }
 
 void text_add_code_point(Text *text, uint32_t code_point) {
-    text->len += utf8_encode(code_point, text_reserve(text, UTF8_MAX));
+    add_len(text, utf8_encode(code_point, text_reserve(text, UTF8_MAX)));
 }
 
 void text_add_va(Text *text, const char *format, va_list args) {
@@ -44,11 +59,10 @@ void text_add_va(Text *text, const char *format, va_list args) {
     va_list again;
     va_copy(again, args);
     int len = vsnprintf(NULL, 0, format, args);
-    if (len > 0) {
-        vsnprintf(text_reserve(text, (size_t)len + 1), (size_t)len + 1, format, again);
-        text->len += (size_t)len;
-    }
+    size_t added = len > 0 ? (size_t)len : 0;
+    vsnprintf(text_reserve(text, added), added + 1, format, again);
     va_end(again);
+    add_len(text, added);
 }
 
 void text_add_format(Text *text, const char *format, ...) {

@@ -158,9 +158,9 @@ static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *
 
 static void report_size(Request *request, double width, double height) {
     Arena *arena = &request->picture->arena;
-    request->problem =
-        str_to_c(arena, str_format(arena, "a picture can have 1 to %d pixels in width and height, not %.10g x %.10g",
-                                   PETRI_MAX_PICTURE_SIDE, width, height));
+    request->problem = str_format(arena, "a picture can have 1 to %d pixels in width and height, not %.10g x %.10g",
+                                  PETRI_MAX_PICTURE_SIDE, width, height)
+                           .bytes;
 }
 
 static bool choose_pixels(Request *request) {

@@ -260,7 +260,8 @@ static const char *to_one_line(Arena *arena, Str source) {
         while (c == '\n' && at < source.len && source.bytes[at] == ' ')
             at++;
     }
-    return str_to_c(arena, text_str(&text));
+    text_add_c(&text, ""); // makes text.bytes a string even if it is empty
+    return text.bytes;
 }
 
 static void describe_parameter(PetriSession *session, const Parameter *parameter, bool settable, PetriParameter *out) {

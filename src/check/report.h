@@ -1,14 +1,14 @@
 // report.h: diagnostics in machine-readable formats.
 #pragma once
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "petri.h"
 
 typedef enum ReportForm { REPORT_TEXT, REPORT_GCC, REPORT_JSON, REPORT_SARIF } ReportForm;
 
 typedef struct Report {
     ReportForm form;
-    ByteBuffer text;
+    Text text;
     size_t count;
     TextList codes; // distinct codes of the diagnostics so far; SARIF lists them as rules
 } Report;

@@ -1,7 +1,7 @@
 // args.c: see args.h.
 #include "cli/args.h"
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -65,7 +65,7 @@ static int accept_option(Args *args, const OptionSpec *spec, const char *word, c
 
 static int long_option(Args *args, const char *word) {
     const char *equals = strchr(word, '=');
-    SCOPED_TEXT name = memory_strndup(word + 2, strcspn(word + 2, "="));
+    SCOPED_STRING name = memory_strndup(word + 2, strcspn(word + 2, "="));
     args->version = strcmp(name, "version") == 0;
     if ((strcmp(name, "help") == 0 || args->version) && !equals)
         return ARG_HELP;

@@ -5,7 +5,7 @@
 #include "cli/file_watch.h"
 
 #include "base/source.h"
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "cli/progress.h"
 
 #include <stdint.h>
@@ -107,7 +107,7 @@ static void open_wake(FileWatch *watch) {
 static int watch_folder(const FileWatch *watch, const char *path) {
     const uint32_t kinds = IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
     size_t length = path_directory(str_from(path)).len;
-    SCOPED_TEXT folder = length == 0 ? memory_strdup(".") : memory_strndup(path, length);
+    SCOPED_STRING folder = length == 0 ? memory_strdup(".") : memory_strndup(path, length);
     return watch->events < 0 ? -1 : inotify_add_watch(watch->events, folder, kinds);
 }
 

@@ -1,9 +1,9 @@
 // hdf5.c: see hdf5.h.
 #include "cli/hdf5.h"
 
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
+#include "cli/memory.h"
 #include "cli/progress.h"
 #include "cli/script.h"
 #include "cli/signal_cleanup.h"
@@ -130,9 +130,9 @@ static bool fork_writer(Hdf5 *writer, char **words) {
 
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after, int (*pending_signal)(void)) {
     char program[] = "petri-hdf5";
-    SCOPED_TEXT as_kind = memory_strdup(kind);
-    SCOPED_TEXT as_path = memory_strdup(path);
-    SCOPED_TEXT as_after = !after ? NULL : memory_strdup(after);
+    SCOPED_STRING as_kind = memory_strdup(kind);
+    SCOPED_STRING as_path = memory_strdup(path);
+    SCOPED_STRING as_after = !after ? NULL : memory_strdup(after);
     char *words[] = {program, as_kind, as_path, as_after, NULL};
     *writer = (Hdf5){.process = -1, .stream = -1, .cleanup_id = -1, .pending_signal = pending_signal};
     bool started = fork_writer(writer, words);

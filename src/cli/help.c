@@ -1,8 +1,8 @@
 // help.c: help on commands and their options, and the version.
 #include "cli/help.h"
 
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "cli/progress.h"
 #include "petri.h"
 
@@ -74,7 +74,7 @@ static void write_line(Output *output, Str line, size_t width) {
     output_write(output, "\n", 1);
 }
 
-void help_write(Output *output, const ByteBuffer *text) {
+void help_write(Output *output, const Text *text) {
     enum { COLUMNS = 80, MIN_COLUMNS = 40 };
     int columns = COLUMNS, rows = 0;
     const char *wanted = getenv("COLUMNS");
@@ -82,56 +82,56 @@ void help_write(Output *output, const ByteBuffer *text) {
     terminal_extent(output->fd, &columns, &rows);
     if (wanted && atoi(wanted) > 0)
         columns = atoi(wanted);
-    for (size_t at = 0; byte_buffer_next_line(text, &at, &line);)
+    for (size_t at = 0; text_next_line(text, &at, &line);)
         write_line(output, line, (size_t)(columns > MIN_COLUMNS ? columns : MIN_COLUMNS));
 }
 
-int help_print(const ByteBuffer *text) {
+int help_print(const Text *text) {
     Output *output = help_begin();
     help_write(output, text);
     return help_end(output);
 }
 
-void help_prose(ByteBuffer *text, const char *prose) {
+void help_prose(Text *text, const char *prose) {
     for (const char *at = prose; *at != '\0'; at++) {
         bool joins = at[0] == '\n' && at > prose && at[-1] != '\n' && at[1] != '\n' && at[1] != ' ' && at[1] != '\0';
-        byte_buffer_add(text, joins ? " " : at, 1);
+        text_add(text, (Str){joins ? " " : at, 1});
     }
-    byte_buffer_add_text(text, "\n");
+    text_add_c(text, "\n");
 }
 
 int help_overview(const Command *const *commands) {
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_format(&text, "petri %s: %s\n\n", petri_version(), HELP_TITLE);
-    byte_buffer_format(&text, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
+    SCOPED_TEXT text = {0};
+    text_add_format(&text, "petri %s: %s\n\n", petri_version(), HELP_TITLE);
+    text_add_format(&text, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
     for (size_t i = 0; commands[i]; i++)
-        byte_buffer_format(&text, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
-    byte_buffer_add_text(&text, "\n");
+        text_add_format(&text, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
+    text_add_c(&text, "\n");
     help_prose(&text, HELP_BEGINNING);
     return help_print(&text);
 }
 
-void help_option(ByteBuffer *text, const OptionSpec *spec) {
+void help_option(Text *text, const OptionSpec *spec) {
     char letter[8] = "    ";
     if (spec->letter != '\0')
         snprintf(letter, sizeof letter, "-%c, ", spec->letter);
     char head[80];
     snprintf(head, sizeof head, "  %s--%s%s%s", letter, spec->name, !spec->value ? "" : " ",
              !spec->value ? "" : spec->value);
-    byte_buffer_format(text, "%-*s  %s\n", OPTION_COLUMN, head, spec->help);
+    text_add_format(text, "%-*s  %s\n", OPTION_COLUMN, head, spec->help);
 }
 
 int help_for(const Command *command) {
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_format(&text, "usage: petri %s%s %s\n\n", command->name, command->options == 0 ? "" : " [options]",
-                       command->operands);
+    SCOPED_TEXT text = {0};
+    text_add_format(&text, "usage: petri %s%s %s\n\n", command->name, command->options == 0 ? "" : " [options]",
+                    command->operands);
     help_prose(&text, command->details);
-    byte_buffer_add_text(&text, command->options == 0 ? "" : "\n");
+    text_add_c(&text, command->options == 0 ? "" : "\n");
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
         if (spec->commands & command->options)
             help_option(&text, spec);
     if (command->examples)
-        byte_buffer_format(&text, "\nExamples:\n%s", command->examples);
+        text_add_format(&text, "\nExamples:\n%s", command->examples);
     return help_print(&text);
 }
 

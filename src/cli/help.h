@@ -1,8 +1,8 @@
 // help.h: formatting of help texts for standard output.
 #pragma once
 
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "cli/output.h"
 #include "petri.h"
 
@@ -13,13 +13,13 @@ int help_end(Output *output);
 // Writes text, wrapped at spaces to the width of the terminal. The environment variable COLUMNS overrides this width;
 // without either, it is 80. Two or more spaces within a line separate columns. A wrapped line continues below the start
 // of its last column.
-void help_write(Output *output, const ByteBuffer *text);
+void help_write(Output *output, const Text *text);
 // Writes text like help_write, to standard output. Returns the exit status.
-int help_print(const ByteBuffer *text);
+int help_print(const Text *text);
 // Adds paragraphs and a newline. Joins the lines of a paragraph, but not empty lines or lines that begin with a space.
-void help_prose(ByteBuffer *text, const char *prose);
+void help_prose(Text *text, const char *prose);
 // Adds a line with an option and its help.
-void help_option(ByteBuffer *text, const OptionSpec *spec);
+void help_option(Text *text, const OptionSpec *spec);
 
 // Text of `petri help` and of the manual: HELP_TITLE is printed after the program's name, and
 // HELP_BEGINNING after the list of commands.
@@ -34,13 +34,13 @@ typedef struct Topic {
 extern const Topic TOPICS[]; // all topics, then one with word NULL
 
 // Adds the formulas of a force, one per line, indented. Adds nothing for other nodes.
-void help_formula(ByteBuffer *text, const PetriNodeKind *kind);
+void help_formula(Text *text, const PetriNodeKind *kind);
 extern const char FORMULA_LETTERS[]; // explains the symbols in formulas
 
 // Help on words of the language, for `petri help` and `.help` at the prompt (topics.c).
 
 // Adds the help for all functions, nodes and words with this name. If there are none, adds the help for attributes with
 // this name. `!name` matches only nodes. Returns false if nothing has this name.
-bool topics_print(ByteBuffer *text, const char *topic);
+bool topics_print(Text *text, const char *topic);
 // Passes all names that topics_print knows to nearest_offer.
 void topics_offer(StrNearest *nearest);

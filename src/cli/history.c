@@ -207,19 +207,19 @@ static PetriStatus replay_frames(const FrameHistory *history, PetriSession *sess
     return status;
 }
 
-static PetriStatus seek_back(FrameHistory *history, PetriSession *session, int64_t frame, ByteBuffer *why) {
+static PetriStatus seek_back(FrameHistory *history, PetriSession *session, int64_t frame, Text *why) {
     if (frame == history->first)
         return petri_rewind(session, history->keyframes[0].snapshot);
     const Keyframe *from = frame < history->first ? NULL : keyframe_before(history, frame);
     if (!from) {
-        byte_buffer_format(why, "cannot go to frame %" PRId64 ": the history starts at frame %" PRId64 "%s%s", frame,
-                           history->first, !history->why ? "" : ": ", !history->why ? "" : history->why);
+        text_add_format(why, "cannot go to frame %" PRId64 ": the history starts at frame %" PRId64 "%s%s", frame,
+                        history->first, !history->why ? "" : ": ", !history->why ? "" : history->why);
         return PETRI_INVALID;
     }
     return replay_frames(history, session, from, epoch_of(history, frame)->config, frame);
 }
 
-PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, ByteBuffer *why) {
+PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, Text *why) {
     PetriConfig *config = ensure_started(history, session) ? petri_config_get(session) : NULL;
     if (!config)
         return PETRI_OUT_OF_MEMORY;

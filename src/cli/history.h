@@ -12,7 +12,7 @@
 // frame computes the next frame at the current time, and discards the old frames after the past frame.
 #pragma once
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "petri.h"
 
 // HISTORY_MAX: maximum number of keyframes. HISTORY_INTERVAL: number of frames from one stored keyframe to the next.
@@ -66,7 +66,7 @@ PetriStatus history_step(FrameHistory *history, PetriSession *session);
 // Goes to a frame of the timeline, or steps forward to a frame after its end. Keeps the current configuration. Returns
 // PETRI_INVALID and adds a reason to `why` if the frame cannot be recomputed. After PETRI_INTERRUPTED, the session is
 // at an intermediate frame.
-PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, ByteBuffer *why);
+PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, Text *why);
 // Recomputes the current frame, with its systems and tree, from the previous keyframe. Does nothing for the first
 // frame of the timeline and for frames that cannot be recomputed. Changes nothing if it returns
 // PETRI_INTERRUPTED or PETRI_OUT_OF_MEMORY.

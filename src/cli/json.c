@@ -3,26 +3,26 @@
 
 #include <string.h>
 
-void json_add_text(ByteBuffer *out, const char *text) {
+void json_add_text(Text *out, const char *text) {
     if (!text) {
-        byte_buffer_add_text(out, "null");
+        text_add_c(out, "null");
         return;
     }
     Str all = str_from(text);
-    byte_buffer_add_text(out, "\"");
+    text_add_c(out, "\"");
     for (size_t at = 0; at < all.len;) {
         size_t start = at;
         int32_t c = utf8_next(all, &at);
         if (c == '"' || c == '\\')
-            byte_buffer_format(out, "\\%c", (char)c);
+            text_add_format(out, "\\%c", (char)c);
         else if (c < 0)
-            byte_buffer_add_text(out, "\\ufffd");
+            text_add_c(out, "\\ufffd");
         else if (c < 0x20)
-            byte_buffer_format(out, "\\u%04x", (unsigned)c);
+            text_add_format(out, "\\u%04x", (unsigned)c);
         else
-            byte_buffer_add(out, all.bytes + start, at - start);
+            text_add(out, (Str){all.bytes + start, at - start});
     }
-    byte_buffer_add_text(out, "\"");
+    text_add_c(out, "\"");
 }
 
 const char *level_word(PetriLevel level) {
@@ -30,7 +30,7 @@ const char *level_word(PetriLevel level) {
     return words[level];
 }
 
-void json_add_diagnostic(ByteBuffer *out, const PetriDiagnostic *diagnostic) {
+void json_add_diagnostic(Text *out, const PetriDiagnostic *diagnostic) {
     const struct {
         const char *name;
         const char *text;
@@ -39,12 +39,12 @@ void json_add_diagnostic(ByteBuffer *out, const PetriDiagnostic *diagnostic) {
                   {"code", diagnostic->code},
                   {"text", diagnostic->text},
                   {"hint", diagnostic->hint[0] != '\0' ? diagnostic->hint : NULL}};
-    byte_buffer_add_text(out, "{");
+    text_add_c(out, "{");
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
-        byte_buffer_format(out, "\"%s\": ", fields[i].name);
+        text_add_format(out, "\"%s\": ", fields[i].name);
         json_add_text(out, fields[i].text);
-        byte_buffer_add_text(out, ", ");
+        text_add_c(out, ", ");
     }
-    byte_buffer_format(out, "\"line\": %u, \"column\": %u, \"endLine\": %u, \"endColumn\": %u}", diagnostic->line,
-                       diagnostic->column, diagnostic->end_line, diagnostic->end_column);
+    text_add_format(out, "\"line\": %u, \"column\": %u, \"endLine\": %u, \"endColumn\": %u}", diagnostic->line,
+                    diagnostic->column, diagnostic->end_line, diagnostic->end_column);
 }

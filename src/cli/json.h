@@ -1,12 +1,12 @@
 // json.h: functions that write JSON.
 #pragma once
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "petri.h"
 
 // Adds a quoted and escaped string. Invalid UTF-8 becomes U+FFFD; NULL becomes null.
-void json_add_text(ByteBuffer *out, const char *text);
+void json_add_text(Text *out, const char *text);
 // Returns "error", "warning" or "note".
 const char *level_word(PetriLevel level);
 // Adds a diagnostic as an object on one line.
-void json_add_diagnostic(ByteBuffer *out, const PetriDiagnostic *diagnostic);
+void json_add_diagnostic(Text *out, const PetriDiagnostic *diagnostic);

@@ -1,7 +1,7 @@
 // motion.c: see motion.h.
 #include "cli/motion.h"
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 
 #include <math.h>
 #include <stdlib.h>

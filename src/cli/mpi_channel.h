@@ -4,7 +4,7 @@
 // PetriRanks.
 #pragma once
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 
 typedef struct MpiChannel {
     int rank;  // number of this process, from 0
@@ -13,5 +13,5 @@ typedef struct MpiChannel {
     void (*send)(int to, const void *bytes, size_t length);
     // Appends a received message to `message` and sets *from to the rank of its sender. Returns false, without waiting,
     // if no message has arrived.
-    bool (*receive)(int *from, ByteBuffer *message);
+    bool (*receive)(int *from, Text *message);
 } MpiChannel;

@@ -2,7 +2,7 @@
 #include "base/file.h"
 #include "base/replace.h"
 #include "base/source.h"
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "cli/new_dish.h"
 #include "cli/options.h"
 #include "cli/script.h"
@@ -12,10 +12,10 @@
 
 // Writes the script to a file that must not exist yet. Returns the exit status.
 static int write_dish(const char *path) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     for (size_t i = 0; NEW_DISH[i]; i++)
-        byte_buffer_add_text(&text, NEW_DISH[i]);
-    const char *problem = file_replace(path, (Str){text.data, text.length}, REPLACE_CREATE_ONLY);
+        text_add_c(&text, NEW_DISH[i]);
+    const char *problem = file_replace(path, text_str(&text), REPLACE_CREATE_ONLY);
     struct stat info;
     if (problem && lstat(path, &info) == 0)
         message("%s already exists; choose another name", path);
@@ -31,15 +31,15 @@ static int start_script(const CommandContext *context, const char *name) {
         message("not a script name: '%s'; try 'petri new dish'", name);
         return STATUS_USAGE;
     }
-    SCOPED_BYTE_BUFFER path = {0};
+    SCOPED_TEXT path = {0};
     // Without `./`, later commands would parse a name that starts with a dash as an option.
-    byte_buffer_format(&path, "%s%s%s", name[0] == '-' ? "./" : "", name,
-                       str_ends_with(str_from(name), STR(".fl")) ? "" : ".fl");
-    int status = write_dish(path.data);
+    text_add_format(&path, "%s%s%s", name[0] == '-' ? "./" : "", name,
+                    str_ends_with(str_from(name), STR(".fl")) ? "" : ".fl");
+    int status = write_dish(path.bytes);
     if (status == STATUS_DONE) {
         message("created %s, a dish of drops; while 'petri view' shows it, each saved change appears at once",
-                path.data);
-        hint_pictures(context, path.data);
+                path.bytes);
+        hint_pictures(context, path.bytes);
     }
     return status;
 }

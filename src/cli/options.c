@@ -2,7 +2,7 @@
 #include "cli/options.h"
 
 #include "cli/args.h"
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "cli/progress.h"
 #include "cli/script.h"
 #include "petri-draw.h"
@@ -54,12 +54,12 @@ static bool read_integer(const Args *args, void *field) {
     intmax_t value = strtoimax(args->value, &end, 10);
     bool is_number = args->value[0] >= '-' && end != args->value && *end == '\0';
     if (!is_number || errno != 0 || value < option->min || value > option->max) {
-        SCOPED_BYTE_BUFFER expected = {0};
+        SCOPED_TEXT expected = {0};
         if (option->max < INT64_MAX - 1)
-            byte_buffer_format(&expected, "an integer from %" PRId64 " to %" PRId64, option->min, option->max);
+            text_add_format(&expected, "an integer from %" PRId64 " to %" PRId64, option->min, option->max);
         else
-            byte_buffer_format(&expected, "an integer >= %" PRId64, option->min);
-        return report_invalid_value(args, expected.data);
+            text_add_format(&expected, "an integer >= %" PRId64, option->min);
+        return report_invalid_value(args, expected.bytes);
     }
     *(int64_t *)field = value;
     return true;
@@ -112,10 +112,10 @@ static bool read_choice(const Args *args, void *field) {
     const char *const *words = args->option->words;
     int choice = *(int *)field = find_word(words, args->value);
     if (choice < 0) {
-        SCOPED_BYTE_BUFFER expected = {0};
+        SCOPED_TEXT expected = {0};
         for (int i = 0; words[i]; i++)
-            byte_buffer_format(&expected, "%s %s", i == 0 ? "one of" : ",", words[i]);
-        return report_invalid_value(args, expected.data);
+            text_add_format(&expected, "%s %s", i == 0 ? "one of" : ",", words[i]);
+        return report_invalid_value(args, expected.bytes);
     }
     return true;
 }
@@ -123,7 +123,7 @@ static bool read_choice(const Args *args, void *field) {
 // Reads a list of option->words and stores the PETRI_PRINT_... bits. The words are in the order of the bits.
 static bool read_sections(const Args *args, void *field) {
     unsigned *sections = field;
-    SCOPED_TEXT list = memory_strdup(args->value);
+    SCOPED_STRING list = memory_strdup(args->value);
     *sections = 0;
     for (char *rest = list; rest;) {
         int section = find_word(args->option->words, strsep(&rest, ","));
@@ -181,9 +181,9 @@ static bool read_size(const Args *args, void *field) {
     long width = strtol(args->value, &end, 10);
     long height = end != args->value && (*end == 'x' || *end == 'X') ? strtol(end + 1, &end, 10) : 0;
     if (*end != '\0' || width < 1 || height < 1 || width > PETRI_MAX_PICTURE_SIDE || height > PETRI_MAX_PICTURE_SIDE) {
-        SCOPED_BYTE_BUFFER expected = {0};
-        byte_buffer_format(&expected, "WIDTHxHEIGHT, each from 1 to %d", PETRI_MAX_PICTURE_SIDE);
-        return report_invalid_value(args, expected.data);
+        SCOPED_TEXT expected = {0};
+        text_add_format(&expected, "WIDTHxHEIGHT, each from 1 to %d", PETRI_MAX_PICTURE_SIDE);
+        return report_invalid_value(args, expected.bytes);
     }
     *(Size *)field = (Size){(int)width, (int)height};
     return true;

@@ -1,8 +1,8 @@
 // options.h: the options of all commands.
 #pragma once
 
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "cli/scripts.h"
 #include "petri.h"
 

@@ -2,8 +2,8 @@
 #include "cli/output.h"
 
 #include "base/file.h"
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -60,9 +60,9 @@ bool output_format(Output *output, const char *format, ...) {
     if (length >= 0 && (size_t)length < available) {
         output->used += (size_t)length;
     } else {
-        SCOPED_BYTE_BUFFER text = {0};
-        byte_buffer_format_list(&text, format, again);
-        output_write(output, text.data, text.length);
+        SCOPED_TEXT text = {0};
+        text_add_va(&text, format, again);
+        output_write(output, text.bytes, text.len);
     }
     va_end(again);
     va_end(list);

@@ -19,39 +19,39 @@ bool parameter_find(PetriSession *session, const char *name, PetriParameter *par
     return false;
 }
 
-static void add_number(ByteBuffer *out, double x) {
+static void add_number(Text *out, double x) {
     if (isfinite(x))
-        byte_buffer_format(out, "%.12g", x);
+        text_add_format(out, "%.12g", x);
 }
 
-void parameter_range(ByteBuffer *out, const PetriParameter *parameter) {
+void parameter_range(Text *out, const PetriParameter *parameter) {
     if (isinf(parameter->min) && isinf(parameter->max))
         return;
     add_number(out, parameter->min);
-    byte_buffer_format(out, "..");
+    text_add_format(out, "..");
     add_number(out, parameter->max);
     if (parameter->step > 0)
-        byte_buffer_format(out, "|%.12g", parameter->step);
+        text_add_format(out, "|%.12g", parameter->step);
 }
 
-void parameter_describe(ByteBuffer *out, const PetriParameter *parameter) {
-    SCOPED_BYTE_BUFFER about = {0};
+void parameter_describe(Text *out, const PetriParameter *parameter) {
+    SCOPED_TEXT about = {0};
     parameter_range(&about, parameter);
     if (parameter->defined)
-        byte_buffer_format(&about, "%sdefault %s", about.length == 0 ? "" : ", ", parameter->default_value);
-    byte_buffer_format(out, "%s = %s", parameter->name, parameter->value);
-    if (about.length > 0)
-        byte_buffer_format(out, "  (%s)", about.data);
+        text_add_format(&about, "%sdefault %s", about.len == 0 ? "" : ", ", parameter->default_value);
+    text_add_format(out, "%s = %s", parameter->name, parameter->value);
+    if (about.len > 0)
+        text_add_format(out, "  (%s)", about.bytes);
 }
 
 static void add_row(TextTable *table, const PetriParameter *parameter) {
-    SCOPED_BYTE_BUFFER value = {0}, range = {0};
-    byte_buffer_add_text(&value, parameter->defined ? parameter->value : parameter->default_value);
+    SCOPED_TEXT value = {0}, range = {0};
+    text_add_c(&value, parameter->defined ? parameter->value : parameter->default_value);
     if (parameter->defined)
-        byte_buffer_format(&value, " (default %s)", parameter->default_value);
-    byte_buffer_add_text(&range, ""); // makes range.data a string even without a range
+        text_add_format(&value, " (default %s)", parameter->default_value);
+    text_add_c(&range, ""); // makes range.bytes a string even without a range
     parameter_range(&range, parameter);
-    const char *const cells[COLUMNS] = {parameter->name, value.data, range.data, parameter->comment};
+    const char *const cells[COLUMNS] = {parameter->name, value.bytes, range.bytes, parameter->comment};
     for (int i = 0; i < COLUMNS; i++)
         text_table_add(table, cells[i]);
 }
@@ -59,18 +59,18 @@ static void add_row(TextTable *table, const PetriParameter *parameter) {
 size_t parameters_list(PetriSession *session, Output *output) {
     PetriParameter parameter;
     SCOPED_TEXT_TABLE table = text_table_new(COLUMNS);
-    SCOPED_BYTE_BUFFER file = {0}; // path of the module whose parameters are being written
+    SCOPED_TEXT file = {0}; // path of the module whose parameters are being written
     size_t own = 0;
     for (size_t i = 0; petri_parameter(session, i, &parameter); i++) {
         own += parameter.settable;
-        if (!parameter.settable && (file.length == 0 || strcmp(file.data, parameter.file) != 0)) {
+        if (!parameter.settable && (file.len == 0 || strcmp(file.bytes, parameter.file) != 0)) {
             text_table_write(&table, output);
             text_table_free(&table);
             table = text_table_new(COLUMNS);
             output_format(output, "%s%s, a module: -D does not affect it, its parameters have their defaults\n",
                           i == 0 ? "" : "\n", parameter.file);
-            byte_buffer_free(&file);
-            byte_buffer_add_text(&file, parameter.file);
+            text_free(&file);
+            text_add_c(&file, parameter.file);
         }
         add_row(&table, &parameter);
     }

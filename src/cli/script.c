@@ -1,10 +1,11 @@
 // script.c: see script.h.
 #include "cli/script.h"
 
+#include "base/file.h"
 #include "base/source.h"
 #include "base/str.h"
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 
 #include <errno.h>
 #include <glob.h>
@@ -42,18 +43,17 @@ void script_report_second(const char *first, const char *second) {
         message("too many scripts: '%s' and '%s'; give only one", first, second);
 }
 
-static const char *read_stdin(ByteBuffer *text, size_t max_bytes) {
+static const char *read_stdin(Text *text, size_t max_bytes) {
     if (isatty(STDIN_FILENO))
         message("reading the script from the terminal; press Ctrl-D to end it");
-    if (!byte_buffer_read(text, STDIN_FILENO, max_bytes))
+    if (!text_read(text, STDIN_FILENO, max_bytes))
         return strerror(errno);
-    return text->length > max_bytes ? "it is too large" : NULL;
+    return text->len > max_bytes ? "it is too large" : NULL;
 }
 
-bool script_read(ByteBuffer *text, const char *name, size_t max_bytes) {
-    byte_buffer_add(text, "", 0);
+bool script_read(Text *text, const char *name, size_t max_bytes) {
     bool is_stdin = script_is_stdin(name);
-    const char *problem = is_stdin ? read_stdin(text, max_bytes) : byte_buffer_read_file(text, name, max_bytes);
+    const char *problem = is_stdin ? read_stdin(text, max_bytes) : text_read_file(text, name, max_bytes);
     if (problem)
         message("cannot read %s: %s", is_stdin ? "standard input" : name, problem);
     return !problem;
@@ -70,8 +70,8 @@ static PetriStatus load_from(PetriSession *session, const char *name, LoadFile *
             script_suggest(name);
         return status;
     }
-    SCOPED_BYTE_BUFFER text = {0};
-    return script_read(&text, name, SCRIPT_MAX_BYTES) ? load_text(session, SCRIPT_STDIN, text.data, text.length)
+    SCOPED_TEXT text = {0};
+    return script_read(&text, name, SCRIPT_MAX_BYTES) ? load_text(session, SCRIPT_STDIN, text.bytes, text.len)
                                                       : PETRI_INVALID;
 }
 
@@ -85,24 +85,24 @@ PetriStatus script_check(PetriSession *session, const char *name) {
 
 // Returns the files that match a shell pattern, sorted. The caller frees them with globfree.
 __attribute__((format(printf, 1, 2))) static glob_t find_files(const char *format, ...) {
-    SCOPED_BYTE_BUFFER pattern = {0};
+    SCOPED_TEXT pattern = {0};
     glob_t found = {0};
     va_list list;
     va_start(list, format);
-    byte_buffer_format_list(&pattern, format, list);
+    text_add_va(&pattern, format, list);
     va_end(list);
-    glob(pattern.data, 0, NULL, &found);
+    glob(pattern.bytes, 0, NULL, &found);
     return found;
 }
 
 static void list_scripts(const char *folder) {
     enum { MAX_SUGGESTIONS = 4 };
     glob_t scripts = find_files("%s%s*.fl", folder, folder[strlen(folder) - 1] == '/' ? "" : "/");
-    SCOPED_BYTE_BUFFER list = {0};
+    SCOPED_TEXT list = {0};
     for (size_t i = 0; i < scripts.gl_pathc && i < MAX_SUGGESTIONS; i++)
-        byte_buffer_format(&list, "%s%s", i == 0 ? "" : ", ", scripts.gl_pathv[i]);
+        text_add_format(&list, "%s%s", i == 0 ? "" : ", ", scripts.gl_pathv[i]);
     if (scripts.gl_pathc > 0)
-        message("choose a script in the folder: %s%s", list.data, scripts.gl_pathc > MAX_SUGGESTIONS ? " ..." : "");
+        message("choose a script in the folder: %s%s", list.bytes, scripts.gl_pathc > MAX_SUGGESTIONS ? " ..." : "");
     globfree(&scripts);
 }
 
@@ -154,24 +154,24 @@ char *script_folder(const char *name) {
     return length == 0 ? memory_strdup(".") : memory_strndup(name, length);
 }
 
-void shell_add_word(ByteBuffer *text, const char *path) {
+void shell_add_word(Text *text, const char *path) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:@%=-";
     if (path[0] != '\0' && path[strspn(path, plain)] == '\0') {
-        byte_buffer_add_text(text, path);
+        text_add_c(text, path);
         return;
     }
-    byte_buffer_format(text, "'");
+    text_add_format(text, "'");
     for (const char *c = path; *c != '\0'; c++)
-        byte_buffer_format(text, *c == '\'' ? "'\\''" : "%c", *c);
-    byte_buffer_format(text, "'");
+        text_add_format(text, *c == '\'' ? "'\\''" : "%c", *c);
+    text_add_format(text, "'");
 }
 
-void shell_add_program(ByteBuffer *text, const char *called) {
+void shell_add_program(Text *text, const char *called) {
     char *folder = getcwd(NULL, 0);
     size_t length = !folder ? 0 : strlen(folder);
     if (length > 1 && strncmp(called, folder, length) == 0 && called[length] == '/') {
         const char *below = called + length + 1;
-        byte_buffer_add_text(text, !strchr(below, '/') ? "./" : "");
+        text_add_c(text, !strchr(below, '/') ? "./" : "");
         called = below;
     }
     shell_add_word(text, called);
@@ -179,10 +179,10 @@ void shell_add_program(ByteBuffer *text, const char *called) {
 }
 
 void hint_pictures(const CommandContext *context, const char *script) {
-    SCOPED_BYTE_BUFFER program = {0};
-    SCOPED_BYTE_BUFFER operand = {0};
+    SCOPED_TEXT program = {0};
+    SCOPED_TEXT operand = {0};
     shell_add_program(&program, context->invoked_as);
     shell_add_word(&operand, script);
-    message("to watch the script: %s view %s", program.data, operand.data);
-    message("to save a picture: %s render %s -o OUT.png (or OUT.mp4)", program.data, operand.data);
+    message("to watch the script: %s view %s", program.bytes, operand.bytes);
+    message("to save a picture: %s render %s -o OUT.png (or OUT.mp4)", program.bytes, operand.bytes);
 }

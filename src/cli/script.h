@@ -1,8 +1,8 @@
 // script.h: the script named on a command line: a file, or `-` for standard input.
 #pragma once
 
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "petri.h"
 
 // Name of standard input in messages. Relative paths in a script from standard input start at the current
@@ -14,7 +14,7 @@ bool script_is_stdin(const char *name);
 // Returns the name, or SCRIPT_STDIN for `-`.
 const char *script_display_name(const char *name);
 // Reads standard input, or a regular file of at most max_bytes. On failure prints a message and returns false.
-bool script_read(ByteBuffer *text, const char *name, size_t max_bytes);
+bool script_read(Text *text, const char *name, size_t max_bytes);
 // Like petri_load and petri_check, but the name `-` means standard input. If the file does not exist, a message can
 // suggest another file.
 PetriStatus script_load(PetriSession *session, const char *name);
@@ -29,9 +29,9 @@ int script_suffix(const char *name, const char *words);
 // Returns the folder of the path, or "." if the path has none. The caller frees it.
 char *script_folder(const char *name);
 // Adds a word, quoted for a shell if necessary.
-void shell_add_word(ByteBuffer *text, const char *word);
+void shell_add_word(Text *text, const char *word);
 // Adds `called`, the path of this program, quoted for a shell if necessary. The path is made relative if the program is
 // below the current folder.
-void shell_add_program(ByteBuffer *text, const char *called);
+void shell_add_program(Text *text, const char *called);
 // Prints two commands: one shows the script, the other saves a picture of it.
 void hint_pictures(const CommandContext *context, const char *script);

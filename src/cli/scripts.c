@@ -2,8 +2,8 @@
 #include "cli/scripts.h"
 
 #include "base/source.h"
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "cli/script.h"
 
 #include <dirent.h>
@@ -52,10 +52,10 @@ static bool search_folder(ScriptList *list, const char *folder, size_t below) {
     for (struct dirent *entry = readdir(entries); entry; entry = readdir(entries)) {
         if (entry->d_name[0] == '.')
             continue;
-        SCOPED_BYTE_BUFFER path = {0};
+        SCOPED_TEXT path = {0};
         size_t length = strlen(folder);
-        byte_buffer_format(&path, "%s%s%s", folder, length > 0 && folder[length - 1] == '/' ? "" : "/", entry->d_name);
-        done = add_entry(list, path.data, entry->d_name, below) && done;
+        text_add_format(&path, "%s%s%s", folder, length > 0 && folder[length - 1] == '/' ? "" : "/", entry->d_name);
+        done = add_entry(list, path.bytes, entry->d_name, below) && done;
     }
     closedir(entries);
     return done;

@@ -7,8 +7,8 @@
 
 #include "base/arena.h"
 #include "base/file.h"
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "petri-draw.h"
 
 #include <errno.h>
@@ -121,12 +121,12 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
     bool sent = pid > 0 && file_write(input[1], vertex, strlen(vertex) + 1) &&
                 file_write(input[1], fragment, strlen(fragment) + 1);
     close(input[1]);
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_add(&text, "", 0);
+    SCOPED_TEXT text = {0};
+    text_add_c(&text, "");
     if (pid > 0 && !wait_for_output(tester, output[0]))
         kill(pid, SIGINT);
     if (pid > 0)
-        byte_buffer_read(&text, output[0], sizeof problem->text - 1);
+        text_read(&text, output[0], sizeof problem->text - 1);
     close(output[0]);
     while (pid > 0 && waitpid(pid, &status, 0) < 0)
         if (errno != EINTR)
@@ -137,7 +137,7 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
     if (code == SHADER_REJECTED || code == SHADER_REJECTED_VERTEX) {
         problem->failed = false;
         problem->in_vertex = code == SHADER_REJECTED_VERTEX;
-        snprintf(problem->text, sizeof problem->text, "%s", text.data);
+        snprintf(problem->text, sizeof problem->text, "%s", text.bytes);
     } else if (code != SHADER_GOOD) {
         describe_failure(tester, status, problem);
     }
@@ -178,16 +178,15 @@ static void set_limits(void) {
 
 int shader_test_run(void) {
     set_limits();
-    SCOPED_BYTE_BUFFER input = {0};
-    byte_buffer_add(&input, "", 0);
-    if (!byte_buffer_read(&input, STDIN_FILENO, MAX_SOURCE) || input.length > MAX_SOURCE)
+    SCOPED_TEXT input = {0};
+    if (!text_read(&input, STDIN_FILENO, MAX_SOURCE) || input.len > MAX_SOURCE)
         return STATUS_FAILED;
-    size_t length = strlen(input.data);
-    if (length + 1 >= input.length)
+    size_t length = strlen(input.bytes);
+    if (length + 1 >= input.len)
         return STATUS_FAILED;
     PetriShaderProblem problem = {0};
     int status = SHADER_GOOD;
-    if (!petri_shader_try(input.data, input.data + length + 1, &problem))
+    if (!petri_shader_try(input.bytes, input.bytes + length + 1, &problem))
         status = problem.failed ? STATUS_FAILED : problem.in_vertex ? SHADER_REJECTED_VERTEX : SHADER_REJECTED;
     fputs(problem.text, stdout);
     fflush(stdout);

@@ -1,8 +1,8 @@
 // stdout_file.c: see stdout_file.h.
 #include "cli/stdout_file.h"
 
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "cli/output.h"
 
 #include <errno.h>
@@ -38,15 +38,15 @@ bool stdout_file_check(const char *format) {
 
 bool stdout_file_open(StdoutFile *piped, const char *format) {
     const char *temporary = getenv("TMPDIR");
-    ByteBuffer folder = {0}, file = {0};
-    byte_buffer_format(&folder, "%s/petri.XXXXXX", !temporary || temporary[0] == '\0' ? "/tmp" : temporary);
-    if (!mkdtemp(folder.data)) {
-        message("cannot create folder '%s': %s", folder.data, strerror(errno));
-        byte_buffer_free(&folder);
+    Text folder = {0}, file = {0};
+    text_add_format(&folder, "%s/petri.XXXXXX", !temporary || temporary[0] == '\0' ? "/tmp" : temporary);
+    if (!mkdtemp(folder.bytes)) {
+        message("cannot create folder '%s': %s", folder.bytes, strerror(errno));
+        text_free(&folder);
         return false;
     }
-    byte_buffer_format(&file, "%s/out.%s", folder.data, !format ? "png" : format);
-    *piped = (StdoutFile){.folder = folder.data, .file = file.data};
+    text_add_format(&file, "%s/out.%s", folder.bytes, !format ? "png" : format);
+    *piped = (StdoutFile){.folder = folder.bytes, .file = file.bytes};
     return true;
 }
 

@@ -1,6 +1,8 @@
 // subprocess.c: see subprocess.h.
 #include "cli/subprocess.h"
 
+#include "base/file.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -12,11 +14,11 @@
 
 int subprocess_temporary_file(void) {
     const char *folder = getenv("TMPDIR");
-    SCOPED_BYTE_BUFFER path = {0};
-    byte_buffer_format(&path, "%s/petri-XXXXXX", !folder || folder[0] == '\0' ? "/tmp" : folder);
-    int fd = mkstemp(path.data);
+    SCOPED_TEXT path = {0};
+    text_add_format(&path, "%s/petri-XXXXXX", !folder || folder[0] == '\0' ? "/tmp" : folder);
+    int fd = mkstemp(path.bytes);
     if (fd >= 0) {
-        unlink(path.data);
+        unlink(path.bytes);
         fcntl(fd, F_SETFD, FD_CLOEXEC);
     }
     return fd;
@@ -57,26 +59,26 @@ pid_t subprocess_wait(int *status) {
     }
 }
 
-static void read_output(int fd, ByteBuffer *text) {
-    byte_buffer_add(text, "", 0);
-    if (lseek(fd, 0, SEEK_SET) == 0 && !byte_buffer_read(text, fd, SIZE_MAX))
+static void read_output(int fd, Text *text) {
+    text_add_c(text, "");
+    if (lseek(fd, 0, SEEK_SET) == 0 && !text_read(text, fd, SIZE_MAX))
         message("cannot read the output of a script: %s", strerror(errno));
     close(fd);
 }
 
-void subprocess_collect(Subprocess *child, ByteBuffer *output, ByteBuffer *errors) {
+void subprocess_collect(Subprocess *child, Text *output, Text *errors) {
     read_output(child->output, output);
     read_output(child->errors, errors);
 }
 
-void subprocess_describe(int status, const ByteBuffer *errors, ByteBuffer *error_text) {
+void subprocess_describe(int status, const Text *errors, Text *error_text) {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-        byte_buffer_format(error_text, "did not end within %d s", SUBPROCESS_MAX_SECONDS);
+        text_add_format(error_text, "did not end within %d s", SUBPROCESS_MAX_SECONDS);
     else if (WIFSIGNALED(status))
-        byte_buffer_format(error_text, "was killed by signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status)));
+        text_add_format(error_text, "was killed by signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status)));
     else
-        byte_buffer_format(error_text, "ended with status %d", WEXITSTATUS(status));
-    size_t length = strcspn(errors->data, "\n");
+        text_add_format(error_text, "ended with status %d", WEXITSTATUS(status));
+    size_t length = strcspn(errors->bytes, "\n");
     if (length > 0)
-        byte_buffer_format(error_text, ": %.*s", length > 200 ? 200 : (int)length, errors->data);
+        text_add_format(error_text, ": %.*s", length > 200 ? 200 : (int)length, errors->bytes);
 }

@@ -1,8 +1,8 @@
 // subprocess.h: a child process whose output is stored for the caller, such as `petri run` in petri test.
 #pragma once
 
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 
 #include <sys/types.h>
 
@@ -23,6 +23,6 @@ bool subprocess_start(Subprocess *child, const char *program, const char *folder
 // Waits until any child ends. Returns its process id, or -1 if there is no child. Sets *status like waitpid.
 pid_t subprocess_wait(int *status);
 // Reads the output of a child that has ended and closes its files.
-void subprocess_collect(Subprocess *child, ByteBuffer *output, ByteBuffer *errors);
+void subprocess_collect(Subprocess *child, Text *output, Text *errors);
 // Adds a description of a child that did not exit with 0: its status and the first line of its standard error.
-void subprocess_describe(int status, const ByteBuffer *errors, ByteBuffer *error_text);
+void subprocess_describe(int status, const Text *errors, Text *error_text);

@@ -13,34 +13,34 @@ TextTable text_table_new(size_t columns) {
 void text_table_add(TextTable *table, const char *cell) {
     size_t width = utf8_length(str_from(cell)), *widest = &table->width[table->count++ % table->columns];
     *widest = width > *widest ? width : *widest;
-    byte_buffer_add(&table->cells, cell, strlen(cell) + 1);
+    text_add(&table->cells, (Str){cell, strlen(cell) + 1});
 }
 
-void table_text(const TextTable *table, ByteBuffer *text) {
-    const char *cell = table->cells.data;
+void table_text(const TextTable *table, Text *text) {
+    const char *cell = table->cells.bytes;
     size_t due = 0; // spaces before the next cell that is not empty
     for (size_t i = 0; i < table->count; i++, cell += strlen(cell) + 1) {
         size_t column = i % table->columns;
         if (cell[0] != '\0') {
-            byte_buffer_format(text, "%*s%s", (int)due, "", cell);
+            text_add_format(text, "%*s%s", (int)due, "", cell);
             due = 0;
         }
         due += table->width[column] - utf8_length(str_from(cell)) + 2;
         if (column + 1 == table->columns) {
-            byte_buffer_add_text(text, "\n");
+            text_add_c(text, "\n");
             due = 0;
         }
     }
 }
 
 void text_table_write(const TextTable *table, Output *output) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     table_text(table, &text);
-    if (text.length > 0)
-        output_write(output, text.data, text.length);
+    if (text.len > 0)
+        output_write(output, text.bytes, text.len);
 }
 
 void text_table_free(TextTable *table) {
     free(table->width);
-    byte_buffer_free(&table->cells);
+    text_free(&table->cells);
 }

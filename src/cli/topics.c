@@ -14,21 +14,21 @@ const Topic TOPICS[] = {
     {0},
 };
 
-static bool print_word(ByteBuffer *text, const char *word) {
+static bool print_word(Text *text, const char *word) {
     for (size_t i = 0; TOPICS[i].word; i++) {
         if (strcmp(TOPICS[i].word, word) == 0) {
-            byte_buffer_format(text, "%s\n    %s\n", TOPICS[i].form, TOPICS[i].help);
+            text_add_format(text, "%s\n    %s\n", TOPICS[i].form, TOPICS[i].help);
             return true;
         }
     }
     return false;
 }
 
-static bool print_builtin(ByteBuffer *text, const char *name) {
+static bool print_builtin(Text *text, const char *name) {
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         if (strcmp(builtin.name, name) == 0) {
-            byte_buffer_format(text, "%s(%s)\n    %s\n", builtin.name, builtin.parameters, builtin.help);
+            text_add_format(text, "%s(%s)\n    %s\n", builtin.name, builtin.parameters, builtin.help);
             return true;
         }
     }
@@ -42,7 +42,7 @@ static void add_type(TextTable *table, const PetriNodeAttribute *attribute) {
     text_table_add(table, type);
 }
 
-static void print_attributes(ByteBuffer *text, size_t kind) {
+static void print_attributes(Text *text, size_t kind) {
     SCOPED_TEXT_TABLE table = text_table_new(4);
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
@@ -63,25 +63,25 @@ const char FORMULA_LETTERS[] =
     "s distance from a wall; n number of dimensions; δ time step; F > 0 is repulsive; the unit of F is "
     "mass·length/time²";
 
-void help_formula(ByteBuffer *text, const PetriNodeKind *kind) {
+void help_formula(Text *text, const PetriNodeKind *kind) {
     for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {
         size_t length = strcspn(line, "\n");
-        byte_buffer_format(text, "    %.*s\n", (int)length, line);
+        text_add_format(text, "    %.*s\n", (int)length, line);
         line += length;
     }
 }
 
 // Adds the help for all kinds of nodes with this name. Some names, such as `!group`, occur in several areas.
-static bool print_node(ByteBuffer *text, const char *name) {
+static bool print_node(Text *text, const char *name) {
     PetriNodeKind kind;
     bool found = false;
     name += name[0] == '!';
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         if (strcmp(kind.name, name) == 0) {
-            byte_buffer_format(text, "!%s (%s): %s\n", kind.name, kind.area, kind.help);
+            text_add_format(text, "!%s (%s): %s\n", kind.name, kind.area, kind.help);
             help_formula(text, &kind);
             if (kind.formula[0] != '\0')
-                byte_buffer_format(text, "    (%s)\n", FORMULA_LETTERS);
+                text_add_format(text, "    (%s)\n", FORMULA_LETTERS);
             print_attributes(text, i);
             found = true;
         }
@@ -90,7 +90,7 @@ static bool print_node(ByteBuffer *text, const char *name) {
 }
 
 // Adds the nodes that have an attribute of this name, each with the meaning of the attribute.
-static bool print_owners(ByteBuffer *text, const char *name) {
+static bool print_owners(Text *text, const char *name) {
     SCOPED_TEXT_TABLE table = text_table_new(3);
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
@@ -107,13 +107,13 @@ static bool print_owners(ByteBuffer *text, const char *name) {
     }
     bool found = table.count > 0;
     if (found) {
-        byte_buffer_format(text, "%s is an attribute of\n", name);
+        text_add_format(text, "%s is an attribute of\n", name);
         table_text(&table, text);
     }
     return found;
 }
 
-bool topics_print(ByteBuffer *text, const char *topic) {
+bool topics_print(Text *text, const char *topic) {
     bool node_only = topic[0] == '!';
     bool found = !node_only && print_builtin(text, topic); // a name such as random can be a function and a node
     found = print_node(text, topic) || found;

@@ -25,16 +25,16 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
         fputs(diagnostic->rendered, stderr);
 }
 
-static bool format_text(Formatting *formatting, const char *name, const ByteBuffer *original, ByteBuffer *out) {
-    SCOPED_BYTE_BUFFER copy = {0};
-    byte_buffer_add(&copy, original->data, original->length);
+static bool format_text(Formatting *formatting, const char *name, const Text *original, Text *out) {
+    SCOPED_TEXT copy = {0};
+    text_add(&copy, text_str(original));
     Str text = layout_normalise(&copy);
     const char *shown = script_display_name(name);
     // petri_load_text reports errors in the script.
     if (petri_load_text(formatting->session, shown, text.bytes, text.len) != PETRI_OK)
         return false;
     bool done = layout_text(formatting->session, text, out);
-    Str formatted = {out->data, out->length};
+    Str formatted = {out->bytes, out->len};
     if (!done || (!str_equal(formatted, text) && !layout_same(formatting->session, shown, text, formatted))) {
         message("cannot format %s: its compiled code would change; please report this bug in petri", shown);
         return false;
@@ -42,8 +42,8 @@ static bool format_text(Formatting *formatting, const char *name, const ByteBuff
     return true;
 }
 
-static bool write_script(const char *name, const ByteBuffer *out) {
-    const char *problem = file_replace(name, (Str){out->data, out->length}, 0);
+static bool write_script(const char *name, const Text *out) {
+    const char *problem = file_replace(name, (Str){out->bytes, out->len}, 0);
     if (problem) {
         message("cannot write %s: %s", name, problem);
         return false;
@@ -52,13 +52,13 @@ static bool write_script(const char *name, const ByteBuffer *out) {
 }
 
 // Writes a script that was read from standard input, even if formatting has not changed it.
-static int write_stdout(const ByteBuffer *out) {
-    return output_text(out->data, out->length, STATUS_DONE);
+static int write_stdout(const Text *out) {
+    return output_text(out->bytes, out->len, STATUS_DONE);
 }
 
 static void format_script(Formatting *formatting, const char *name) {
-    SCOPED_BYTE_BUFFER text = {0};
-    SCOPED_BYTE_BUFFER out = {0};
+    SCOPED_TEXT text = {0};
+    SCOPED_TEXT out = {0};
     if (!script_read(&text, name, SCRIPT_MAX_BYTES) || !format_text(formatting, name, &text, &out)) {
         formatting->failed++;
         // Writes the script unchanged: an editor may replace its text with the output, which must not lose the script.
@@ -66,7 +66,7 @@ static void format_script(Formatting *formatting, const char *name) {
             write_stdout(&text);
         return;
     }
-    bool changed = text.length != out.length || memcmp(text.data, out.data, out.length) != 0;
+    bool changed = text.len != out.len || memcmp(text.bytes, out.bytes, out.len) != 0;
     formatting->changed += changed;
     if (formatting->only_checks) {
         if (changed)

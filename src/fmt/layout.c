@@ -27,7 +27,7 @@ typedef struct Anchor {
 
 typedef struct Writer {
     const Words *words;
-    ByteBuffer text;
+    Text text;
     Line *lines;
     size_t line_count;
     size_t line_capacity;
@@ -46,8 +46,8 @@ static Line *current_line(Writer *writer) {
 static void end_line(Writer *writer) {
     if (writer->line_count == 0)
         return;
-    current_line(writer)->end = writer->text.length;
-    Str code = {writer->text.data + current_line(writer)->start, writer->text.length - current_line(writer)->start};
+    current_line(writer)->end = writer->text.len;
+    Str code = {writer->text.bytes + current_line(writer)->start, writer->text.len - current_line(writer)->start};
     for (size_t i = code.len; i > 0; i--) {
         if (code.bytes[i - 1] == '\n') { // a string contains a newline: measure only the part after it
             code = (Str){code.bytes + i, code.len - i};
@@ -63,10 +63,10 @@ static void begin_line(Writer *writer, uint32_t indent) {
         writer->line_capacity = writer->line_capacity == 0 ? 256 : 2 * writer->line_capacity;
         writer->lines = memory_realloc(writer->lines, writer->line_capacity * sizeof *writer->lines);
     }
-    byte_buffer_add(&writer->text, "", 0);
-    writer->lines[writer->line_count++] = (Line){.start = writer->text.length};
+    text_add_c(&writer->text, "");
+    writer->lines[writer->line_count++] = (Line){.start = writer->text.len};
     writer->indent = indent;
-    byte_buffer_format(&writer->text, "%*s", (int)indent, "");
+    text_add_format(&writer->text, "%*s", (int)indent, "");
 }
 
 // Returns the level of a comment on its own line. The level lies between those of the previous and the next statement.
@@ -130,9 +130,9 @@ static void track_brackets(Writer *writer, size_t at) {
     Anchor *anchor = &writer->anchors[writer->depth];
     bool first = before && (writer->depth > 0 ? before->role == ROLE_OPEN : word_is(before, "="));
     if (first && !anchor->word) {
-        const char *begins = writer->text.data + current_line(writer)->start;
+        const char *begins = writer->text.bytes + current_line(writer)->start;
         anchor->word = word;
-        anchor->column = (uint32_t)utf8_length((Str){begins, writer->text.length - current_line(writer)->start});
+        anchor->column = (uint32_t)utf8_length((Str){begins, writer->text.len - current_line(writer)->start});
     }
     if (word->role == ROLE_OPEN && writer->depth + 1 < MAX_LEVELS)
         writer->anchors[++writer->depth] = (Anchor){.indent = writer->indent};
@@ -152,7 +152,7 @@ static void add_word(Writer *writer, size_t at) {
     if (writer->line_count == 0 || word->breaks > 0) {
         uint32_t indent = indent_of(writer, at);
         if (word->joined && words->items[at - 1].kind != PETRI_TOKEN_COMMENT)
-            byte_buffer_add_text(&writer->text, " \\");
+            text_add_c(&writer->text, " \\");
         else if (word->breaks > 1)
             add_empty_lines(writer, word, indent);
         begin_line(writer, indent);
@@ -160,10 +160,10 @@ static void add_word(Writer *writer, size_t at) {
         current_line(writer)->comment = word;
         return;
     } else if (space_between(words, at)) {
-        byte_buffer_add_text(&writer->text, " ");
+        text_add_c(&writer->text, " ");
     }
     track_brackets(writer, at);
-    byte_buffer_add(&writer->text, word->text.bytes, word->text.len);
+    text_add(&writer->text, word->text);
 }
 
 // Returns the common column for the comments after code on consecutive lines, the first of which is line `at`. Keeps
@@ -177,30 +177,30 @@ static uint32_t comment_column(const Writer *writer, size_t at) {
     return column >= max_width + 2 ? column : max_width + 2;
 }
 
-static void write_lines(const Writer *writer, ByteBuffer *out) {
+static void write_lines(const Writer *writer, Text *out) {
     uint32_t column = 0;
     bool after_code = false;
     for (size_t i = 0; i < writer->line_count; i++) {
         const Line *at = &writer->lines[i];
-        byte_buffer_add(out, writer->text.data + at->start, at->end - at->start);
+        text_add(out, (Str){writer->text.bytes + at->start, at->end - at->start});
         if (at->comment) {
             column = after_code ? column : comment_column(writer, i);
-            byte_buffer_format(out, "%*s", (int)(column - at->width), "");
-            byte_buffer_add(out, at->comment->text.bytes, at->comment->text.len);
+            text_add_format(out, "%*s", (int)(column - at->width), "");
+            text_add(out, at->comment->text);
         }
         after_code = at->comment;
-        byte_buffer_add_text(out, "\n");
+        text_add_c(out, "\n");
     }
 }
 
-Str layout_normalise(ByteBuffer *text) {
+Str layout_normalise(Text *text) {
     static const char mark[] = "\xef\xbb\xbf";
-    size_t skipped = strncmp(text->data, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
-    char *bytes = text->data + skipped;
-    return (Str){bytes, source_unify_lines(bytes, text->length - skipped)};
+    size_t skipped = strncmp(text->bytes, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
+    char *bytes = text->bytes + skipped;
+    return (Str){bytes, source_unify_lines(bytes, text->len - skipped)};
 }
 
-bool layout_text(PetriSession *session, Str text, ByteBuffer *out) {
+bool layout_text(PetriSession *session, Str text, Text *out) {
     Words words;
     bool read = words_read(session, text, &words);
     if (read) {
@@ -209,9 +209,9 @@ bool layout_text(PetriSession *session, Str text, ByteBuffer *out) {
         for (size_t i = 0; i < words.count; i++)
             add_word(writer, i);
         end_line(writer);
-        byte_buffer_add(out, "", 0);
+        text_add_c(out, "");
         write_lines(writer, out);
-        byte_buffer_free(&writer->text);
+        text_free(&writer->text);
         free(writer->lines);
         free(writer);
     }
@@ -221,17 +221,17 @@ bool layout_text(PetriSession *session, Str text, ByteBuffer *out) {
 
 // Appends the compiled code of a script to `code`. Leaves out the first two columns of each row, because they contain
 // line numbers, which formatting can change.
-static bool read_code(PetriSession *session, const char *name, Str text, ByteBuffer *code) {
-    SCOPED_BYTE_BUFFER dump = {0};
+static bool read_code(PetriSession *session, const char *name, Str text, Text *code) {
+    SCOPED_TEXT dump = {0};
     if (petri_load_text(session, name, text.bytes, text.len) != PETRI_OK ||
-        petri_dump(session, PETRI_DUMP_CODE, byte_buffer_collect, &dump) != PETRI_OK)
+        petri_dump(session, PETRI_DUMP_CODE, text_collect, &dump) != PETRI_OK)
         return false;
     Str row;
-    for (size_t at = 0; byte_buffer_next_line(&dump, &at, &row);) {
+    for (size_t at = 0; text_next_line(&dump, &at, &row);) {
         size_t skipped = strspn(row.bytes, " ");
         skipped += strspn(row.bytes + skipped, "0123456789 ");
-        byte_buffer_add(code, row.bytes + skipped, row.len - skipped);
-        byte_buffer_add_text(code, "\n");
+        text_add(code, (Str){row.bytes + skipped, row.len - skipped});
+        text_add_c(code, "\n");
     }
     return true;
 }
@@ -251,8 +251,8 @@ bool layout_same(PetriSession *session, const char *name, Str before, Str after)
     bool same = words_read(session, before, &a) && words_read(session, after, &b) && same_words(&a, &b);
     words_free(&a);
     words_free(&b);
-    SCOPED_BYTE_BUFFER old_code = {0};
-    SCOPED_BYTE_BUFFER new_code = {0};
+    SCOPED_TEXT old_code = {0};
+    SCOPED_TEXT new_code = {0};
     return same && read_code(session, name, before, &old_code) && read_code(session, name, after, &new_code) &&
-           old_code.length == new_code.length && memcmp(old_code.data, new_code.data, old_code.length) == 0;
+           old_code.len == new_code.len && memcmp(old_code.bytes, new_code.bytes, old_code.len) == 0;
 }

@@ -5,13 +5,13 @@
 // at most two between blocks. Comments after code are aligned. Tokens never change, and formatting is idempotent.
 #pragma once
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "petri.h"
 
 // Returns the text with LF line endings and without a byte-order mark. The result is in the buffer, which is modified.
-Str layout_normalise(ByteBuffer *text);
+Str layout_normalise(Text *text);
 // Appends the formatted script to `out`. Returns false if the script has an invalid token, or if out of memory. `text`
 // must be normalised.
-bool layout_text(PetriSession *session, Str text, ByteBuffer *out);
+bool layout_text(PetriSession *session, Str text, Text *out);
 // Returns true if both scripts have the same tokens and the same compiled code. `name` is the file name in messages.
 bool layout_same(PetriSession *session, const char *name, Str before, Str after);

@@ -1,7 +1,7 @@
 // tokens.c: see tokens.h.
 #include "fmt/tokens.h"
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

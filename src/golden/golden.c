@@ -11,21 +11,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void add_word(TextList *words, ByteBuffer *word) {
-    byte_buffer_add_text(word, ""); // makes word->data a string even if the word is empty
-    texts_add(words, word->data);
+static void add_word(TextList *words, Text *word) {
+    text_add_c(word, ""); // makes word->bytes a string even if the word is empty
+    texts_add(words, word->bytes);
 }
 
 // Splits a line into words like a shell: at spaces, except in '...' or "..." or after a backslash. In '...', a
 // backslash has no special meaning.
-static bool split_options(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
-    SCOPED_BYTE_BUFFER word = {0};
+static bool split_options(Golden *golden, const char *line, size_t length, Text *error_text) {
+    SCOPED_TEXT word = {0};
     char quote = '\0';
     bool in_word = false;
     for (size_t i = 0; i < length; i++) {
         char c = line[i];
         if (c == '\\' && quote != '\'' && i + 1 < length) {
-            byte_buffer_add(&word, &line[++i], 1);
+            text_add_char(&word, line[++i]);
             in_word = true;
         } else if (quote != '\0' ? c == quote : c == '\'' || c == '"') {
             quote = quote != '\0' ? '\0' : c;
@@ -33,22 +33,22 @@ static bool split_options(Golden *golden, const char *line, size_t length, ByteB
         } else if (quote == '\0' && (c == ' ' || c == '\t')) {
             if (in_word)
                 add_word(&golden->options, &word);
-            word.length = 0;
+            word.len = 0;
             in_word = false;
         } else {
-            byte_buffer_add(&word, &c, 1);
+            text_add_char(&word, c);
             in_word = true;
         }
     }
     if (in_word)
         add_word(&golden->options, &word);
     if (quote != '\0')
-        byte_buffer_format(error_text, "line 1: missing closing quote");
+        text_add_format(error_text, "line 1: missing closing quote");
     return quote == '\0';
 }
 
 // Reads a remark such as `# tolerance 1e-9`. Ignores all other remarks, which are comments.
-static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
+static bool read_remark(Golden *golden, const char *line, size_t length, Text *error_text) {
     char copy[128];
     size_t kept = length < sizeof copy - 1 ? length : sizeof copy - 1;
     memcpy(copy, line, kept);
@@ -72,7 +72,7 @@ static bool read_remark(Golden *golden, const char *line, size_t length, ByteBuf
     } else {
         return true;
     }
-    byte_buffer_format(error_text, "line %" PRIu32 ": cannot read '%s'", golden->body_line, copy);
+    text_add_format(error_text, "line %" PRIu32 ": cannot read '%s'", golden->body_line, copy);
     return false;
 }
 
@@ -89,14 +89,14 @@ static const OptionSpec *find_option(const char *word, size_t length) {
 }
 
 // Rejects options that write files, because a golden from another author must not write files on this machine.
-static bool check_options(const Golden *golden, ByteBuffer *error_text) {
+static bool check_options(const Golden *golden, Text *error_text) {
     for (size_t i = 0; i < golden->options.count; i++) {
         const char *word = golden->options.items[i];
         size_t length = strcspn(word, "=");
         const OptionSpec *spec = word[0] == '-' && length > 1 ? find_option(word, length) : NULL;
         if (spec && !(spec->commands & FOR_GOLDEN)) {
-            byte_buffer_format(error_text, "line 1: option '--%s' is not allowed in goldens: tests write no files",
-                               spec->name);
+            text_add_format(error_text, "line 1: option '--%s' is not allowed in goldens: tests write no files",
+                            spec->name);
             return false;
         }
         bool alone = word[length] == '\0' && (word[0] == '-' && (word[1] == '-' || length == 2));
@@ -105,57 +105,56 @@ static bool check_options(const Golden *golden, ByteBuffer *error_text) {
     return true;
 }
 
-static bool read_head_line(Golden *golden, const char *line, size_t length, ByteBuffer *error_text) {
+static bool read_head_line(Golden *golden, const char *line, size_t length, Text *error_text) {
     if (golden->body_line > 1)
         return read_remark(golden, line, length, error_text);
     if (length < 5 || memcmp(line, "# run", 5) != 0 || (length > 5 && line[5] != ' ')) {
-        byte_buffer_format(error_text, "line 1: expected '# run' and the options");
+        text_add_format(error_text, "line 1: expected '# run' and the options");
         return false;
     }
     return split_options(golden, line + 5, length - 5, error_text) && check_options(golden, error_text);
 }
 
-bool golden_read(Golden *golden, const char *path, ByteBuffer *error_text) {
+bool golden_read(Golden *golden, const char *path, Text *error_text) {
     *golden = (Golden){.horizon = INT64_MAX, .strict = INT64_MAX, .body_line = 1};
-    const char *problem = byte_buffer_read_file(&golden->text, path, SIZE_MAX);
+    const char *problem = text_read_file(&golden->text, path, SIZE_MAX);
     if (problem) {
-        byte_buffer_format(error_text, "cannot read %s: %s", path, problem);
+        text_add_format(error_text, "cannot read %s: %s", path, problem);
         return false;
     }
-    const char *data = golden->text.data;
-    while (golden->body < golden->text.length && (golden->body_line == 1 || data[golden->body] == '#')) {
+    const char *data = golden->text.bytes;
+    while (golden->body < golden->text.len && (golden->body_line == 1 || data[golden->body] == '#')) {
         const char *line = data + golden->body;
-        const char *end = memchr(line, '\n', golden->text.length - golden->body);
-        size_t length = !end ? golden->text.length - golden->body : (size_t)(end - line);
+        const char *end = memchr(line, '\n', golden->text.len - golden->body);
+        size_t length = !end ? golden->text.len - golden->body : (size_t)(end - line);
         if (!read_head_line(golden, line, length, error_text))
             return false;
         golden->body += length + (!end ? 0 : 1);
         golden->body_line++;
     }
     if (golden->body_line == 1)
-        byte_buffer_format(error_text, "the golden is empty; start it with '# run' and the options");
+        text_add_format(error_text, "the golden is empty; start it with '# run' and the options");
     return golden->body_line > 1;
 }
 
 void golden_free(Golden *golden) {
     texts_free(&golden->options);
-    byte_buffer_free(&golden->text);
+    text_free(&golden->text);
     *golden = (Golden){0};
 }
 
-bool golden_update(const Golden *golden, const char *path, const ByteBuffer *output, bool *changed,
-                   ByteBuffer *error_text) {
-    size_t recorded = golden->text.length - golden->body;
-    *changed = recorded != output->length || memcmp(golden->text.data + golden->body, output->data, recorded) != 0;
+bool golden_update(const Golden *golden, const char *path, const Text *output, bool *changed, Text *error_text) {
+    size_t recorded = golden->text.len - golden->body;
+    *changed = recorded != output->len || memcmp(golden->text.bytes + golden->body, output->bytes, recorded) != 0;
     if (!*changed)
         return true;
-    SCOPED_BYTE_BUFFER updated = {0};
-    byte_buffer_add(&updated, golden->text.data, golden->body);
-    if (golden->body > 0 && golden->text.data[golden->body - 1] != '\n')
-        byte_buffer_add_text(&updated, "\n");
-    byte_buffer_add(&updated, output->data, output->length);
-    const char *problem = file_replace(path, (Str){updated.data, updated.length}, 0);
+    SCOPED_TEXT updated = {0};
+    text_add(&updated, (Str){golden->text.bytes, golden->body});
+    if (golden->body > 0 && golden->text.bytes[golden->body - 1] != '\n')
+        text_add_c(&updated, "\n");
+    text_add(&updated, text_str(output));
+    const char *problem = file_replace(path, text_str(&updated), 0);
     if (problem)
-        byte_buffer_format(error_text, "cannot write %s: %s", path, problem);
+        text_add_format(error_text, "cannot write %s: %s", path, problem);
     return !problem;
 }

@@ -9,13 +9,13 @@
 // horizon is ignored.
 #pragma once
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "cli/output.h"
 
 #include <stdint.h>
 
 typedef struct Golden {
-    ByteBuffer text;    // the whole file
+    Text text;          // the whole file
     size_t body;        // offset of the recorded output in `text`
     uint32_t body_line; // line number of the recorded output, from 1
     TextList options;   // words after `# run`
@@ -25,15 +25,14 @@ typedef struct Golden {
 } Golden;
 
 // Reads a golden. On failure, returns false and adds the reason to error_text.
-bool golden_read(Golden *golden, const char *path, ByteBuffer *error_text);
+bool golden_read(Golden *golden, const char *path, Text *error_text);
 void golden_free(Golden *golden);
 
 // Returns true if `output` agrees with the golden. Otherwise adds the first difference to error_text.
-bool golden_compare(const Golden *golden, const ByteBuffer *output, ByteBuffer *error_text);
+bool golden_compare(const Golden *golden, const Text *output, Text *error_text);
 // Replaces the recorded output in the file and keeps the lines above it. Sets *changed to true if the output differed,
 // else to false. On failure, returns false and adds the reason to error_text.
-bool golden_update(const Golden *golden, const char *path, const ByteBuffer *output, bool *changed,
-                   ByteBuffer *error_text);
+bool golden_update(const Golden *golden, const char *path, const Text *output, bool *changed, Text *error_text);
 
 // Comparison of lines (golden_line.c).
 //
@@ -57,15 +56,15 @@ bool line_same(Str expected, Str got, double tolerance, LineDifference *differen
 // Returns true if petri rejected the script `name` with an error in the line that the .err file at `path` contains:
 // `line N`, or `line *` for any line. `status` is the status from waitpid, and `errors` is the standard error of the
 // run. On failure, adds the reason to error_text.
-bool rejection_check(const char *path, const char *name, int status, const ByteBuffer *errors, ByteBuffer *error_text);
+bool rejection_check(const char *path, const char *name, int status, const Text *errors, Text *error_text);
 
 // Reports: one line per result, and a file for CI systems (report.c).
 
 typedef struct Result {
     const char *name;
     bool passed;
-    bool updated;          // true if the golden was rewritten
-    ByteBuffer error_text; // reason for a failure
+    bool updated;    // true if the golden was rewritten
+    Text error_text; // reason for a failure
     double seconds;
 } Result;
 

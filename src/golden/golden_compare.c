@@ -81,7 +81,7 @@ static int64_t frame_number(const Reader *reader) {
 }
 
 // Adds an excerpt of a line around the offset `at`.
-static void add_excerpt(ByteBuffer *error_text, Str line, size_t at) {
+static void add_excerpt(Text *error_text, Str line, size_t at) {
     size_t start = line.len <= EXCERPT_LENGTH || at <= EXCERPT_BEFORE ? 0 : at - EXCERPT_BEFORE;
     // Do not split a UTF-8 character.
     while (start > 0 && ((unsigned char)line.bytes[start] & 0xC0U) == 0x80U)
@@ -89,19 +89,19 @@ static void add_excerpt(ByteBuffer *error_text, Str line, size_t at) {
     size_t end = line.len - start <= EXCERPT_LENGTH ? line.len : start + EXCERPT_LENGTH;
     while (end < line.len && ((unsigned char)line.bytes[end] & 0xC0U) == 0x80U)
         end++;
-    byte_buffer_add_text(error_text, start > 0 ? "..." : "");
+    text_add_c(error_text, start > 0 ? "..." : "");
     for (size_t i = start; i < end; i++)
         if (line.bytes[i] == '\n')
-            byte_buffer_format(error_text, "\\n");
+            text_add_format(error_text, "\\n");
         else
-            byte_buffer_add(error_text, &line.bytes[i], 1);
-    byte_buffer_add_text(error_text, end < line.len ? "..." : "");
+            text_add_char(error_text, line.bytes[i]);
+    text_add_c(error_text, end < line.len ? "..." : "");
 }
 
 typedef struct Comparison {
     int64_t frame;
     double tolerance;
-    ByteBuffer *error_text;
+    Text *error_text;
 } Comparison;
 
 // Adds a description of a difference to the error text. `expected` is a line of the golden; if it is NULL, the golden
@@ -109,16 +109,16 @@ typedef struct Comparison {
 // NULL if there is none. Always returns false.
 static bool report_difference(const Comparison *comparison, const Line *expected, const Line *got, uint32_t line,
                               LineDifference where) {
-    ByteBuffer *error_text = comparison->error_text;
-    byte_buffer_format(error_text, "frame %" PRId64 " line %" PRIu32 ": expected ", comparison->frame,
-                       !expected ? line : expected->number);
+    Text *error_text = comparison->error_text;
+    text_add_format(error_text, "frame %" PRId64 " line %" PRIu32 ": expected ", comparison->frame,
+                    !expected ? line : expected->number);
     if (!expected)
-        byte_buffer_format(error_text, "nothing more");
+        text_add_format(error_text, "nothing more");
     else
         add_excerpt(error_text, expected->text, where.expected_at);
-    byte_buffer_format(error_text, ", got ");
+    text_add_format(error_text, ", got ");
     if (!got)
-        byte_buffer_format(error_text, "nothing");
+        text_add_format(error_text, "nothing");
     else
         add_excerpt(error_text, got->text, where.got_at);
     return false;
@@ -184,7 +184,7 @@ static bool compare_frames(const Golden *golden, Comparison *comparison, const R
            (first[ERRORS].count == 0 || compare_as_sets(comparison, &first[ERRORS], &second[ERRORS], expected->number));
 }
 
-static bool compare_readers(const Golden *golden, Reader *expected, Reader *got, ByteBuffer *error_text) {
+static bool compare_readers(const Golden *golden, Reader *expected, Reader *got, Text *error_text) {
     for (;;) {
         bool more_expected = read_frame(expected);
         bool more_got = read_frame(got);
@@ -200,13 +200,13 @@ static bool compare_readers(const Golden *golden, Reader *expected, Reader *got,
     }
 }
 
-bool golden_compare(const Golden *golden, const ByteBuffer *output, ByteBuffer *error_text) {
-    const char *recorded = golden->text.data + golden->body;
-    size_t length = golden->text.length - golden->body;
-    if (length == output->length && memcmp(recorded, output->data, length) == 0)
+bool golden_compare(const Golden *golden, const Text *output, Text *error_text) {
+    const char *recorded = golden->text.bytes + golden->body;
+    size_t length = golden->text.len - golden->body;
+    if (length == output->len && memcmp(recorded, output->bytes, length) == 0)
         return true;
     Reader expected = {.at = recorded, .end = recorded + length, .number = golden->body_line};
-    Reader got = {.at = output->data, .end = output->data + output->length, .number = 1};
+    Reader got = {.at = output->bytes, .end = output->bytes + output->len, .number = 1};
     bool same = compare_readers(golden, &expected, &got, error_text);
     free_reader(&expected);
     free_reader(&got);

@@ -1,5 +1,5 @@
 // golden_line.c: comparison of two lines of output (golden.h).
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "golden/golden.h"
 
 #include <math.h>
@@ -69,7 +69,7 @@ static Token next_token(Str line, size_t at) {
 }
 
 // Adds the contents of a quoted string.
-static void unquote(ByteBuffer *out, const char *text, size_t length) {
+static void unquote(Text *out, const char *text, size_t length) {
     const char *end = text + length - (length > 1 && text[length - 1] == text[0]);
     for (const char *at = text + 1; at < end; at++) {
         char plain[UTF8_MAX] = {*at}, hex[9] = "";
@@ -84,15 +84,15 @@ static void unquote(ByteBuffer *out, const char *text, size_t length) {
                 at += digits;
             }
         }
-        byte_buffer_add(out, plain, count);
+        text_add(out, (Str){plain, count});
     }
 }
 
 static bool strings_same(const char *a, size_t a_length, const char *b, size_t b_length) {
-    SCOPED_BYTE_BUFFER first = {0}, second = {0};
+    SCOPED_TEXT first = {0}, second = {0};
     unquote(&first, a, a_length);
     unquote(&second, b, b_length);
-    return str_equal((Str){first.data, first.length}, (Str){second.data, second.length});
+    return str_equal(text_str(&first), text_str(&second));
 }
 
 // Differences between the numbers of two lines.

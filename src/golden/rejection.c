@@ -1,4 +1,5 @@
 // rejection.c: tests of scripts that must be rejected (golden.h).
+#include "base/file.h"
 #include "cli/subprocess.h"
 #include "golden/golden.h"
 
@@ -12,19 +13,19 @@ enum { ANY_LINE = -1, NO_LINE = 0 };
 
 // Returns the line number in the .err file, or ANY_LINE for `line *`. On failure, adds the reason to error_text and
 // returns NO_LINE.
-static long read_line_number(const char *path, ByteBuffer *error_text) {
-    SCOPED_BYTE_BUFFER text = {0};
+static long read_line_number(const char *path, Text *error_text) {
+    SCOPED_TEXT text = {0};
     long line = NO_LINE;
     char rest = '\0';
-    const char *problem = byte_buffer_read_file(&text, path, SIZE_MAX);
+    const char *problem = text_read_file(&text, path, SIZE_MAX);
     if (problem) {
-        byte_buffer_format(error_text, "cannot read %s: %s", path, problem);
+        text_add_format(error_text, "cannot read %s: %s", path, problem);
         return NO_LINE;
     }
-    if (strncmp(text.data, "line *", 6) == 0 && sscanf(text.data + 6, " %c", &rest) != 1) {
+    if (strncmp(text.bytes, "line *", 6) == 0 && sscanf(text.bytes + 6, " %c", &rest) != 1) {
         line = ANY_LINE;
-    } else if (sscanf(text.data, "line %ld %c", &line, &rest) != 1 || line < 1) {
-        byte_buffer_format(error_text, "cannot read %s: expected 'line N' or 'line *'", path);
+    } else if (sscanf(text.bytes, "line %ld %c", &line, &rest) != 1 || line < 1) {
+        text_add_format(error_text, "cannot read %s: expected 'line N' or 'line *'", path);
         line = NO_LINE;
     }
     return line;
@@ -45,7 +46,7 @@ static long next_reported_line(const char **at, const char *name) {
     return NO_LINE;
 }
 
-bool rejection_check(const char *path, const char *name, int status, const ByteBuffer *errors, ByteBuffer *error_text) {
+bool rejection_check(const char *path, const char *name, int status, const Text *errors, Text *error_text) {
     long wanted = read_line_number(path, error_text);
     if (wanted == NO_LINE)
         return false;
@@ -56,22 +57,22 @@ bool rejection_check(const char *path, const char *name, int status, const ByteB
     char place[32] = "any line";
     if (wanted != ANY_LINE)
         snprintf(place, sizeof place, "line %ld", wanted);
-    byte_buffer_format(error_text, "expected an error in %s, got ", place);
+    text_add_format(error_text, "expected an error in %s, got ", place);
     if (WEXITSTATUS(status) == 0) {
-        byte_buffer_format(error_text, "none");
+        text_add_format(error_text, "none");
         return false;
     }
-    const char *at = errors->data;
+    const char *at = errors->bytes;
     long first = next_reported_line(&at, name);
     for (long line = first; line != NO_LINE; line = next_reported_line(&at, name)) {
         if (wanted == ANY_LINE || line == wanted) {
-            byte_buffer_free(error_text);
+            text_free(error_text);
             return true;
         }
     }
     if (first == NO_LINE)
         subprocess_describe(status, errors, error_text);
     else
-        byte_buffer_format(error_text, "one in line %ld", first);
+        text_add_format(error_text, "one in line %ld", first);
     return false;
 }

@@ -9,33 +9,33 @@ void report_result(Output *output, const Result *result) {
     if (result->passed) {
         output_format(output, "ok %s%s\n", result->name, result->updated ? " (updated)" : "");
     } else {
-        const char *trouble = !result->error_text.data ? "" : result->error_text.data;
+        const char *trouble = !result->error_text.bytes ? "" : result->error_text.bytes;
         output_format(output, "FAIL %s %s\n", result->name, trouble);
     }
 }
 
 // Adds text escaped for XML. Control characters become `?`, because XML does not allow them even escaped.
-static void add_escaped(ByteBuffer *out, const char *text) {
+static void add_escaped(Text *out, const char *text) {
     static const char *const escapes[128] = {['<'] = "&lt;", ['>'] = "&gt;", ['&'] = "&amp;", ['"'] = "&quot;"};
     for (const char *c = text; *c != '\0'; c++) {
         const char *escape = (unsigned char)*c < ' '   ? "?"
                              : (unsigned char)*c < 128 ? escapes[(unsigned char)*c]
                                                        : NULL;
-        byte_buffer_add(out, escape ? escape : c, escape ? strlen(escape) : 1);
+        text_add(out, (Str){escape ? escape : c, escape ? strlen(escape) : 1});
     }
 }
 
-static void add_result(ByteBuffer *out, const Result *result) {
-    byte_buffer_format(out, "  <testcase name=\"");
+static void add_result(Text *out, const Result *result) {
+    text_add_format(out, "  <testcase name=\"");
     add_escaped(out, result->name);
-    byte_buffer_format(out, "\" time=\"%.3f\"", result->seconds);
+    text_add_format(out, "\" time=\"%.3f\"", result->seconds);
     if (result->passed) {
-        byte_buffer_format(out, "/>\n");
+        text_add_format(out, "/>\n");
         return;
     }
-    byte_buffer_format(out, ">\n    <failure message=\"");
-    add_escaped(out, !result->error_text.data ? "" : result->error_text.data);
-    byte_buffer_format(out, "\"/>\n  </testcase>\n");
+    text_add_format(out, ">\n    <failure message=\"");
+    add_escaped(out, !result->error_text.bytes ? "" : result->error_text.bytes);
+    text_add_format(out, "\"/>\n  </testcase>\n");
 }
 
 bool report_junit(const char *path, Result *const *results, size_t count) {
@@ -45,14 +45,14 @@ bool report_junit(const char *path, Result *const *results, size_t count) {
         failed += results[i]->passed ? 0 : 1;
         seconds += results[i]->seconds;
     }
-    SCOPED_BYTE_BUFFER out = {0};
-    byte_buffer_format(&out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    byte_buffer_format(&out, "<testsuite name=\"petri\" tests=\"%zu\" failures=\"%zu\" time=\"%.3f\">\n", count, failed,
-                       seconds);
+    SCOPED_TEXT out = {0};
+    text_add_format(&out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    text_add_format(&out, "<testsuite name=\"petri\" tests=\"%zu\" failures=\"%zu\" time=\"%.3f\">\n", count, failed,
+                    seconds);
     for (size_t i = 0; i < count; i++)
         add_result(&out, results[i]);
-    byte_buffer_format(&out, "</testsuite>\n");
-    const char *problem = file_replace(path, (Str){out.data, out.length}, 0);
+    text_add_format(&out, "</testsuite>\n");
+    const char *problem = file_replace(path, text_str(&out), 0);
     if (problem)
         message("cannot write %s: %s", path, problem);
     return !problem;

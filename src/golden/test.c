@@ -41,11 +41,11 @@ static char *file_beside(const char *script, const char *ending) {
     size_t length = strlen(script);
     if (length > 3 && strcmp(script + length - 3, ".fl") == 0)
         length -= 3;
-    ByteBuffer path = {0};
-    byte_buffer_format(&path, "%.*s%s", (int)length, script, ending);
-    if (access(path.data, F_OK) == 0)
-        return path.data;
-    byte_buffer_free(&path);
+    Text path = {0};
+    text_add_format(&path, "%.*s%s", (int)length, script, ending);
+    if (access(path.bytes, F_OK) == 0)
+        return path.bytes;
+    text_free(&path);
     return NULL;
 }
 
@@ -67,19 +67,19 @@ static void add_case(Suite *suite, const Script *script) {
 
 // If `value` is not NULL, adds --NAME=VALUE, which overrides the same option in the golden. `petri run` rejects
 // invalid values.
-static void add_override(char **argv, int *argc, ByteBuffer *text, const char *name, const char *value) {
+static void add_override(char **argv, int *argc, Text *text, const char *name, const char *value) {
     if (value) {
-        byte_buffer_format(text, "--%s=%s", name, value);
-        argv[(*argc)++] = text->data;
+        text_add_format(text, "--%s=%s", name, value);
+        argv[(*argc)++] = text->bytes;
     }
 }
 
 static void start_child(Suite *suite, Case *item) {
-    SCOPED_TEXT folder = script_folder(item->script);
+    SCOPED_STRING folder = script_folder(item->script);
     const Golden *golden = &item->golden;
     char **argv = memory_calloc((golden->options.count + 10) * sizeof *argv);
-    SCOPED_BYTE_BUFFER threads = {0};
-    SCOPED_BYTE_BUFFER neighbours = {0};
+    SCOPED_TEXT threads = {0};
+    SCOPED_TEXT neighbours = {0};
     int argc = 0;
     argv[argc++] = "petri";
     argv[argc++] = "run";
@@ -98,7 +98,7 @@ static void start_child(Suite *suite, Case *item) {
     argv[argc++] = item->name;
     item->result.seconds = clock_seconds();
     if (!subprocess_start(&item->child, suite->host->program, folder, argv)) {
-        byte_buffer_format(&item->result.error_text, "cannot start a process: %s", strerror(errno));
+        text_add_format(&item->result.error_text, "cannot start a process: %s", strerror(errno));
         item->done = true;
     }
     free(argv);
@@ -113,7 +113,7 @@ static void start_case(Suite *suite, Case *item) {
     start_child(suite, item);
 }
 
-static void check_case(const Suite *suite, Case *item, int status, const ByteBuffer *output, const ByteBuffer *errors) {
+static void check_case(const Suite *suite, Case *item, int status, const Text *output, const Text *errors) {
     Result *result = &item->result;
     if (item->is_rejection)
         result->passed = rejection_check(item->recorded, item->name, status, errors, &result->error_text);
@@ -126,8 +126,8 @@ static void check_case(const Suite *suite, Case *item, int status, const ByteBuf
 }
 
 static void end_case(const Suite *suite, Case *item, int status) {
-    SCOPED_BYTE_BUFFER output = {0};
-    SCOPED_BYTE_BUFFER errors = {0};
+    SCOPED_TEXT output = {0};
+    SCOPED_TEXT errors = {0};
     item->result.seconds = clock_seconds() - item->result.seconds;
     subprocess_collect(&item->child, &output, &errors);
     check_case(suite, item, status, &output, &errors);
@@ -211,7 +211,7 @@ static int run_suite(Suite *suite) {
 static void free_suite(Suite *suite) {
     for (size_t i = 0; i < suite->count; i++) {
         free(suite->cases[i].recorded);
-        byte_buffer_free(&suite->cases[i].result.error_text);
+        text_free(&suite->cases[i].result.error_text);
     }
     free(suite->cases);
 }

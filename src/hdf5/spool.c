@@ -27,7 +27,7 @@ typedef struct Entry {
 } Entry;
 
 static bool report_error(const Spool *spool, const char *why) {
-    message("cannot write %s: %s", spool->path.data, why);
+    message("cannot write %s: %s", spool->path.bytes, why);
     return false;
 }
 
@@ -47,7 +47,7 @@ static bool lock_file(int file) {
 static bool open_locked(Spool *spool) {
     struct stat info = {0};
     for (int i = 0; i < 2; i++) {
-        spool->file = file_open_at(AT_FDCWD, spool->path.data, O_RDWR | O_CREAT | O_NOFOLLOW, 0666);
+        spool->file = file_open_at(AT_FDCWD, spool->path.bytes, O_RDWR | O_CREAT | O_NOFOLLOW, 0666);
         if (spool->file < 0)
             return report_error(spool, strerror(errno));
         bool locked = lock_file(spool->file);
@@ -87,7 +87,7 @@ static bool reset_spool(Spool *spool, bool whole) {
 bool spool_open(Spool *spool, const char *path, bool begins) {
     char line[LINE] = "";
     *spool = (Spool){.file = -1};
-    byte_buffer_format(&spool->path, "%s.part", path);
+    text_add_format(&spool->path, "%s.part", path);
     if (!open_locked(spool))
         return false;
     bool read = read_at(spool, 0, line, LINE);
@@ -204,8 +204,8 @@ bool spool_save(Spool *spool, int folder) {
 
 void spool_close(Spool *spool, bool done) {
     if (spool->file >= 0 && (done || !spool->has_frames))
-        unlink(spool->path.data);
+        unlink(spool->path.bytes);
     if (spool->file >= 0)
         close(spool->file);
-    byte_buffer_free(&spool->path);
+    text_free(&spool->path);
 }

@@ -4,15 +4,15 @@
 // are killed before that, the spool contains the frames up to the last saved state. The next run reads them from it.
 #pragma once
 
-#include "cli/byte_buffer.h"
 #include "cli/hdf5.h"
+#include "cli/memory.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 typedef struct Spool {
-    ByteBuffer path;
+    Text path;
     int file;        // descriptor, locked
     bool complete;   // true if the spool contains the whole trajectory; an existing HDF5 file is older and ignored
     bool has_frames; // true if the spool contains frames, possibly of an earlier run

@@ -2,9 +2,9 @@
 #include "hdf5/store.h"
 
 #include "base/file.h"
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "cli/hdf5.h"
+#include "cli/memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -48,7 +48,7 @@ static bool copy_existing(Store *store) {
     } while (old < 0 && errno == EINTR);
     if (old < 0)
         return errno == ENOENT;
-    SCOPED_TEXT bytes = memory_calloc(COPY_BYTES);
+    SCOPED_STRING bytes = memory_calloc(COPY_BYTES);
     ssize_t count;
     while ((count = read(old, bytes, COPY_BYTES)) > 0 || (count < 0 && errno == EINTR))
         if (count > 0 && !file_write(store->replacement.file, bytes, (size_t)count))
@@ -80,10 +80,10 @@ bool store_begin(Store *store, const char *path, bool continues) {
     H5Lunregister(H5L_TYPE_EXTERNAL); // a file of a stranger must not refer to other files, which would be modified
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // H5Fclose also closes all open objects of the file
-    SCOPED_BYTE_BUFFER name = {0};
-    byte_buffer_format(&name, "/proc/self/fd/%d/%s", store->replacement.folder, store->replacement.temporary_name);
-    store->file = store->existing ? H5Fopen(name.data, H5F_ACC_RDWR, access)
-                                  : check_id(store, H5Fcreate(name.data, H5F_ACC_TRUNC, H5P_DEFAULT, access));
+    SCOPED_TEXT name = {0};
+    text_add_format(&name, "/proc/self/fd/%d/%s", store->replacement.folder, store->replacement.temporary_name);
+    store->file = store->existing ? H5Fopen(name.bytes, H5F_ACC_RDWR, access)
+                                  : check_id(store, H5Fcreate(name.bytes, H5F_ACC_TRUNC, H5P_DEFAULT, access));
     H5Pclose(access);
     if (store->file < 0 && store->existing) {
         replace_abort(&store->replacement);
@@ -350,7 +350,7 @@ int store_read_number(Store *store, hid_t object, const char *name) {
     return number;
 }
 
-bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name) {
+bool store_name_at(Store *store, hid_t group, hsize_t number, Text *name) {
     H5G_info_t info = {0};
     store_check(store, H5Gget_info(group, &info));
     if (store->failed || number >= info.nlinks)
@@ -358,10 +358,10 @@ bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name) 
     ssize_t length = H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, number, NULL, 0, H5P_DEFAULT);
     store_check(store, length);
     if (length >= 0) {
-        SCOPED_TEXT text = memory_calloc((size_t)length + 1);
+        SCOPED_STRING text = memory_calloc((size_t)length + 1);
         H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, number, text, (size_t)length + 1, H5P_DEFAULT);
-        name->length = 0;
-        byte_buffer_add(name, text, (size_t)length);
+        name->len = 0;
+        text_add(name, (Str){text, (size_t)length});
     }
     return length >= 0;
 }

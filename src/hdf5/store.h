@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/replace.h"
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 
 #include <hdf5.h>
 #include <stdbool.h>
@@ -82,7 +82,7 @@ char *store_read_text(Store *store, hid_t object, const char *name);
 // Returns the value of an integer attribute.
 int store_read_number(Store *store, hid_t object, const char *name);
 // Sets `name` to the name of the group's member `number`, from 0. Returns false if there is no such member.
-bool store_name_at(Store *store, hid_t group, hsize_t number, ByteBuffer *name);
+bool store_name_at(Store *store, hid_t group, hsize_t number, Text *name);
 // Reads a data set of strings. Returns an array of *count strings of *bytes bytes each. The caller frees it.
 char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes);
 // Gives the object called `old` in the group `from` the additional name `name` in the group `to` (a hard link).

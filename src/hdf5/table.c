@@ -1,7 +1,7 @@
 // table.c: see table.h.
 #include "hdf5/table.h"
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,10 +16,10 @@ typedef struct Column {
 } Column;
 
 typedef struct Table {
-    ByteBuffer texts; // contents of all cells, each NUL-terminated
-    size_t *cells;    // offsets of the cells in `texts`
-    size_t count;     // number of cells
-    size_t width;     // number of cells in a row
+    Text texts;    // contents of all cells, each NUL-terminated
+    size_t *cells; // offsets of the cells in `texts`
+    size_t count;  // number of cells
+    size_t width;  // number of cells in a row
 } Table;
 
 // Reads the cell at *at and moves *at to the comma or newline after it.
@@ -33,9 +33,9 @@ static void read_cell(Table *table, const char **at, const char *end) {
             quoted = !quoted;
             continue;
         }
-        byte_buffer_add(&table->texts, *at, 1);
+        text_add(&table->texts, (Str){*at, 1});
     }
-    byte_buffer_add(&table->texts, "", 1);
+    text_add(&table->texts, (Str){"", 1});
 }
 
 static void read_csv(Table *table, const char *csv, size_t length) {
@@ -45,7 +45,7 @@ static void read_csv(Table *table, const char *csv, size_t length) {
             capacity = 2 * capacity + 64;
             table->cells = memory_realloc(table->cells, capacity * sizeof *table->cells);
         }
-        table->cells[table->count++] = table->texts.length;
+        table->cells[table->count++] = table->texts.len;
         read_cell(table, &at, end);
         if (table->width == 0 && (at == end || *at == '\n'))
             table->width = table->count;
@@ -53,7 +53,7 @@ static void read_csv(Table *table, const char *csv, size_t length) {
 }
 
 static const char *cell_at(const Table *table, size_t row, size_t column) {
-    return table->texts.data + table->cells[row * table->width + column];
+    return table->texts.bytes + table->cells[row * table->width + column];
 }
 
 static Kind kind_of(const char *text) {
@@ -117,5 +117,5 @@ void table_store(Store *store, const char *csv, size_t length) {
     free(records);
     free(columns);
     free(table.cells);
-    byte_buffer_free(&table.texts);
+    text_free(&table.texts);
 }

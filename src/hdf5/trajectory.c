@@ -67,14 +67,14 @@ static bool is_name_used(const TrajectoryFile *file, const char *name) {
 }
 
 // Chooses the name of a group: `:cells` becomes cells, slashes become `|`, and a number is added if the name is in use.
-static void choose_name(const TrajectoryFile *file, const char *called, ByteBuffer *name) {
-    byte_buffer_add_text(name, called + (called[0] == ':' && called[1] != '\0'));
-    for (char *c = name->data; *c != '\0'; c++)
+static void choose_name(const TrajectoryFile *file, const char *called, Text *name) {
+    text_add_c(name, called + (called[0] == ':' && called[1] != '\0'));
+    for (char *c = name->bytes; *c != '\0'; c++)
         *c = *c == '/' ? '|' : *c;
-    size_t length = name->length;
-    for (int number = 2; is_name_used(file, name->data); number++) {
-        name->length = length;
-        byte_buffer_format(name, "-%d", number);
+    size_t length = name->len;
+    for (int number = 2; is_name_used(file, name->bytes); number++) {
+        name->len = length;
+        text_add_format(name, "-%d", number);
     }
 }
 
@@ -97,12 +97,12 @@ static void add_element(TrajectoryFile *file, Group *group, hid_t parent, Kind k
 
 static void add_group(TrajectoryFile *file, const char *called, const Hdf5System *system) {
     Store *store = file->store;
-    SCOPED_BYTE_BUFFER name = {0};
+    SCOPED_TEXT name = {0};
     choose_name(file, called, &name);
     file->groups = memory_realloc(file->groups, (file->group_count + 1) * sizeof *file->groups);
     Group *group = &file->groups[file->group_count++];
     *group = (Group){.system_name = memory_strdup(called), .dimensions = system->dimensions};
-    group->group = store_group(store, file->particles, name.data);
+    group->group = store_group(store, file->particles, name.bytes);
     store_text(store, group->group, "system", called);
     hid_t box = store_group(store, group->group, "box");
     int dimensions = (int)system->dimensions;
@@ -255,15 +255,15 @@ static void cut_group(Store *store, Group *group) {
 }
 
 static void read_groups(TrajectoryFile *file, int64_t after, int64_t *min_id) {
-    SCOPED_BYTE_BUFFER name = {0};
+    SCOPED_TEXT name = {0};
     for (hsize_t i = 0; store_name_at(file->store, file->particles, i, &name);) {
-        Group group = {.group = store_open(file->store, file->particles, name.data)};
+        Group group = {.group = store_open(file->store, file->particles, name.bytes)};
         bool any = read_group(file, &group, after, min_id);
         if (file->store->failed || !any) {
             free(group.system_name);
             if (file->store->failed)
                 return;
-            store_check(file->store, H5Ldelete(file->particles, name.data, H5P_DEFAULT));
+            store_check(file->store, H5Ldelete(file->particles, name.bytes, H5P_DEFAULT));
             continue;
         }
         cut_group(file->store, &group);
@@ -303,11 +303,11 @@ void trajectory_file_end(TrajectoryFile *file) {
         free(file->groups[i].system_name);
     }
     if (file->texts.count > 0) {
-        SCOPED_BYTE_BUFFER texts = {0};
+        SCOPED_TEXT texts = {0};
         for (size_t i = 0; i < file->texts.count; i++)
-            byte_buffer_add(&texts, file->texts.items[i], strlen(file->texts.items[i]) + 1);
+            text_add(&texts, (Str){file->texts.items[i], strlen(file->texts.items[i]) + 1});
         hid_t parameters = store_group(file->store, file->store->file, "parameters");
-        store_text_list(file->store, parameters, "id_texts", texts.data, file->texts.count);
+        store_text_list(file->store, parameters, "id_texts", texts.bytes, file->texts.count);
     }
     texts_free(&file->texts);
     hash_index_free(&file->index);

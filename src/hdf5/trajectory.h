@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/hash_index.h"
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "hdf5/store.h"
 
 typedef struct Group Group;

@@ -20,7 +20,7 @@ static void read_definitions(Linked *linked, const TextList *definitions) {
     }
 }
 
-static bool read_script(ByteBuffer *text, const char *name) {
+static bool read_script(Text *text, const char *name) {
     static const size_t max_bytes = (size_t)4 << 20;
     bool read = script_read(text, name, max_bytes);
     if (!read && !script_is_stdin(name))
@@ -29,14 +29,14 @@ static bool read_script(ByteBuffer *text, const char *name) {
 }
 
 static int print_link(const Linked *linked, const char *page) {
-    SCOPED_BYTE_BUFFER link = {0};
-    byte_buffer_add_text(&link, !page ? "" : page);
+    SCOPED_TEXT link = {0};
+    text_add_c(&link, !page ? "" : page);
     if (!link_pack(&link, linked))
         return STATUS_FAILED;
-    byte_buffer_add_text(&link, "\n");
+    text_add_c(&link, "\n");
     if (!page && isatty(STDERR_FILENO))
         message("append this text to the playground's URL, as --page does, or open it with 'petri open'");
-    return output_text(link.data, link.length, STATUS_DONE);
+    return output_text(link.bytes, link.len, STATUS_DONE);
 }
 
 static int make_link(const CommandContext *context, Options *options, LinkSession *link_session) {

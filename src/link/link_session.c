@@ -106,9 +106,9 @@ int link_session_run(LinkSession *link_session, const CommandContext *host, Opti
     const Linked *linked = &link_session->linked;
     for (size_t i = 0; i < linked->change_count; i++) {
         if (linked->changes[i].frame < 0) {
-            SCOPED_BYTE_BUFFER definition = {0};
-            byte_buffer_format(&definition, "%s=%s", linked->changes[i].name, linked->changes[i].value);
-            texts_add(&options->definitions, definition.data);
+            SCOPED_TEXT definition = {0};
+            text_add_format(&definition, "%s=%s", linked->changes[i].name, linked->changes[i].value);
+            texts_add(&options->definitions, definition.bytes);
         }
     }
     options->read = note_file;
@@ -117,27 +117,27 @@ int link_session_run(LinkSession *link_session, const CommandContext *host, Opti
     int status = frames_open(&link_session->frames, host, options);
     if (status != OPTIONS_READ)
         return status;
-    if (petri_load_text(link_session->frames.session, linked->name, linked->text.data, linked->text.length) != PETRI_OK)
+    if (petri_load_text(link_session->frames.session, linked->name, linked->text.bytes, linked->text.len) != PETRI_OK)
         return link_session->frames.invalid_definition ? STATUS_USAGE : STATUS_FAILED;
     return make_frames(link_session);
 }
 
 char *link_session_hash(const LinkSession *link_session) {
     enum { DIGITS = 64 };
-    SCOPED_BYTE_BUFFER text = {0};
-    bool printed = petri_print(link_session->frames.session, PETRI_PRINT_HASH, byte_buffer_collect, &text) == PETRI_OK;
-    if (!printed || text.length < DIGITS + 1)
+    SCOPED_TEXT text = {0};
+    bool printed = petri_print(link_session->frames.session, PETRI_PRINT_HASH, text_collect, &text) == PETRI_OK;
+    if (!printed || text.len < DIGITS + 1)
         return memory_strdup("");
-    return memory_strndup(text.data + text.length - DIGITS - 1, DIGITS);
+    return memory_strndup(text.bytes + text.len - DIGITS - 1, DIGITS);
 }
 
 bool link_session_print_files(const LinkSession *link_session, const char *prefix, const char *suffix) {
-    SCOPED_BYTE_BUFFER names = {0};
+    SCOPED_TEXT names = {0};
     for (size_t i = 0; i < link_session->requested_files.count; i++)
-        byte_buffer_format(&names, "%s%s", i == 0 ? "" : ", ", link_session->requested_files.items[i]);
-    if (names.length > 0)
-        message("%s%s%s", prefix, names.data, suffix);
-    return names.length > 0;
+        text_add_format(&names, "%s%s", i == 0 ? "" : ", ", link_session->requested_files.items[i]);
+    if (names.len > 0)
+        message("%s%s%s", prefix, names.bytes, suffix);
+    return names.len > 0;
 }
 
 void link_session_close(LinkSession *link_session) {

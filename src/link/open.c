@@ -14,10 +14,10 @@
 
 static bool read_link(Linked *linked, const char *operand) {
     static const size_t max_bytes = (size_t)1 << 20;
-    SCOPED_BYTE_BUFFER link = {0};
+    SCOPED_TEXT link = {0};
     if (!script_is_stdin(operand)) {
-        byte_buffer_add_text(&link, operand);
-    } else if (!byte_buffer_read(&link, STDIN_FILENO, max_bytes)) {
+        text_add_c(&link, operand);
+    } else if (!text_read(&link, STDIN_FILENO, max_bytes)) {
         message("cannot read standard input: %s", strerror(errno));
         return false;
     }
@@ -55,21 +55,21 @@ static int show_picture(PetriSession *session, PetriPainter *painter, const Opti
 
 static int write_script(const CommandContext *context, const Linked *linked, const char *file) {
     if (strcmp(file, "-") == 0)
-        return output_text(linked->text.data, linked->text.length, STATUS_DONE);
-    const char *problem = file_replace(file, (Str){linked->text.data, linked->text.length}, 0);
+        return output_text(linked->text.bytes, linked->text.len, STATUS_DONE);
+    const char *problem = file_replace(file, text_str(&linked->text), 0);
     if (problem) {
         message("cannot write %s: %s", file, problem);
         return STATUS_FAILED;
     }
-    SCOPED_BYTE_BUFFER changes = {0};
+    SCOPED_TEXT changes = {0};
     for (size_t i = 0; i < linked->change_count; i++) {
         const LinkedChange *change = &linked->changes[i];
-        byte_buffer_format(&changes, i == 0 ? " %s=%s" : ", %s=%s", change->name, change->value);
+        text_add_format(&changes, i == 0 ? " %s=%s" : ", %s=%s", change->name, change->value);
         if (change->frame >= 0)
-            byte_buffer_format(&changes, " after frame %" PRId64, change->frame);
+            text_add_format(&changes, " after frame %" PRId64, change->frame);
     }
-    if (changes.length > 0)
-        message("the link also sets%s; these settings are not in %s", changes.data, file);
+    if (changes.len > 0)
+        message("the link also sets%s; these settings are not in %s", changes.bytes, file);
     hint_pictures(context, file);
     return STATUS_DONE;
 }
@@ -89,10 +89,10 @@ static bool check_output(const char *file) {
 // standard output, like `petri run --print hash`. Returns the exit status.
 static int compare_state(const LinkSession *link_session, const Options *options) {
     const Linked *linked = &link_session->linked;
-    SCOPED_BYTE_BUFFER text = {0};
-    petri_print(link_session->frames.session, PETRI_PRINT_HASH, byte_buffer_collect, &text);
-    int status = !options->output ? output_text(text.data, text.length, STATUS_DONE) : STATUS_DONE;
-    SCOPED_TEXT hash = link_session_hash(link_session);
+    SCOPED_TEXT text = {0};
+    petri_print(link_session->frames.session, PETRI_PRINT_HASH, text_collect, &text);
+    int status = !options->output ? output_text(text.bytes, text.len, STATUS_DONE) : STATUS_DONE;
+    SCOPED_STRING hash = link_session_hash(link_session);
     if (!linked->hash) {
         message("%s: no state to compare: the link has no hash; 'petri link --frame N' adds one", linked->name);
         return status;

@@ -16,7 +16,7 @@ void link_free(Linked *linked) {
     free(linked->changes);
     free(linked->name);
     free(linked->hash);
-    byte_buffer_free(&linked->text);
+    text_free(&linked->text);
     *linked = (Linked){0};
 }
 
@@ -44,19 +44,19 @@ static bool report_error(const char *text) {
     return false;
 }
 
-static void add_base64(ByteBuffer *out, const unsigned char *bytes, size_t length) {
+static void add_base64(Text *out, const unsigned char *bytes, size_t length) {
     for (size_t i = 0; i < length; i += 3) {
         size_t here = length - i < 3 ? length - i : 3;
         uint32_t bits =
             (uint32_t)bytes[i] << 16 | (here > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (here > 2 ? bytes[i + 2] : 0);
         for (size_t k = 0; k <= here; k++)
-            byte_buffer_add(out, &DIGITS[bits >> (18 - 6 * k) & 63], 1);
+            text_add_char(out, DIGITS[bits >> (18 - 6 * k) & 63]);
     }
 }
 
 // Decodes base64url. Ignores white space, because mail programs break long lines. Also accepts `+` and `/`, the digits
 // of plain base64.
-static bool read_base64(ByteBuffer *out, const char *text, size_t length) {
+static bool read_base64(Text *out, const char *text, size_t length) {
     uint32_t bits = 0;
     unsigned count = 0;
     for (size_t i = 0; i < length; i++) {
@@ -71,62 +71,62 @@ static bool read_base64(ByteBuffer *out, const char *text, size_t length) {
         if (count >= 8) {
             count -= 8;
             char byte = (char)(bits >> count & 255);
-            byte_buffer_add(out, &byte, 1);
+            text_add_char(out, byte);
         }
     }
     return count < 6;
 }
 
-static void add_json(ByteBuffer *out, const Linked *linked) {
-    byte_buffer_format(out, "{\"v\":%d,\"t\":", VERSION);
-    json_add_text(out, linked->text.data);
-    byte_buffer_add_text(out, ",\"n\":");
+static void add_json(Text *out, const Linked *linked) {
+    text_add_format(out, "{\"v\":%d,\"t\":", VERSION);
+    json_add_text(out, linked->text.bytes);
+    text_add_c(out, ",\"n\":");
     json_add_text(out, linked->name);
-    byte_buffer_add_text(out, ",\"c\":[");
+    text_add_c(out, ",\"c\":[");
     for (size_t i = 0; i < linked->change_count; i++) {
-        byte_buffer_format(out, "%s[%" PRId64 ",", i == 0 ? "" : ",", linked->changes[i].frame);
+        text_add_format(out, "%s[%" PRId64 ",", i == 0 ? "" : ",", linked->changes[i].frame);
         json_add_text(out, linked->changes[i].name);
-        byte_buffer_add_text(out, ",");
+        text_add_c(out, ",");
         json_add_text(out, linked->changes[i].value);
-        byte_buffer_add_text(out, "]");
+        text_add_c(out, "]");
     }
-    byte_buffer_add_text(out, "]");
+    text_add_c(out, "]");
     if (linked->hash) {
-        byte_buffer_format(out, ",\"f\":%" PRId64 ",\"h\":", linked->frame);
+        text_add_format(out, ",\"f\":%" PRId64 ",\"h\":", linked->frame);
         json_add_text(out, linked->hash);
     }
-    byte_buffer_add_text(out, "}");
+    text_add_c(out, "}");
 }
 
-bool link_pack(ByteBuffer *out, const Linked *linked) {
-    SCOPED_BYTE_BUFFER json = {0};
+bool link_pack(Text *out, const Linked *linked) {
+    SCOPED_TEXT json = {0};
     add_json(&json, linked);
     z_stream stream = {0};
     if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, RAW, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
         return report_error("out of memory");
-    unsigned long bound = deflateBound(&stream, json.length);
+    unsigned long bound = deflateBound(&stream, json.len);
     unsigned char *packed = memory_calloc(bound);
-    stream.next_in = (unsigned char *)json.data;
-    stream.avail_in = (unsigned)json.length;
+    stream.next_in = (unsigned char *)json.bytes;
+    stream.avail_in = (unsigned)json.len;
     stream.next_out = packed;
     stream.avail_out = (unsigned)bound;
     deflate(&stream, Z_FINISH); // cannot fail: the output has deflateBound bytes
     deflateEnd(&stream);
-    size_t start = out->length;
-    byte_buffer_add_text(out, "#");
+    size_t start = out->len;
+    text_add_c(out, "#");
     add_base64(out, packed, bound - stream.avail_out);
     free(packed);
-    if (out->length - start > MAX_LENGTH) {
+    if (out->len - start > MAX_LENGTH) {
         message("the script is too long for a link: %zu characters when compressed, at most %d; share the file instead",
-                out->length - start, MAX_LENGTH);
+                out->len - start, MAX_LENGTH);
         return false;
     }
     return true;
 }
 
 // Decompresses a link. Returns false if it is damaged or too long.
-static bool unpack(ByteBuffer *json, const ByteBuffer *packed, bool *too_long) {
-    z_stream stream = {.next_in = (unsigned char *)packed->data, .avail_in = (unsigned)packed->length};
+static bool unpack(Text *json, const Text *packed, bool *too_long) {
+    z_stream stream = {.next_in = (unsigned char *)packed->bytes, .avail_in = (unsigned)packed->len};
     if (inflateInit2(&stream, RAW) != Z_OK)
         return false;
     unsigned char *text = memory_calloc(MAX_TEXT + 1);
@@ -134,7 +134,7 @@ static bool unpack(ByteBuffer *json, const ByteBuffer *packed, bool *too_long) {
     stream.avail_out = MAX_TEXT + 1;
     bool whole = inflate(&stream, Z_FINISH) == Z_STREAM_END && stream.avail_in == 0;
     *too_long = stream.avail_out == 0;
-    byte_buffer_add(json, (char *)text, MAX_TEXT + 1 - stream.avail_out);
+    text_add(json, (Str){(char *)text, MAX_TEXT + 1 - stream.avail_out});
     inflateEnd(&stream);
     free(text);
     return whole && !*too_long;
@@ -209,19 +209,19 @@ static const char *parse_link(Linked *linked, json_object *all) {
     if (!text || (name && (!string_value(name) || !is_printable(string_value(name)))) ||
         (hash && !string_value(hash)) || (frame && !integer_value(frame, &linked->frame)))
         return NOT_A_LINK;
-    byte_buffer_add_text(&linked->text, text);
+    text_add_c(&linked->text, text);
     linked->name = memory_strdup(!name || string_value(name)[0] == '\0' ? "script.fl" : string_value(name));
     linked->hash = !hash ? NULL : memory_strdup(string_value(hash));
     return parse_changes(linked, json_object_object_get(all, "c"));
 }
 
-static bool read_json(Linked *linked, const ByteBuffer *text) {
+static bool read_json(Linked *linked, const Text *text) {
     json_tokener *tokener = json_tokener_new_ex(8);
     if (!tokener)
         return report_error("out of memory");
     json_tokener_set_flags(tokener, JSON_TOKENER_STRICT | JSON_TOKENER_VALIDATE_UTF8);
-    json_object *all = json_tokener_parse_ex(tokener, text->data, (int)text->length);
-    bool parsed = json_object_is_type(all, json_type_object) && json_tokener_get_parse_end(tokener) == text->length;
+    json_object *all = json_tokener_parse_ex(tokener, text->bytes, (int)text->len);
+    bool parsed = json_object_is_type(all, json_type_object) && json_tokener_get_parse_end(tokener) == text->len;
     json_object *version = parsed ? json_object_object_get(all, "v") : NULL;
     bool newer = json_object_is_type(version, json_type_int) && json_object_get_int64(version) > VERSION;
     const char *problem = newer     ? "the link is from a newer petri; update petri to open it"
@@ -232,11 +232,11 @@ static bool read_json(Linked *linked, const ByteBuffer *text) {
     return !problem || report_error(problem);
 }
 
-bool link_read(Linked *linked, const ByteBuffer *link) {
-    const char *hash = link->length == 0 ? NULL : memchr(link->data, '#', link->length);
-    const char *start = !hash ? link->data : hash + 1;
-    size_t length = !hash ? link->length : link->length - (size_t)(start - link->data);
-    SCOPED_BYTE_BUFFER packed = {0}, json = {0};
+bool link_read(Linked *linked, const Text *link) {
+    const char *hash = link->len == 0 ? NULL : memchr(link->bytes, '#', link->len);
+    const char *start = !hash ? link->bytes : hash + 1;
+    size_t length = !hash ? link->len : link->len - (size_t)(start - link->bytes);
+    SCOPED_TEXT packed = {0}, json = {0};
     bool too_long = length > MAX_LENGTH;
     if (too_long) {
         message("the link is too long: %zu characters, at most %d", length, MAX_LENGTH);
@@ -257,13 +257,13 @@ bool link_possible(void) {
     return false;
 }
 
-bool link_pack(ByteBuffer *out, const Linked *linked) {
+bool link_pack(Text *out, const Linked *linked) {
     (void)out;
     (void)linked;
     return link_possible();
 }
 
-bool link_read(Linked *linked, const ByteBuffer *link) {
+bool link_read(Linked *linked, const Text *link) {
     (void)linked;
     (void)link;
     return link_possible();

@@ -5,7 +5,7 @@
 // each as [frame after which it is made, name, value].
 #pragma once
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 
 typedef struct LinkedChange {
     int64_t frame; // frame after which the change is made; -1: before the first frame
@@ -15,7 +15,7 @@ typedef struct LinkedChange {
 } LinkedChange;
 
 typedef struct Linked {
-    ByteBuffer text;
+    Text text;
     char *name;
     LinkedChange *changes; // ordered by frame
     size_t change_count;
@@ -26,8 +26,8 @@ typedef struct Linked {
 // Returns true if petri was built with the libraries for links. Otherwise returns false after a message.
 bool link_possible(void);
 // Adds the link, which starts with `#`. Returns false after a message if it is too long.
-bool link_pack(ByteBuffer *out, const Linked *linked);
+bool link_pack(Text *out, const Linked *linked);
 // Reads a link: the part after the first `#`, or all of it if there is no `#`. Returns false after a message. The
 // caller frees *linked with link_free even after a failure.
-bool link_read(Linked *linked, const ByteBuffer *link);
+bool link_read(Linked *linked, const Text *link);
 void link_free(Linked *linked);

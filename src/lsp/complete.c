@@ -40,9 +40,9 @@ static Json *add_candidate(Offer *all, const char *label, int kind, const char *
                  document_range(all->request->document, all->start, all->request->offset, all->request->server->utf8));
     json_put(item, "textEdit", json_put_text(edit, "newText", insert));
     json_put_text(item, "filterText", insert);
-    SCOPED_BYTE_BUFFER sort = {0};
-    byte_buffer_format(&sort, "%c%s", order, label);
-    json_put_text(item, "sortText", sort.data);
+    SCOPED_TEXT sort = {0};
+    text_add_format(&sort, "%c%s", order, label);
+    json_put_text(item, "sortText", sort.bytes);
     json_object_array_add(all->items, item);
     return item;
 }
@@ -57,37 +57,37 @@ static void set_detail(Json *item, const char *text, const char *help) {
 static void offer_kinds(Offer *all) {
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        SCOPED_BYTE_BUFFER label = {0};
-        byte_buffer_format(&label, "!%s", kind.name);
-        set_detail(add_candidate(all, label.data, AS_CLASS, label.data, 'a'), kind.area, kind.help);
+        SCOPED_TEXT label = {0};
+        text_add_format(&label, "!%s", kind.name);
+        set_detail(add_candidate(all, label.bytes, AS_CLASS, label.bytes, 'a'), kind.area, kind.help);
     }
 }
 
 static void offer_attributes(Offer *all, size_t kind) {
     PetriNodeAttribute attribute;
     for (size_t i = 0; kind != SIZE_MAX && petri_node_attribute(kind, i, &attribute); i++) {
-        SCOPED_BYTE_BUFFER label = {0};
-        SCOPED_BYTE_BUFFER help = {0};
-        byte_buffer_format(&label, "%s=", attribute.name);
+        SCOPED_TEXT label = {0};
+        SCOPED_TEXT help = {0};
+        text_add_format(&label, "%s=", attribute.name);
         hover_attribute(&help, &attribute);
-        set_detail(add_candidate(all, label.data, AS_FIELD, label.data, 'a'), attribute.type, help.data);
+        set_detail(add_candidate(all, label.bytes, AS_FIELD, label.bytes, 'a'), attribute.type, help.bytes);
     }
 }
 
 static void offer_keywords(Offer *all, const char *list) {
-    SCOPED_TEXT copy = memory_strdup(list);
+    SCOPED_STRING copy = memory_strdup(list);
     char *rest = copy;
     for (char *word = strsep(&rest, " "); word; word = strsep(&rest, " "))
         add_candidate(all, word, AS_KEYWORD, word, 'd');
 }
 
 static void offer_name(Offer *all, Document *document, const PetriBinding *name) {
-    SCOPED_TEXT label = memory_strndup(document->text.data + name->start, name->end - name->start);
-    SCOPED_BYTE_BUFFER help = {0};
+    SCOPED_STRING label = memory_strndup(document->text.bytes + name->start, name->end - name->start);
+    SCOPED_TEXT help = {0};
     Json *item = add_candidate(all, label, name->kind == PETRI_NAME_FUNC ? AS_FUNCTION : AS_VARIABLE, label, 'b');
     if (item) {
         hover_binding(&help, all->request->server, document, name);
-        set_detail(item, "", help.data);
+        set_detail(item, "", help.bytes);
     }
 }
 
@@ -122,9 +122,9 @@ static void offer_names(Offer *all) {
     }
     offer_around(all);
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
-        SCOPED_BYTE_BUFFER head = {0};
-        byte_buffer_format(&head, "%s(%s)", builtin.name, builtin.parameters);
-        set_detail(add_candidate(all, builtin.name, AS_FUNCTION, builtin.name, 'c'), head.data, builtin.help);
+        SCOPED_TEXT head = {0};
+        text_add_format(&head, "%s(%s)", builtin.name, builtin.parameters);
+        set_detail(add_candidate(all, builtin.name, AS_FUNCTION, builtin.name, 'c'), head.bytes, builtin.help);
     }
     for (size_t i = 0; TOPICS[i].word && strcmp(TOPICS[i].word, "let") != 0; i++)
         set_detail(add_candidate(all, TOPICS[i].word, AS_CONSTANT, TOPICS[i].word, 'c'), "", TOPICS[i].help);
@@ -138,7 +138,7 @@ static void offer_symbols(Offer *all, bool keys) {
         if (document->tokens[i].kind != PETRI_TOKEN_SYMBOL || document->tokens[i].start == all->start)
             continue;
         Str text = document_token(document, i);
-        SCOPED_TEXT label = memory_strndup(text.bytes, text.len);
+        SCOPED_STRING label = memory_strndup(text.bytes, text.len);
         bool writes = i >= 2 && document_is(document, i - 1, "=") && document_is(document, i - 2, "state");
         bool reads = i > 0 && (document_is(document, i - 1, "$") ||
                                (i > 1 && document_is(document, i - 2, "$") && document_is(document, i - 1, "(")));
@@ -160,7 +160,7 @@ static void offer_choices(Offer *all, size_t token) {
         if (!str_equal(document_token(document, token - 2), str_from(attribute.name)))
             continue;
         for (const char *at = strchr(attribute.type, ':'); at; at = strchr(at + 1, ':')) {
-            SCOPED_TEXT word = memory_strndup(at, 1 + strspn(at + 1, "abcdefghijklmnopqrstuvwxyz_0123456789"));
+            SCOPED_STRING word = memory_strndup(at, 1 + strspn(at + 1, "abcdefghijklmnopqrstuvwxyz_0123456789"));
             add_candidate(all, word, AS_ENUM, word, 'a');
         }
     }
@@ -169,13 +169,13 @@ static void offer_choices(Offer *all, size_t token) {
 static void offer_files(Offer *all, size_t string) {
     const Document *document = all->request->document;
     Str typed = document_slice(document, string + 1, all->request->offset), folder = path_directory(typed);
-    SCOPED_BYTE_BUFFER path = {0};
+    SCOPED_TEXT path = {0};
     Str own = path_directory(str_from(document->path));
-    byte_buffer_add(&path, own.bytes, folder.len > 0 && folder.bytes[0] == '/' ? 0 : own.len);
-    byte_buffer_add(&path, folder.bytes, folder.len);
-    byte_buffer_add_text(&path, path.length == 0 ? "." : "");
+    text_add(&path, (Str){own.bytes, folder.len > 0 && folder.bytes[0] == '/' ? 0 : own.len});
+    text_add(&path, folder);
+    text_add_c(&path, path.len == 0 ? "." : "");
     all->start = string + 1 + folder.len;
-    DIR *entries = document->is_file ? opendir(path.data) : NULL;
+    DIR *entries = document->is_file ? opendir(path.bytes) : NULL;
     for (struct dirent *entry = !entries ? NULL : readdir(entries); entry; entry = readdir(entries))
         if (entry->d_name[0] != '.' && utf8_find_error(str_from(entry->d_name)) == strlen(entry->d_name))
             add_candidate(all, entry->d_name, entry->d_type == DT_DIR ? AS_FOLDER : AS_FILE, entry->d_name, 'a');
@@ -210,7 +210,7 @@ static size_t call_around(const Document *document, size_t offset, size_t *comma
 
 // Appends the parameters of a function, without parentheses, to `out`, and its help to `help`. Returns false if the
 // name is not a function.
-static bool parameters_of(const RequestContext *request, size_t token, ByteBuffer *out, ByteBuffer *help) {
+static bool parameters_of(const RequestContext *request, size_t token, Text *out, Text *help) {
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, false);
     BindingSet meant = workspace_resolve(&workspace, token);
@@ -230,31 +230,31 @@ static bool parameters_of(const RequestContext *request, size_t token, ByteBuffe
             }
         }
         if (length > 0) {
-            byte_buffer_add(out, open + 1, length - 1);
+            text_add(out, (Str){open + 1, length - 1});
             hover_binding(help, request->server, owner, bound);
         }
     } else if (hover_builtin(document_token(request->document, token), &builtin)) {
-        byte_buffer_add_text(out, builtin.parameters);
-        byte_buffer_add_text(help, builtin.help);
+        text_add_c(out, builtin.parameters);
+        text_add_c(help, builtin.help);
     }
     workspace_close(&workspace);
-    return help->length > 0;
+    return help->len > 0;
 }
 
 static void offer_arguments(Offer *all) {
     size_t commas, callee = call_around(all->request->document, all->start, &commas);
-    SCOPED_BYTE_BUFFER parameters = {0};
-    SCOPED_BYTE_BUFFER help = {0};
-    if (callee == SIZE_MAX || !parameters_of(all->request, callee, &parameters, &help) || !parameters.data)
+    SCOPED_TEXT parameters = {0};
+    SCOPED_TEXT help = {0};
+    if (callee == SIZE_MAX || !parameters_of(all->request, callee, &parameters, &help) || !parameters.bytes)
         return;
-    char *rest = parameters.data;
+    char *rest = parameters.bytes;
     for (char *word = strsep(&rest, ","); word; word = strsep(&rest, ",")) {
         word += strspn(word, " \n");
         word[strcspn(word, "= \n")] = '\0';
-        SCOPED_BYTE_BUFFER label = {0};
-        byte_buffer_format(&label, "%s=", word);
+        SCOPED_TEXT label = {0};
+        text_add_format(&label, "%s=", word);
         if (word[0] != '\0' && word[0] != '.')
-            set_detail(add_candidate(all, label.data, AS_FIELD, label.data, 'a'), "parameter", "");
+            set_detail(add_candidate(all, label.bytes, AS_FIELD, label.bytes, 'a'), "parameter", "");
     }
 }
 
@@ -311,8 +311,8 @@ Json *answer_completion(const RequestContext *request, const char **problem) {
         offer_files(&all, document->tokens[at].start);
     } else if (kind != PETRI_TOKEN_COMMENT && kind != PETRI_TOKEN_NUMBER) {
         bool line = true; // true if only blanks precede the word in its line
-        for (size_t i = all.start; i > 0 && document->text.data[i - 1] != '\n'; i--)
-            line = line && strchr(" \t", document->text.data[i - 1]);
+        for (size_t i = all.start; i > 0 && document->text.bytes[i - 1] != '\n'; i--)
+            line = line && strchr(" \t", document->text.bytes[i - 1]);
         offer_all(&all, token, line);
     }
     texts_free(&all.labels);
@@ -321,21 +321,21 @@ Json *answer_completion(const RequestContext *request, const char **problem) {
 
 Json *answer_signature(const RequestContext *request, const char **problem) {
     (void)problem;
-    SCOPED_BYTE_BUFFER parameters = {0};
-    SCOPED_BYTE_BUFFER help = {0};
-    SCOPED_BYTE_BUFFER label = {0};
+    SCOPED_TEXT parameters = {0};
+    SCOPED_TEXT help = {0};
+    SCOPED_TEXT label = {0};
     size_t commas, callee = call_around(request->document, request->offset, &commas);
     if (callee == SIZE_MAX || !parameters_of(request, callee, &parameters, &help))
         return NULL;
     Str name = document_token(request->document, callee);
-    byte_buffer_format(&label, "%.*s(%s)", STR_ARGS(name), !parameters.data ? "" : parameters.data);
-    Json *list = json_object_new_array(), *signature = json_put_text(json_object_new_object(), "label", label.data);
-    char *rest = parameters.data;
+    text_add_format(&label, "%.*s(%s)", STR_ARGS(name), !parameters.bytes ? "" : parameters.bytes);
+    Json *list = json_object_new_array(), *signature = json_put_text(json_object_new_object(), "label", label.bytes);
+    char *rest = parameters.bytes;
     for (char *word = strsep(&rest, ","); word; word = strsep(&rest, ",")) {
         word += strspn(word, " \n");
         json_object_array_add(list, json_put_text(json_object_new_object(), "label", word));
     }
-    json_put(json_put(signature, "documentation", json_markdown(help.data)), "parameters", list);
+    json_put(json_put(signature, "documentation", json_markdown(help.bytes)), "parameters", list);
     Json *signatures = json_object_new_array();
     json_object_array_add(signatures, signature);
     Json *result = json_put(json_object_new_object(), "signatures", signatures);

@@ -13,7 +13,7 @@ static size_t character_units(int32_t c, size_t bytes, bool utf8) {
 }
 
 static void count_lines(Document *document) {
-    Str text = {document->text.data, document->text.length};
+    Str text = {document->text.bytes, document->text.len};
     document->line_count = 1;
     for (size_t i = 0; i < text.len; i++)
         document->line_count += text.bytes[i] == '\n';
@@ -25,17 +25,17 @@ static void count_lines(Document *document) {
 }
 
 // Appends text, replacing invalid UTF-8 by question marks. Files may contain invalid UTF-8, but JSON must not.
-static void add_valid_utf8(ByteBuffer *out, Str text) {
+static void add_valid_utf8(Text *out, Str text) {
     for (size_t at = 0; at < text.len;) {
         size_t start = at;
         int32_t c = utf8_next(text, &at);
-        byte_buffer_add(out, c < 0 ? "?" : text.bytes + start, c < 0 ? 1 : at - start);
+        text_add(out, (Str){c < 0 ? "?" : text.bytes + start, c < 0 ? 1 : at - start});
     }
 }
 
 static void text_changed(Document *document) {
-    document->text.length = source_unify_lines(document->text.data, document->text.length);
-    document->text.data[document->text.length] = '\0';
+    document->text.len = source_unify_lines(document->text.bytes, document->text.len);
+    document->text.bytes[document->text.len] = '\0';
     document->unread = document->unchecked = true;
     document->exceeded = false;
     json_object_put(document->values);
@@ -44,8 +44,8 @@ static void text_changed(Document *document) {
 }
 
 void document_set_text(Document *document, Str text) {
-    document->text.length = 0;
-    byte_buffer_add(&document->text, "", 0);
+    document->text.len = 0;
+    text_add_c(&document->text, "");
     add_valid_utf8(&document->text, text);
     text_changed(document);
 }
@@ -91,7 +91,7 @@ void document_free(Document *document) {
     free(document->tokens);
     free(document->levels);
     free(document->names);
-    byte_buffer_free(&document->text);
+    text_free(&document->text);
     json_object_put(document->published);
     json_object_put(document->values);
     free(document);
@@ -108,12 +108,12 @@ void document_change(Document *document, const Json *change, bool utf8) {
     }
     size_t start = document_offset(document, json_get(range, "start"), utf8);
     size_t end = document_offset(document, json_get(range, "end"), utf8);
-    ByteBuffer old = document->text;
-    document->text = (ByteBuffer){0};
-    byte_buffer_add(&document->text, old.data, start < end ? start : end);
-    byte_buffer_add_text(&document->text, text);
-    byte_buffer_add(&document->text, old.data + (start < end ? end : start), old.length - (start < end ? end : start));
-    byte_buffer_free(&old);
+    Text old = document->text;
+    document->text = (Text){0};
+    text_add(&document->text, (Str){old.bytes, start < end ? start : end});
+    text_add_c(&document->text, text);
+    text_add(&document->text, (Str){old.bytes + (start < end ? end : start), old.len - (start < end ? end : start)});
+    text_free(&old);
     text_changed(document);
 }
 
@@ -175,13 +175,13 @@ static void find_links(Document *document) {
         if (document->tokens[i].kind != PETRI_TOKEN_STRING || file.len < 3 ||
             (!include && !document_is(document, i - 1, "from")))
             continue;
-        SCOPED_BYTE_BUFFER path = {0};
+        SCOPED_TEXT path = {0};
         Str folder = path_directory(str_from(document->path));
-        byte_buffer_add(&path, folder.bytes, file.bytes[1] == '/' ? 0 : folder.len);
-        byte_buffer_add(&path, file.bytes + 1, file.len - 2);
+        text_add(&path, (Str){folder.bytes, file.bytes[1] == '/' ? 0 : folder.len});
+        text_add(&path, (Str){file.bytes + 1, file.len - 2});
         document->links = memory_realloc(document->links, (document->link_count + 1) * sizeof *document->links);
         document->links[document->link_count++] =
-            (Link){.token = i, .include = include, .path = path_canonical(path.data), .target = SIZE_MAX};
+            (Link){.token = i, .include = include, .path = path_canonical(path.bytes), .target = SIZE_MAX};
     }
 }
 
@@ -205,8 +205,8 @@ void document_read(Document *document, PetriSession *session) {
     document->levels = NULL;
     document->names = NULL;
     document->token_count = document->name_count = 0;
-    petri_tokenise(session, document->text.data, document->text.length, add_token, &tokens);
-    petri_bindings(session, document->text.data, document->text.length, add_name, &names);
+    petri_tokenise(session, document->text.bytes, document->text.len, add_token, &tokens);
+    petri_bindings(session, document->text.bytes, document->text.len, add_name, &names);
     if (document->name_count > 0)
         qsort(document->names, document->name_count, sizeof *document->names, by_start);
     find_links(document);
@@ -216,8 +216,8 @@ void document_read(Document *document, PetriSession *session) {
 size_t document_offset(const Document *document, const Json *position, bool utf8) {
     int64_t line = json_number(position, "line", 0), character = json_number(position, "character", 0);
     if (line < 0 || (uint64_t)line >= document->line_count)
-        return line < 0 ? 0 : document->text.length;
-    Str text = {document->text.data, document->text.length};
+        return line < 0 ? 0 : document->text.len;
+    Str text = {document->text.bytes, document->text.len};
     size_t at = document->lines[line];
     for (int64_t left = character; left > 0 && at < text.len && text.bytes[at] != '\n';) {
         size_t start = at;
@@ -229,8 +229,8 @@ size_t document_offset(const Document *document, const Json *position, bool utf8
 
 size_t document_offset_at(const Document *document, uint32_t line, uint32_t column) {
     if (line == 0 || line > document->line_count)
-        return line == 0 ? 0 : document->text.length;
-    Str text = {document->text.data, document->text.length};
+        return line == 0 ? 0 : document->text.len;
+    Str text = {document->text.bytes, document->text.len};
     size_t at = document->lines[line - 1];
     for (uint32_t i = 1; i < column && at < text.len && text.bytes[at] != '\n'; i++)
         utf8_next(text, &at);
@@ -248,7 +248,7 @@ void document_position(const Document *document, size_t offset, bool utf8, size_
     }
     *line = low;
     *character = 0;
-    Str text = {document->text.data, document->text.length};
+    Str text = {document->text.bytes, document->text.len};
     for (size_t at = document->lines[low]; at < offset && at < text.len;) {
         size_t start = at;
         int32_t c = utf8_next(text, &at);
@@ -269,10 +269,10 @@ Json *document_range(const Document *document, size_t start, size_t end, bool ut
 }
 
 Str document_slice(const Document *document, size_t start, size_t end) {
-    size_t text_length = document->text.length;
+    size_t text_length = document->text.len;
     start = start < text_length ? start : text_length;
     end = end < text_length ? end : text_length;
-    return (Str){document->text.data + start, end > start ? end - start : 0};
+    return (Str){document->text.bytes + start, end > start ? end - start : 0};
 }
 
 Str document_token(const Document *document, size_t token) {
@@ -344,23 +344,23 @@ char *uri_path(const char *uri) {
     if (strncmp(uri, scheme, strlen(scheme)) != 0)
         return NULL;
     const char *at = strchr(uri + strlen(scheme), '/');
-    ByteBuffer path = {0};
+    Text path = {0};
     for (; at && *at != '\0'; at++) {
         int high = *at == '%' ? str_hex_digit(at[1]) : -1, low = high >= 0 ? str_hex_digit(at[2]) : -1;
         char c = low >= 0 ? (char)(high * 16 + low) : *at;
         at += low >= 0 ? 2 : 0;
-        byte_buffer_add(&path, &c, 1);
+        text_add_char(&path, c);
     }
-    return path.data;
+    return path.bytes;
 }
 
 char *uri_of(const char *path) {
-    ByteBuffer uri = {0};
+    Text uri = {0};
     if (path[0] == '/')
-        byte_buffer_add_uri(&uri, path);
+        text_add_uri(&uri, path);
     else // the URI is not a file URI
-        byte_buffer_add_text(&uri, path);
-    return uri.data;
+        text_add_c(&uri, path);
+    return uri.bytes;
 }
 
 char *path_canonical(const char *path) {

@@ -32,7 +32,7 @@ typedef struct Document {
     char *path;      // name in diagnostics: the path, or the URI if it is not a file URI
     char *canonical; // canonical path (symbolic links and dots resolved) if the file exists, else `path`
     int64_t version; // version number that the editor gave the document; sent with diagnostics
-    ByteBuffer text; // lines end in LF
+    Text text;       // lines end in LF
     size_t *lines;   // offset of each line
     size_t line_count;
     bool is_file;       // true if the URI is a file URI

@@ -52,35 +52,34 @@ size_t hover_node_of(const Document *document, size_t token, const char **name) 
     return SIZE_MAX;
 }
 
-void hover_attribute(ByteBuffer *out, const PetriNodeAttribute *attribute) {
-    byte_buffer_format(out, "**%s** — %s", attribute->name, attribute->type);
+void hover_attribute(Text *out, const PetriNodeAttribute *attribute) {
+    text_add_format(out, "**%s** — %s", attribute->name, attribute->type);
     if (attribute->unit[0] != '\0')
-        byte_buffer_format(out, ", in %s", attribute->unit);
+        text_add_format(out, ", in %s", attribute->unit);
     if (attribute->default_value[0] != '\0')
-        byte_buffer_format(out, "; default `%s`", attribute->default_value);
-    byte_buffer_format(out, "%s%s", attribute->help[0] == '\0' ? "" : "  \n", attribute->help);
+        text_add_format(out, "; default `%s`", attribute->default_value);
+    text_add_format(out, "%s%s", attribute->help[0] == '\0' ? "" : "  \n", attribute->help);
 }
 
-static void hover_kinds(ByteBuffer *out, Str name) {
+static void hover_kinds(Text *out, Str name) {
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
     for (size_t i = 0; hover_kind(name, &i, &kind); i++) {
-        byte_buffer_format(out, "%s**!%s** (%s) — %s\n", out->length > 0 ? "\n---\n" : "", kind.name, kind.area,
-                           kind.help);
+        text_add_format(out, "%s**!%s** (%s) — %s\n", out->len > 0 ? "\n---\n" : "", kind.name, kind.area, kind.help);
         if (kind.formula[0] != '\0')
-            byte_buffer_format(out, "\n```text\n%s\n```\n%s\n", kind.formula, FORMULA_LETTERS);
+            text_add_format(out, "\n```text\n%s\n```\n%s\n", kind.formula, FORMULA_LETTERS);
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
-            byte_buffer_add_text(out, "\n- ");
+            text_add_c(out, "\n- ");
             hover_attribute(out, &attribute);
         }
-        byte_buffer_add_text(out, "\n");
+        text_add_c(out, "\n");
     }
 }
 
-static bool hover_topic(ByteBuffer *out, Str word) {
+static bool hover_topic(Text *out, Str word) {
     for (size_t i = 0; TOPICS[i].word; i++) {
         if (text_equals(word, TOPICS[i].word)) {
-            byte_buffer_format(out, "```flitter\n%s\n```\n%s", TOPICS[i].form, TOPICS[i].help);
+            text_add_format(out, "```flitter\n%s\n```\n%s", TOPICS[i].form, TOPICS[i].help);
             return true;
         }
     }
@@ -140,17 +139,17 @@ static void find_values(Server *server, Document *document) {
     PetriSession *session = petri_open(&options);
     document->values = json_object_new_object();
     bool loaded =
-        session && petri_load_text(session, document->path, document->text.data, document->text.length) == PETRI_OK;
+        session && petri_load_text(session, document->path, document->text.bytes, document->text.len) == PETRI_OK;
     for (size_t i = 0; loaded && i < document->name_count; i++) {
         const PetriBinding *name = &document->names[i];
         bool wanted = is_top_level(name) && last_binding_of(document, name) == name &&
                       (is_parameter(document, name) || is_constant(document, name->value_start, name->value_end, 0));
-        SCOPED_BYTE_BUFFER value = {0};
+        SCOPED_TEXT value = {0};
         PetriEvaluation result;
-        SCOPED_TEXT own = memory_strndup(document->text.data + name->start, name->end - name->start);
-        if (wanted && petri_evaluate(session, own, strlen(own), &result, byte_buffer_collect, &value) == PETRI_OK &&
-            value.length > 0) {
-            Str shown = str_truncate((Str){value.data, value.length}, MAX_SHOWN);
+        SCOPED_STRING own = memory_strndup(document->text.bytes + name->start, name->end - name->start);
+        if (wanted && petri_evaluate(session, own, strlen(own), &result, text_collect, &value) == PETRI_OK &&
+            value.len > 0) {
+            Str shown = str_truncate(text_str(&value), MAX_SHOWN);
             json_put(document->values, own, json_from(shown));
         }
     }
@@ -162,7 +161,7 @@ const char *hover_value(Server *server, Document *document, const PetriBinding *
         return NULL;
     if (!document->values)
         find_values(server, document);
-    SCOPED_TEXT own = memory_strndup(document->text.data + name->start, name->end - name->start);
+    SCOPED_STRING own = memory_strndup(document->text.bytes + name->start, name->end - name->start);
     return json_text(document->values, own);
 }
 
@@ -173,15 +172,14 @@ const PetriBinding *hover_export(const Document *document, Str text) {
     for (size_t i = 0; i < document->name_count; i++) {
         const PetriBinding *name = &document->names[i];
         if (name->kind != PETRI_NAME_USE && name->depth == 0 && name->kind != PETRI_NAME_LOOP &&
-            str_equal(document_slice(document, name->start, name->end), text) &&
-            name->scope_end >= document->text.length)
+            str_equal(document_slice(document, name->start, name->end), text) && name->scope_end >= document->text.len)
             found = name;
     }
     return found;
 }
 
 // Appends the comment lines directly above a statement.
-static void add_comment_above(ByteBuffer *out, const Document *document, size_t start) {
+static void add_comment_above(Text *out, const Document *document, size_t start) {
     size_t line, character, first;
     document_position(document, start, true, &line, &character);
     for (first = line; first > 0; first--) {
@@ -191,12 +189,12 @@ static void add_comment_above(ByteBuffer *out, const Document *document, size_t 
     }
     for (; first < line; first++) {
         Str text = str_trim(document_slice(document, document->lines[first], document->lines[first + 1]));
-        byte_buffer_add(out, text.bytes + 2, text.len - 2);
-        byte_buffer_add_text(out, "  \n");
+        text_add(out, (Str){text.bytes + 2, text.len - 2});
+        text_add_c(out, "  \n");
     }
 }
 
-void hover_binding(ByteBuffer *out, Server *server, Document *document, const PetriBinding *name) {
+void hover_binding(Text *out, Server *server, Document *document, const PetriBinding *name) {
     static const char *const kinds[] = {"", "let ", "", "parameter ", "for ", "import "};
     size_t end = name->value_end > name->end ? name->value_end : name->end;
     size_t start = name->kind == PETRI_NAME_FUNC ? name->value_start : name->start;
@@ -204,20 +202,20 @@ void hover_binding(ByteBuffer *out, Server *server, Document *document, const Pe
     const char *stop = memchr(text.bytes, '\n', text.len);
     bool head = stop && name->kind == PETRI_NAME_FUNC; // show the function without its body
     text = head ? (Str){text.bytes, (size_t)(stop - text.bytes)} : str_truncate(text, MAX_SHOWN);
-    byte_buffer_format(out, "```flitter\n%s%.*s\n```\n", kinds[name->kind], STR_ARGS(text));
+    text_add_format(out, "```flitter\n%s%.*s\n```\n", kinds[name->kind], STR_ARGS(text));
     const char *value = hover_value(server, document, name);
     if (value)
-        byte_buffer_format(out, "= `%s`\n\n", value);
+        text_add_format(out, "= `%s`\n\n", value);
     add_comment_above(out, document, start);
     size_t next = document_token_at(document, end);
     if (!head && next < document->token_count && document->tokens[next].kind == PETRI_TOKEN_COMMENT &&
-        !memchr(document->text.data + end, '\n', document->tokens[next].start - end)) {
+        !memchr(document->text.bytes + end, '\n', document->tokens[next].start - end)) {
         Str comment = document_token(document, next);
-        byte_buffer_add(out, comment.bytes + 2, comment.len - 2);
+        text_add(out, (Str){comment.bytes + 2, comment.len - 2});
     }
 }
 
-static void hover_name(ByteBuffer *out, const RequestContext *request, size_t token) {
+static void hover_name(Text *out, const RequestContext *request, size_t token) {
     const Document *document = request->document;
     Str text = document_token(document, token);
     const PetriBinding *name = document_name_at(document, document->tokens[token].start);
@@ -237,23 +235,23 @@ static void hover_name(ByteBuffer *out, const RequestContext *request, size_t to
     for (size_t k = 0; kind != SIZE_MAX && petri_node_attribute(kind, k, &attribute); k++) {
         if (text_equals(text, attribute.name)) {
             hover_attribute(out, &attribute);
-            byte_buffer_format(out, "\n\nof `!%s`", node);
+            text_add_format(out, "\n\nof `!%s`", node);
             return;
         }
     }
     PetriBuiltin builtin;
     if (hover_builtin(text, &builtin))
-        byte_buffer_format(out, "```flitter\n%s(%s)\n```\n%s", builtin.name, builtin.parameters, builtin.help);
+        text_add_format(out, "```flitter\n%s(%s)\n```\n%s", builtin.name, builtin.parameters, builtin.help);
     else
         hover_topic(out, text);
 }
 
 // Appends the value of a number literal, which can have a suffix or be a time code.
-static void hover_number(ByteBuffer *out, Str text) {
-    SCOPED_TEXT copy = memory_strndup(text.bytes, text.len);
+static void hover_number(Text *out, Str text) {
+    SCOPED_STRING copy = memory_strndup(text.bytes, text.len);
     double x;
     if (petri_parse_number(copy, &x))
-        byte_buffer_format(out, "= `%.17g`", x);
+        text_add_format(out, "= `%.17g`", x);
 }
 
 Json *answer_hover(const RequestContext *request, const char **problem) {
@@ -265,7 +263,7 @@ Json *answer_hover(const RequestContext *request, const char **problem) {
     token -= touches ? 1 : 0;
     if (token >= document->token_count || document->tokens[token].start > request->offset)
         return NULL;
-    SCOPED_BYTE_BUFFER out = {0};
+    SCOPED_TEXT out = {0};
     Str text = document_token(document, token);
     switch (document->tokens[token].kind) {
     case PETRI_TOKEN_NODE:
@@ -284,9 +282,9 @@ Json *answer_hover(const RequestContext *request, const char **problem) {
         hover_topic(&out, text);
         break;
     }
-    if (out.length == 0)
+    if (out.len == 0)
         return NULL;
-    Json *result = json_put(json_object_new_object(), "contents", json_markdown(out.data));
+    Json *result = json_put(json_object_new_object(), "contents", json_markdown(out.bytes));
     return json_put(
         result, "range",
         document_range(document, document->tokens[token].start, document->tokens[token].end, request->server->utf8));

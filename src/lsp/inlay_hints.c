@@ -35,12 +35,12 @@ Json *answer_hints(const RequestContext *request, const char **problem) {
         bool literal = first < document->token_count && document->tokens[first].end >= name->value_end;
         if (!value || literal || strlen(value) > MAX_HINT || str_equal(text, str_from(value)))
             continue;
-        SCOPED_BYTE_BUFFER label = {0};
-        byte_buffer_format(&label, "= %s", value);
+        SCOPED_TEXT label = {0};
+        text_add_format(&label, "= %s", value);
         Json *range = document_range(document, name->value_end, name->value_end, request->server->utf8);
         Json *item = json_put(json_object_new_object(), "position", json_object_get(json_get(range, "end")));
         json_object_put(range);
-        json_object_array_add(list, json_put_true(json_put_text(item, "label", label.data), "paddingLeft"));
+        json_object_array_add(list, json_put_true(json_put_text(item, "label", label.bytes), "paddingLeft"));
     }
     return list;
 }
@@ -53,7 +53,7 @@ static size_t read_numbers(const Document *document, size_t token, double *numbe
     size_t count = 0;
     for (size_t i = token; i < document->token_count && count < max; i += 2) {
         Str text = document_token(document, i);
-        SCOPED_TEXT copy = memory_strndup(text.bytes, text.len);
+        SCOPED_STRING copy = memory_strndup(text.bytes, text.len);
         if (document->tokens[i].kind != PETRI_TOKEN_NUMBER || !petri_parse_number(copy, &numbers[count]))
             return 0;
         count++;
@@ -133,17 +133,17 @@ Json *answer_presentations(const RequestContext *request, const char **problem) 
     to_hsv(rgb, hsv);
     Str text = document_slice(document, start, end);
     bool is_hsv = str_starts_with(text, STR("hsv")), call = is_hsv || str_starts_with(text, STR("rgb"));
-    SCOPED_BYTE_BUFFER label = {0};
+    SCOPED_TEXT label = {0};
     const double *numbers = is_hsv ? hsv : rgb;
-    byte_buffer_format(&label, "%.*s%s", call ? 3 : 0, text.bytes, call ? "(" : "");
+    text_add_format(&label, "%.*s%s", call ? 3 : 0, text.bytes, call ? "(" : "");
     for (int i = 0; i < 3; i++)
-        byte_buffer_format(&label, "%s%g", i == 0 ? "" : ";", round(numbers[i] * 1000) / 1000);
+        text_add_format(&label, "%s%g", i == 0 ? "" : ";", round(numbers[i] * 1000) / 1000);
     if (call)
-        byte_buffer_add_text(&label, ")");
+        text_add_c(&label, ")");
     else if (alpha < 1)
-        byte_buffer_format(&label, ";%g", round(alpha * 1000) / 1000);
-    Json *item = json_put_text(json_object_new_object(), "label", label.data), *list = json_object_new_array();
-    json_put(item, "textEdit", text_edit(request, start, end, (Str){label.data, label.length}));
+        text_add_format(&label, ";%g", round(alpha * 1000) / 1000);
+    Json *item = json_put_text(json_object_new_object(), "label", label.bytes), *list = json_object_new_array();
+    json_put(item, "textEdit", text_edit(request, start, end, text_str(&label)));
     json_object_array_add(list, item);
     return list;
 }
@@ -209,9 +209,9 @@ static void add_action(const RequestContext *request, Json *list, const Document
     } else if ((meant = replacement_of(diagnostic->hint)).len == 0) {
         return;
     }
-    SCOPED_BYTE_BUFFER title = {0};
-    byte_buffer_format(&title, "write %.*s", STR_ARGS(meant));
-    Json *edits = json_object_new_array(), *item = json_put_text(json_object_new_object(), "title", title.data);
+    SCOPED_TEXT title = {0};
+    text_add_format(&title, "write %.*s", STR_ARGS(meant));
+    Json *edits = json_object_new_array(), *item = json_put_text(json_object_new_object(), "title", title.bytes);
     json_object_array_add(edits, text_edit(request, start, end, meant));
     Json *changes = json_put(json_object_new_object(), request->document->uri, edits);
     json_put_true(json_put_text(item, "kind", "quickfix"), "isPreferred");
@@ -239,24 +239,23 @@ Json *answer_format(const RequestContext *request, const char **problem) {
     (void)problem;
     const Document *document = request->document;
     PetriSession *session = request->server->session;
-    Str text = {document->text.data, document->text.length};
-    SCOPED_BYTE_BUFFER out = {0};
-    if (!session || !layout_text(session, text, &out) ||
-        !layout_same(session, document->path, text, (Str){out.data, out.length}))
+    Str text = {document->text.bytes, document->text.len};
+    SCOPED_TEXT out = {0};
+    if (!session || !layout_text(session, text, &out) || !layout_same(session, document->path, text, text_str(&out)))
         return NULL;
-    size_t start = 0, end = 0, max = text.len < out.length ? text.len : out.length;
-    while (start < max && text.bytes[start] == out.data[start])
+    size_t start = 0, end = 0, max = text.len < out.len ? text.len : out.len;
+    while (start < max && text.bytes[start] == out.bytes[start])
         start++;
     while (start > 0 && text.bytes[start - 1] != '\n')
         start--;
-    while (end < max - start && text.bytes[text.len - 1 - end] == out.data[out.length - 1 - end])
+    while (end < max - start && text.bytes[text.len - 1 - end] == out.bytes[out.len - 1 - end])
         end++;
     while (end > 0 && text.bytes[text.len - end] != '\n')
         end--;
     Json *edits = json_object_new_array();
-    if (text.len != out.length || start + end < text.len) {
+    if (text.len != out.len || start + end < text.len) {
         json_object_array_add(
-            edits, text_edit(request, start, text.len - end, (Str){out.data + start, out.length - end - start}));
+            edits, text_edit(request, start, text.len - end, (Str){out.bytes + start, out.len - end - start}));
     }
     return edits;
 }

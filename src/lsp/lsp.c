@@ -3,6 +3,7 @@
 // The server has one thread. It reads and answers messages, and checks changed documents when no message is waiting.
 #include "lsp/lsp.h"
 
+#include "base/file.h"
 #include "base/source.h"
 #include "lsp/server.h"
 
@@ -37,23 +38,22 @@ static void init_access(Server *server) {
 }
 
 Document *server_file(Server *server, const char *path, const Document *main, bool *read) {
-    SCOPED_TEXT canonical = path_canonical(path);
+    SCOPED_STRING canonical = path_canonical(path);
     Document *document = find_open_document(server, canonical);
     *read = false;
     if (document)
         return document;
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_add(&text, "", 0);
+    SCOPED_TEXT text = {0};
     Str folder = path_directory(str_from(main->canonical));
-    SCOPED_TEXT own = memory_strndup(folder.bytes, folder.len > 1 ? folder.len - 1 : folder.len);
+    SCOPED_STRING own = memory_strndup(folder.bytes, folder.len > 1 ? folder.len - 1 : folder.len);
     FileAccess access = server->access;
     access.script_folder = main->is_file ? str_from(own) : (Str){0};
-    *read = !byte_buffer_read_regular(&text, file_access_open(&access, canonical, O_RDONLY | O_NONBLOCK),
-                                      SERVER_MAX_FILE_BYTES);
+    *read =
+        !text_read_regular(&text, file_access_open(&access, canonical, O_RDONLY | O_NONBLOCK), SERVER_MAX_FILE_BYTES);
     if (!*read)
         return NULL;
-    SCOPED_TEXT uri = uri_of(canonical);
-    return document_new(uri, (Str){text.data, text.length}, -1);
+    SCOPED_STRING uri = uri_of(canonical);
+    return document_new(uri, text_str(&text), -1);
 }
 
 const char *server_unsaved(void *host, const char *path, size_t *length) {
@@ -61,8 +61,8 @@ const char *server_unsaved(void *host, const char *path, size_t *length) {
     if (server->checking && !texts_contain(&server->checked->used, path))
         texts_add(&server->checked->used, path);
     const Document *document = find_open_document(server, path);
-    *length = !document ? 0 : document->text.length;
-    return !document ? NULL : document->text.data;
+    *length = !document ? 0 : document->text.len;
+    return !document ? NULL : document->text.bytes;
 }
 
 // Interrupts a full check when a message arrives, because a check of a heavy script takes many seconds.
@@ -91,7 +91,7 @@ bool server_open_session(Server *server) {
 // Updates tokens and names of a document. Opens a new session after every 4 MiB of text, because a session never frees
 // symbols.
 void server_read(Server *server, Document *document) {
-    server->read += document->unread ? document->text.length : 0;
+    server->read += document->unread ? document->text.len : 0;
     if (server->read > MAX_READ)
         server_open_session(server);
     if (server->session)
@@ -212,9 +212,9 @@ static Json *capabilities(const Server *server) {
 }
 
 static void add_root(Server *server, const char *uri) {
-    SCOPED_TEXT path = !uri ? NULL : uri_path(uri);
+    SCOPED_STRING path = !uri ? NULL : uri_path(uri);
     if (path) {
-        SCOPED_TEXT canonical = path_canonical(path);
+        SCOPED_STRING canonical = path_canonical(path);
         texts_add(&server->roots, canonical);
     }
 }
@@ -331,7 +331,7 @@ int lsp_serve(const CommandContext *host, Options *options) {
     free(server.documents);
     texts_free(&server.roots);
     arena_free(&server.arena);
-    byte_buffer_free(&server.input);
+    text_free(&server.input);
     petri_close(&server.session);
     petri_close(&server.quick);
     return status;

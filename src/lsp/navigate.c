@@ -271,18 +271,18 @@ static bool binding_sets_equal(const BindingSet *a, const BindingSet *b) {
 // Returns the edits that rename the uses in one file, and appends the new text of the file to `text`. `uses` are sorted
 // by offset.
 static Json *edits_of(const RequestContext *request, const Document *document, const Use *uses, size_t count,
-                      const char *wanted, ByteBuffer *text) {
+                      const char *wanted, Text *text) {
     Json *edits = json_object_new_array();
     size_t done = 0;
     for (size_t i = 0; i < count; i++) {
         Json *range = document_range(document, uses[i].start, uses[i].end, request->server->utf8);
         Json *edit = json_put(json_object_new_object(), "range", range);
         json_object_array_add(edits, json_put_text(edit, "newText", wanted));
-        byte_buffer_add(text, document->text.data + done, uses[i].start - done);
-        byte_buffer_add_text(text, wanted);
+        text_add(text, (Str){document->text.bytes + done, uses[i].start - done});
+        text_add_c(text, wanted);
         done = uses[i].end;
     }
-    byte_buffer_add(text, document->text.data + done, document->text.length - done);
+    text_add(text, (Str){document->text.bytes + done, document->text.len - done});
     return edits;
 }
 
@@ -298,7 +298,7 @@ static Json *rename_uses(const RequestContext *request, Workspace *workspace, co
         for (next = i + 1; next < uses->count && uses->items[next].file == file;)
             next++;
         const Document *document = workspace->documents[file];
-        SCOPED_BYTE_BUFFER text = {0};
+        SCOPED_TEXT text = {0};
         json_put(changes, document->uri, edits_of(request, document, uses->items + i, next - i, wanted, &text));
         workspace_replace(workspace, file, &text);
     }

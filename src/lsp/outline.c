@@ -39,7 +39,7 @@ Json *answer_symbols(const RequestContext *request, const char **problem) {
         bool top = name->depth == 0 &&
                    (name->kind == PETRI_NAME_LET || name->kind == PETRI_NAME_FUNC || name->kind == PETRI_NAME_IMPORT);
         int kind = name->kind == PETRI_NAME_FUNC ? AS_FUNCTION : name->kind == PETRI_NAME_LET ? AS_VARIABLE : AS_MODULE;
-        if (top && name->scope_end >= document->text.length) {
+        if (top && name->scope_end >= document->text.len) {
             Str text = document_slice(document, name->start, name->end);
             json_object_array_add(
                 list, symbol(request, text, kind, name->value_start, name->value_end, name->start, name->end));
@@ -51,7 +51,7 @@ Json *answer_symbols(const RequestContext *request, const char **problem) {
             size_t start = document->tokens[i].start, end = document->tokens[i].end;
             Json *item =
                 symbol(request, document_token(document, i), AS_OBJECT, start, block_end(document, i), start, end);
-            Str rest = document_slice(document, end, document->text.length);
+            Str rest = document_slice(document, end, document->text.len);
             const char *line = memchr(rest.bytes, '\n', rest.len);
             Str attributes = str_trim((Str){rest.bytes, !line ? rest.len : (size_t)(line - rest.bytes)});
             json_put(item, "detail", json_from(str_truncate(attributes, 80)));
@@ -85,7 +85,7 @@ Json *answer_folding(const RequestContext *request, const char **problem) {
             add_fold(list, first, last, "comment");
             first = SIZE_MAX;
         }
-        bool alone = comment && (i == 0 || memchr(document->text.data + document->tokens[i - 1].end, '\n',
+        bool alone = comment && (i == 0 || memchr(document->text.bytes + document->tokens[i - 1].end, '\n',
                                                   document->tokens[i].start - document->tokens[i - 1].end));
         if (alone) {
             first = first == SIZE_MAX ? line : first;

@@ -9,11 +9,11 @@
 
 static Json *diagnostic_json(const Server *server, const Document *document, const PetriDiagnostic *diagnostic,
                              size_t start, size_t end) {
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_format(&text, "%s%s%s", diagnostic->text, diagnostic->hint[0] != '\0' ? "\n" : "", diagnostic->hint);
+    SCOPED_TEXT text = {0};
+    text_add_format(&text, "%s%s%s", diagnostic->text, diagnostic->hint[0] != '\0' ? "\n" : "", diagnostic->hint);
     Json *json = json_put(json_object_new_object(), "range", document_range(document, start, end, server->utf8));
     json_put_number(json, "severity", diagnostic->level + 1);
-    json_put_text(json_put_text(json, "source", "petri"), "message", text.data);
+    json_put_text(json_put_text(json, "source", "petri"), "message", text.bytes);
     if (diagnostic->code) {
         json_put_text(json, "code", diagnostic->code);
         if (strcmp(diagnostic->code, "unused-name") == 0) { // tag 1 (unnecessary): editors grey out the name
@@ -114,7 +114,7 @@ static PetriStatus check_document(Server *server, Document *document, PetriSessi
     server->found = json_object_new_object();
     list_for(server->found, document->uri);
     PetriStatus status =
-        !session ? PETRI_OK : petri_check_text(session, document->path, document->text.data, document->text.length);
+        !session ? PETRI_OK : petri_check_text(session, document->path, document->text.bytes, document->text.len);
     server->checking = false;
     return status;
 }

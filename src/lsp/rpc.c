@@ -14,21 +14,21 @@ enum { MAX_DEPTH = 256, MAX_HEADER = 4096 };
 static const size_t MAX_BYTES = (size_t)64 << 20;
 
 // Reads more input. Returns false at the end of the input.
-static bool read_more(ByteBuffer *input) {
+static bool read_more(Text *input) {
     char part[1 << 16];
     ssize_t count;
     do {
         count = read(STDIN_FILENO, part, sizeof part);
     } while (count < 0 && errno == EINTR);
     if (count > 0)
-        byte_buffer_add(input, part, (size_t)count);
+        text_add(input, (Str){part, (size_t)count});
     return count > 0;
 }
 
-static void drop_bytes(ByteBuffer *input, size_t count) {
-    memmove(input->data, input->data + count, input->length - count);
-    input->length -= count;
-    input->data[input->length] = '\0';
+static void drop_bytes(Text *input, size_t count) {
+    memmove(input->bytes, input->bytes + count, input->len - count);
+    input->len -= count;
+    input->bytes[input->len] = '\0';
 }
 
 // Returns the content length in a message header, or SIZE_MAX if it is missing or too large.
@@ -44,29 +44,29 @@ static size_t content_length(const char *header) {
     return SIZE_MAX;
 }
 
-RpcRead rpc_read(ByteBuffer *input, Json **message) {
+RpcRead rpc_read(Text *input, Json **message) {
     char *end = NULL;
     *message = NULL;
-    while (input->length == 0 || !(end = strstr(input->data, "\r\n\r\n")))
-        if (input->length > MAX_HEADER || !read_more(input))
+    while (input->len == 0 || !(end = strstr(input->bytes, "\r\n\r\n")))
+        if (input->len > MAX_HEADER || !read_more(input))
             return RPC_END;
     *end = '\0';
-    size_t length = content_length(input->data), begin = (size_t)(end - input->data) + 4;
+    size_t length = content_length(input->bytes), begin = (size_t)(end - input->bytes) + 4;
     if (length == SIZE_MAX)
         return RPC_END; // the start of the next message is unknown
-    while (input->length - begin < length)
+    while (input->len - begin < length)
         if (!read_more(input))
             return RPC_END;
     json_tokener *tokener = json_tokener_new_ex(MAX_DEPTH);
-    *message = json_tokener_parse_ex(tokener, input->data + begin, (int)length);
+    *message = json_tokener_parse_ex(tokener, input->bytes + begin, (int)length);
     json_tokener_free(tokener);
     drop_bytes(input, begin + length);
     return *message ? RPC_MESSAGE : RPC_INVALID;
 }
 
-bool rpc_has_input(const ByteBuffer *input) {
+bool rpc_has_input(const Text *input) {
     struct pollfd ready = {.fd = STDIN_FILENO, .events = POLLIN};
-    return input->length > 0 || poll(&ready, 1, 0) > 0;
+    return input->len > 0 || poll(&ready, 1, 0) > 0;
 }
 
 // Writes a message and frees it.
@@ -75,10 +75,10 @@ static bool write_message(Json *message) {
     size_t length = 0;
     const char *text =
         json_object_to_json_string_length(message, JSON_C_TO_STRING_PLAIN | JSON_C_TO_STRING_NOSLASHESCAPE, &length);
-    SCOPED_BYTE_BUFFER out = {0};
-    byte_buffer_format(&out, "Content-Length: %zu\r\n\r\n", length);
-    byte_buffer_add(&out, text, length);
-    bool written = file_write(STDOUT_FILENO, out.data, out.length);
+    SCOPED_TEXT out = {0};
+    text_add_format(&out, "Content-Length: %zu\r\n\r\n", length);
+    text_add(&out, (Str){text, length});
+    bool written = file_write(STDOUT_FILENO, out.bytes, out.len);
     json_object_put(message);
     return written;
 }
@@ -103,7 +103,7 @@ Json *json_get(const Json *object, const char *key) {
 }
 
 Json *json_path(const Json *object, const char *keys) {
-    SCOPED_TEXT copy = memory_strdup(keys);
+    SCOPED_STRING copy = memory_strdup(keys);
     char *rest = copy;
     Json *at = (Json *)object;
     for (char *key = strsep(&rest, "."); key; key = strsep(&rest, "."))

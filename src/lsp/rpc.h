@@ -1,7 +1,7 @@
 // rpc.h: messages of the Language Server Protocol: JSON-RPC on standard input and output, and the JSON in them.
 #pragma once
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 
 #include <json-c/json.h>
 
@@ -20,9 +20,9 @@ enum {
 typedef enum RpcRead { RPC_MESSAGE, RPC_INVALID, RPC_END } RpcRead;
 // Waits for the next message. Returns RPC_INVALID if the message is not valid JSON. Returns RPC_END at the end of the
 // input, or if the header of a message is invalid. The caller releases *message.
-RpcRead rpc_read(ByteBuffer *input, Json **message);
+RpcRead rpc_read(Text *input, Json **message);
 // Returns true if more input can be read without waiting.
-bool rpc_has_input(const ByteBuffer *input);
+bool rpc_has_input(const Text *input);
 // Send a message and take ownership of `result` and `params`. Return false if the editor has closed the pipe.
 bool rpc_answer(Json *id, Json *result);
 bool rpc_send_error(Json *id, int code, const char *text);

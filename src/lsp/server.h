@@ -14,7 +14,7 @@ typedef struct Server {
     PetriSession *quick;   // session for first checks, with a small work limit
     Arena arena;           // holds the folders of `access`
     FileAccess access;     // files that scripts may read, apart from their own folders
-    ByteBuffer input;      // received bytes of messages that have not been handled
+    Text input;            // received bytes of messages that have not been handled
     size_t read;           // number of bytes that the sessions have tokenised
     TextList roots;        // workspace folders of the editor
     Document **documents;
@@ -76,9 +76,9 @@ size_t hover_node_of(const Document *document, size_t token, const char **name);
 // kinds with the same name.
 bool hover_kind(Str name, size_t *number, PetriNodeKind *kind);
 bool hover_builtin(Str name, PetriBuiltin *builtin);
-void hover_attribute(ByteBuffer *out, const PetriNodeAttribute *attribute);
+void hover_attribute(Text *out, const PetriNodeAttribute *attribute);
 // Appends the definition of a name as a code block, its value if it is constant, and its comment.
-void hover_binding(ByteBuffer *out, Server *server, Document *document, const PetriBinding *name);
+void hover_binding(Text *out, Server *server, Document *document, const PetriBinding *name);
 // Returns the value of a constant. Returns NULL if the name is not constant or its evaluation exceeds the work limit.
 const char *hover_value(Server *server, Document *document, const PetriBinding *name);
 // Returns the binding that scripts import under a name: the last top-level binding. Returns NULL if there is none.

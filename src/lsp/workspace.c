@@ -4,6 +4,7 @@
 // separate block: names bound before the include are visible in it, but its bindings are not visible outside.
 #include "lsp/workspace.h"
 
+#include "base/file.h"
 #include "base/source.h"
 
 #include <dirent.h>
@@ -96,27 +97,27 @@ static void find_targets(Workspace *workspace) {
 
 // Adds a script if it may contain imports or includes.
 static void add_candidate(Workspace *workspace, const char *path) {
-    SCOPED_BYTE_BUFFER text = {0};
-    if (find_document(workspace, path) != SIZE_MAX || byte_buffer_read_file(&text, path, SERVER_MAX_FILE_BYTES) ||
-        text.length == 0 || (!strstr(text.data, "import") && !strstr(text.data, "%include")))
+    SCOPED_TEXT text = {0};
+    if (find_document(workspace, path) != SIZE_MAX || text_read_file(&text, path, SERVER_MAX_FILE_BYTES) ||
+        text.len == 0 || (!strstr(text.bytes, "import") && !strstr(text.bytes, "%include")))
         return;
-    SCOPED_TEXT uri = uri_of(path);
-    add_document(workspace, document_new(uri, (Str){text.data, text.length}, -1), true, SIZE_MAX);
+    SCOPED_STRING uri = uri_of(path);
+    add_document(workspace, document_new(uri, text_str(&text), -1), true, SIZE_MAX);
 }
 
 static void search_folder(Workspace *workspace, const char *folder, unsigned depth) {
     DIR *entries = opendir(folder);
     for (struct dirent *entry; entries && workspace->files_left > 0 && (entry = readdir(entries));) {
-        SCOPED_BYTE_BUFFER path = {0};
+        SCOPED_TEXT path = {0};
         struct stat about;
-        byte_buffer_format(&path, "%s/%s", folder, entry->d_name);
+        text_add_format(&path, "%s/%s", folder, entry->d_name);
         workspace->files_left--;
-        if (entry->d_name[0] == '.' || strcmp(entry->d_name, "node_modules") == 0 || lstat(path.data, &about) != 0)
+        if (entry->d_name[0] == '.' || strcmp(entry->d_name, "node_modules") == 0 || lstat(path.bytes, &about) != 0)
             continue;
         if (S_ISDIR(about.st_mode) && depth > 0)
-            search_folder(workspace, path.data, depth - 1);
-        else if (S_ISREG(about.st_mode) && str_ends_with(str_from(path.data), STR(".fl")))
-            add_candidate(workspace, path.data);
+            search_folder(workspace, path.bytes, depth - 1);
+        else if (S_ISREG(about.st_mode) && str_ends_with(str_from(path.bytes), STR(".fl")))
+            add_candidate(workspace, path.bytes);
     }
     if (entries)
         closedir(entries);
@@ -129,7 +130,7 @@ static void search_workspace(Workspace *workspace, const Document *document) {
         search_folder(workspace, roots->items[i], MAX_FOLDERS);
     Str folder = path_directory(str_from(document->canonical));
     if (roots->count == 0 && document->is_file && folder.len > 1) {
-        SCOPED_TEXT own = memory_strndup(folder.bytes, folder.len - 1);
+        SCOPED_STRING own = memory_strndup(folder.bytes, folder.len - 1);
         search_folder(workspace, own, 0);
     }
 }
@@ -157,9 +158,9 @@ void workspace_close(Workspace *workspace) {
     free(workspace->included);
 }
 
-void workspace_replace(Workspace *workspace, size_t file, const ByteBuffer *text) {
+void workspace_replace(Workspace *workspace, size_t file, const Text *text) {
     Document *before = workspace->documents[file];
-    Document *after = document_new(before->uri, (Str){text->data, text->length}, before->version);
+    Document *after = document_new(before->uri, text_str(text), before->version);
     if (workspace->own[file])
         document_free(before);
     workspace->documents[file] = after;

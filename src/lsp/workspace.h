@@ -34,7 +34,7 @@ typedef struct Workspace {
 void workspace_open(Workspace *workspace, Server *server, Document *document, bool whole);
 void workspace_close(Workspace *workspace);
 // Replaces the text of a document within the workspace only.
-void workspace_replace(Workspace *workspace, size_t file, const ByteBuffer *text);
+void workspace_replace(Workspace *workspace, size_t file, const Text *text);
 
 // Returns the bindings that a name refers to.
 BindingSet workspace_bindings(const Workspace *workspace, size_t file, size_t name);

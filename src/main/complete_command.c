@@ -71,11 +71,11 @@ static void offer_parameters(const Completion *completion) {
     if (session && petri_load(session, completion->script) == PETRI_OK) {
         output_format(completion->output, ":nospace\n");
         for (size_t i = 0; petri_parameter(session, i, &parameter) && parameter.settable; i++) {
-            SCOPED_BYTE_BUFFER name = {0}, help = {0};
-            byte_buffer_format(&name, "%s=", parameter.name);
+            SCOPED_TEXT name = {0}, help = {0};
+            text_add_format(&name, "%s=", parameter.name);
             parameter_describe(&help, &parameter);
-            byte_buffer_format(&help, "%s%s", parameter.comment[0] == '\0' ? "" : ": ", parameter.comment);
-            offer(completion, name.data, help.data);
+            text_add_format(&help, "%s%s", parameter.comment[0] == '\0' ? "" : ": ", parameter.comment);
+            offer(completion, name.bytes, help.bytes);
         }
     }
     petri_close(&session);

@@ -15,41 +15,41 @@
 enum { ATTRIBUTE_COLUMN = 22, BUILTIN_COLUMN = 38 };
 
 static int help_builtins(void) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         char head[128];
         snprintf(head, sizeof head, "%s(%s)", builtin.name, builtin.parameters);
-        byte_buffer_format(&text, "%-*s  %s\n", BUILTIN_COLUMN, head, builtin.help);
+        text_add_format(&text, "%-*s  %s\n", BUILTIN_COLUMN, head, builtin.help);
     }
     return help_print(&text);
 }
 
-static void write_attributes(ByteBuffer *text, size_t kind) {
+static void write_attributes(Text *text, size_t kind) {
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
         char head[48];
         snprintf(head, sizeof head, "      %s", attribute.name);
-        byte_buffer_format(text, "%-*s  %s", ATTRIBUTE_COLUMN, head, attribute.type);
+        text_add_format(text, "%-*s  %s", ATTRIBUTE_COLUMN, head, attribute.type);
         if (attribute.unit[0] != '\0')
-            byte_buffer_format(text, ", in %s", attribute.unit);
+            text_add_format(text, ", in %s", attribute.unit);
         if (attribute.default_value[0] != '\0')
-            byte_buffer_format(text, " (%s)", attribute.default_value);
-        byte_buffer_format(text, "%s%s\n", attribute.help[0] == '\0' ? "" : ": ", attribute.help);
+            text_add_format(text, " (%s)", attribute.default_value);
+        text_add_format(text, "%s%s\n", attribute.help[0] == '\0' ? "" : ": ", attribute.help);
     }
 }
 
 // Prints all kinds of nodes with their attributes.
 static int help_nodes(void) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     PetriNodeKind kind;
     const char *area = "";
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         if (strcmp(kind.area, area) != 0) {
-            byte_buffer_format(&text, "%s%s\n", area[0] == '\0' ? "" : "\n", kind.area);
+            text_add_format(&text, "%s%s\n", area[0] == '\0' ? "" : "\n", kind.area);
             area = kind.area;
         }
-        byte_buffer_format(&text, "  !%s: %s\n", kind.name, kind.help);
+        text_add_format(&text, "  !%s: %s\n", kind.name, kind.help);
         help_formula(&text, &kind);
         write_attributes(&text, i);
     }
@@ -57,14 +57,14 @@ static int help_nodes(void) {
 }
 
 // Adds the help for the option `--NAME` or `-X`, for each command that has the option. Returns false if none has it.
-static bool print_option(ByteBuffer *text, const char *word) {
+static bool print_option(Text *text, const char *word) {
     bool found = false, is_long = word[1] == '-';
     for (size_t i = 0; COMMANDS[i]; i++) {
         for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
             if (!(spec->commands & COMMANDS[i]->options))
                 continue;
             if (is_long ? strcmp(spec->name, word + 2) == 0 : spec->letter != '\0' && spec->letter == word[1]) {
-                byte_buffer_format(text, "petri %s\n", COMMANDS[i]->name);
+                text_add_format(text, "petri %s\n", COMMANDS[i]->name);
                 help_option(text, spec);
                 found = true;
             }
@@ -89,17 +89,15 @@ static int unknown_topic(const char *topic) {
 }
 
 // Adds the help for a command of the prompt. Returns false if there is no such command.
-static bool help_prompt(ByteBuffer *text, const char *name) {
+static bool help_prompt(Text *text, const char *name) {
     const ReplCommand *command = repl_find_command(name, strlen(name));
-    if (command) {
-        byte_buffer_format(text, "%s %s\n    at the prompt of petri repl: %s\n", name, command->operands,
-                           command->help);
-    }
+    if (command)
+        text_add_format(text, "%s %s\n    at the prompt of petri repl: %s\n", name, command->operands, command->help);
     return command;
 }
 
 static int help_word(const char *topic) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     bool found = topic[0] == '-'   ? print_option(&text, topic)
                  : topic[0] == '.' ? help_prompt(&text, topic)
                                    : topics_print(&text, topic);

@@ -1,7 +1,7 @@
 // main.c: the main function, which prepares the process and runs a command on a thread with a large stack.
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
+#include "cli/memory.h"
 #include "cli/shader_test.h"
 #include "main/commands.h"
 
@@ -28,9 +28,9 @@ static bool looks_like_file(const char *word) {
 }
 
 static bool is_script_without_suffix(const char *word) {
-    SCOPED_BYTE_BUFFER path = {0};
-    byte_buffer_format(&path, "%s.fl", word);
-    bool found = access(path.data, F_OK) == 0;
+    SCOPED_TEXT path = {0};
+    text_add_format(&path, "%s.fl", word);
+    bool found = access(path.bytes, F_OK) == 0;
     return found;
 }
 

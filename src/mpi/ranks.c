@@ -200,15 +200,15 @@ static void send_message(int to, const void *bytes, size_t length) {
     MPI_Send(bytes, (int)length, MPI_BYTE, to, MESSAGE, MPI_COMM_WORLD);
 }
 
-static bool receive_message(int *from, ByteBuffer *message) {
+static bool receive_message(int *from, Text *message) {
     int there = 0, length = 0;
     MPI_Status status;
     MPI_Iprobe(MPI_ANY_SOURCE, MESSAGE, MPI_COMM_WORLD, &there, &status);
     if (there) {
         MPI_Get_count(&status, MPI_BYTE, &length);
-        SCOPED_TEXT bytes = memory_calloc((size_t)length + 1);
+        SCOPED_STRING bytes = memory_calloc((size_t)length + 1);
         MPI_Recv(bytes, length, MPI_BYTE, status.MPI_SOURCE, MESSAGE, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-        byte_buffer_add(message, bytes, (size_t)length);
+        text_add(message, (Str){bytes, (size_t)length});
         *from = status.MPI_SOURCE;
     }
     return there;

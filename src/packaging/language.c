@@ -1,6 +1,6 @@
 // language.c: petri(5), the reference of words, functions and nodes of scripts, generated from petri's tables.
-#include "cli/byte_buffer.h"
 #include "cli/help.h"
+#include "cli/memory.h"
 #include "packaging/packaging.h"
 #include "packaging/roff.h"
 #include "petri.h"
@@ -70,7 +70,7 @@ static void write_attributes(Output *output, size_t kind) {
 static void write_formula(Output *output, const PetriNodeKind *kind) {
     for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {
         size_t length = strcspn(line, "\n");
-        SCOPED_TEXT text = memory_strndup(line, length);
+        SCOPED_STRING text = memory_strndup(line, length);
         output_format(output, ".br\n");
         roff_text(output, text);
         output_format(output, "\n");

@@ -1,16 +1,16 @@
 // tables.c: petri's tables of commands, functions, nodes and words as JSON, for the manual on the web (src/web/site).
-#include "cli/byte_buffer.h"
 #include "cli/help.h"
 #include "cli/json.h"
+#include "cli/memory.h"
 #include "packaging/packaging.h"
 #include "petri.h"
 #include "repl/repl.h"
 
 // Adds a JSON object without its closing brace. `texts` alternates names and values and ends with NULL.
-static void add_row(ByteBuffer *out, const char *const texts[]) {
-    byte_buffer_add_text(out, out->data[out->length - 1] == '}' ? ",\n{" : "\n{");
+static void add_row(Text *out, const char *const texts[]) {
+    text_add_c(out, out->bytes[out->len - 1] == '}' ? ",\n{" : "\n{");
     for (size_t i = 0; texts[i]; i += 2) {
-        byte_buffer_format(out, "%s\"%s\": ", i == 0 ? "" : ", ", texts[i]);
+        text_add_format(out, "%s\"%s\": ", i == 0 ? "" : ", ", texts[i]);
         json_add_text(out, texts[i + 1]);
     }
 }
@@ -21,11 +21,11 @@ static const char *or_none(const char *text) {
     return !text ? "" : text;
 }
 
-static void add_list(ByteBuffer *out, const char *name) {
-    byte_buffer_format(out, ", \"%s\": [", name);
+static void add_list(Text *out, const char *name) {
+    text_add_format(out, ", \"%s\": [", name);
 }
 
-static void add_commands(ByteBuffer *out) {
+static void add_commands(Text *out) {
     for (size_t i = 0; COMMANDS[i]; i++) {
         const Command *command = COMMANDS[i];
         ROW(out, "name", command->name, "operands", command->operands, "summary", command->summary, "details",
@@ -34,36 +34,36 @@ static void add_commands(ByteBuffer *out) {
         for (const OptionSpec *option = NULL; (option = option_after(command, option));) {
             ROW(out, "letter", (char[]){option->letter, '\0'}, "name", option->name, "value", or_none(option->value),
                 "help", option->help);
-            byte_buffer_add_text(out, "}");
+            text_add_c(out, "}");
         }
-        byte_buffer_add_text(out, "]}");
+        text_add_c(out, "]}");
     }
 }
 
-static void add_prompt(ByteBuffer *out) {
+static void add_prompt(Text *out) {
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)); i++) {
         ROW(out, "name", command->name, "operands", command->operands, "help", command->help);
-        byte_buffer_add_text(out, "}");
+        text_add_c(out, "}");
     }
 }
 
-static void add_words(ByteBuffer *out) {
+static void add_words(Text *out) {
     for (const Topic *topic = TOPICS; topic->word; topic++) {
         ROW(out, "word", topic->word, "form", topic->form, "help", topic->help);
-        byte_buffer_add_text(out, "}");
+        text_add_c(out, "}");
     }
 }
 
-static void add_functions(ByteBuffer *out) {
+static void add_functions(Text *out) {
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         ROW(out, "name", builtin.name, "parameters", builtin.parameters, "help", builtin.help);
-        byte_buffer_add_text(out, "}");
+        text_add_c(out, "}");
     }
 }
 
-static void add_nodes(ByteBuffer *out) {
+static void add_nodes(Text *out) {
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         ROW(out, "name", kind.name, "area", kind.area, "help", kind.help, "formula", kind.formula);
@@ -72,26 +72,26 @@ static void add_nodes(ByteBuffer *out) {
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
             ROW(out, "name", attribute.name, "type", attribute.type, "fallback", attribute.default_value, "unit",
                 attribute.unit, "help", attribute.help);
-            byte_buffer_add_text(out, "}");
+            text_add_c(out, "}");
         }
-        byte_buffer_add_text(out, "]}");
+        text_add_c(out, "]}");
     }
 }
 
-static void add_page_rows(ByteBuffer *out, const PageRow *rows) {
+static void add_page_rows(Text *out, const PageRow *rows) {
     for (; rows->name; rows++) {
         ROW(out, "name", rows->name, "help", rows->help);
-        byte_buffer_add_text(out, "}");
+        text_add_c(out, "}");
     }
 }
 
 void tables_as_json(Output *output) {
-    SCOPED_BYTE_BUFFER out = {0};
-    byte_buffer_add_text(&out, " ");
+    SCOPED_TEXT out = {0};
+    text_add_c(&out, " ");
     ROW(&out, "version", petri_version(), "title", HELP_TITLE, "beginning", HELP_BEGINNING, "letters", FORMULA_LETTERS);
     static const struct {
         const char *name;
-        void (*add)(ByteBuffer *out);
+        void (*add)(Text *out);
     } lists[] = {{"commands", add_commands},
                  {"prompt", add_prompt},
                  {"words", add_words},
@@ -100,13 +100,13 @@ void tables_as_json(Output *output) {
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
         add_list(&out, lists[i].name);
         lists[i].add(&out);
-        byte_buffer_add_text(&out, "]");
+        text_add_c(&out, "]");
     }
     add_list(&out, "statuses");
     add_page_rows(&out, PAGE_STATUSES);
-    byte_buffer_add_text(&out, "]");
+    text_add_c(&out, "]");
     add_list(&out, "variables");
     add_page_rows(&out, PAGE_VARIABLES);
-    byte_buffer_add_text(&out, "]}\n");
-    output_write(output, out.data, out.length);
+    text_add_c(&out, "]}\n");
+    output_write(output, out.bytes, out.len);
 }

@@ -2,8 +2,9 @@
 //
 // `@builtins|@` is replaced by the names of all functions, separated by `|`. `@nodes|@` and `@values|@` are replaced by
 // the names of nodes and of predefined values. The separator can be any text without `@`.
-#include "cli/byte_buffer.h"
+#include "base/file.h"
 #include "cli/help.h"
+#include "cli/memory.h"
 #include "packaging/packaging.h"
 #include "petri.h"
 
@@ -58,10 +59,10 @@ static bool write_list(Output *output, Str between) {
 }
 
 bool template_fill(Output *output, const char *path) {
-    SCOPED_BYTE_BUFFER text = {0};
-    if (byte_buffer_read_file(&text, path, SIZE_MAX))
+    SCOPED_TEXT text = {0};
+    if (text_read_file(&text, path, SIZE_MAX))
         return false;
-    for (const char *at = text.data; at && *at != '\0';) {
+    for (const char *at = text.bytes; at && *at != '\0';) {
         const char *open = strchr(at, '@'), *close = !open ? NULL : strchr(open + 1, '@');
         if (!close) {
             output_format(output, "%s", at);

@@ -6,8 +6,8 @@
 
 #include "base/file.h"
 #include "base/replace.h"
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "cli/progress.h"
 #include "cli/shader_test.h"
 #include "render/recording.h"
@@ -135,8 +135,8 @@ static bool cannot_write(FrameWriter *writer, const char *file) {
     return false;
 }
 
-static bool write_bytes(FrameWriter *writer, Job *job, const ByteBuffer *bytes) {
-    return file_write(job->target.file, bytes->data, bytes->length) || cannot_write(writer, job->file);
+static bool write_bytes(FrameWriter *writer, Job *job, const Text *bytes) {
+    return file_write(job->target.file, bytes->bytes, bytes->len) || cannot_write(writer, job->file);
 }
 
 // Waits until all earlier jobs are committed. Returns false after a failure.
@@ -151,8 +151,8 @@ static bool wait_for_turn(FrameWriter *writer, const Job *job) {
 
 // Writes a temporary file; commit_ready_jobs renames it. A target that is not a regular file is written directly.
 static bool write_file(FrameWriter *writer, Job *job, PetriPainter *painter) {
-    SCOPED_BYTE_BUFFER bytes = {0};
-    if (!check_saved(writer, petri_picture_encode(job->picture, painter, job->file, byte_buffer_collect, &bytes)))
+    SCOPED_TEXT bytes = {0};
+    if (!check_saved(writer, petri_picture_encode(job->picture, painter, job->file, text_collect, &bytes)))
         return false;
     job->target_open = replace_begin(&job->target, job->file, 0);
     if (!job->target_open)

@@ -1,7 +1,7 @@
 // recording.c: see recording.h.
 #include "render/recording.h"
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "cli/shader_test.h"
 #include "render/video.h"
 

@@ -1,5 +1,5 @@
 // render.c: `petri render`, which writes an image of a frame, a series of images or a video.
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "cli/script.h"
 #include "cli/stdout_file.h"
 #include "render/frame_writer.h"
@@ -40,17 +40,17 @@ static const char *find_number(const char *name, const char **end) {
 
 // Returns the file name of a frame. The caller frees it with free.
 static char *series_name(const char *name, int64_t frame) {
-    ByteBuffer text = {0};
+    Text text = {0};
     const char *end = NULL;
     const char *at = find_number(name, &end);
     int width = (int)strtol(at + 1, NULL, 10);
-    byte_buffer_add(&text, name, (size_t)(at - name));
+    text_add(&text, (Str){name, (size_t)(at - name)});
     if (at[1] == '0')
-        byte_buffer_format(&text, "%0*" PRId64, width, frame);
+        text_add_format(&text, "%0*" PRId64, width, frame);
     else
-        byte_buffer_format(&text, "%*" PRId64, width, frame);
-    byte_buffer_add_text(&text, end);
-    return text.data;
+        text_add_format(&text, "%*" PRId64, width, frame);
+    text_add_c(&text, end);
+    return text.bytes;
 }
 
 // Determines the kind of output. Returns false after a message.
@@ -90,7 +90,7 @@ static bool read_output(Render *render) {
 
 // Checks that the folder is writable before frames are computed. Returns false after a message.
 static bool check_folder(const char *file) {
-    SCOPED_TEXT folder = script_folder(file);
+    SCOPED_STRING folder = script_folder(file);
     bool good = access(folder, W_OK | X_OK) == 0;
     if (!good)
         message("cannot write '%s': %s", file, strerror(errno));
@@ -122,7 +122,7 @@ static void output_frame(Render *render) {
     if (wanted && render->kind == OUTPUT_FILM) {
         draw_frame(render, true, NULL);
     } else if (wanted && render->kind == OUTPUT_SERIES) {
-        SCOPED_TEXT name = series_name(options->output, number);
+        SCOPED_STRING name = series_name(options->output, number);
         draw_frame(render, false, name);
     } else if (petri_needs_history(render->frames.session)) {
         draw_frame(render, false, NULL);

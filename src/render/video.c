@@ -2,7 +2,7 @@
 #include "render/video.h"
 
 #include "base/file.h"
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "cli/signal_cleanup.h"
 #include "cli/subprocess.h"
 
@@ -177,14 +177,14 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
 
 // Sets error_text from the exit status and the last line that ffmpeg wrote.
 static void report_failure(Video *video, int status) {
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_add(&text, "", 0);
+    SCOPED_TEXT text = {0};
+    text_add_c(&text, "");
     if (lseek(video->errors, 0, SEEK_SET) == 0)
-        byte_buffer_read(&text, video->errors, SIZE_MAX);
-    while (text.length > 0 && (text.data[text.length - 1] == '\n' || text.data[text.length - 1] == '\r'))
-        text.data[--text.length] = '\0';
-    const char *line = strrchr(text.data, '\n');
-    line = !line ? text.data : line + 1;
+        text_read(&text, video->errors, SIZE_MAX);
+    while (text.len > 0 && (text.bytes[text.len - 1] == '\n' || text.bytes[text.len - 1] == '\r'))
+        text.bytes[--text.len] = '\0';
+    const char *line = strrchr(text.bytes, '\n');
+    line = !line ? text.bytes : line + 1;
     if (WIFSIGNALED(status)) {
         set_error_text(video, "cannot write '%s': ffmpeg was killed by signal %d (%s)", video->file, WTERMSIG(status),
                        strsignal(WTERMSIG(status)));

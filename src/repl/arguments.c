@@ -77,7 +77,7 @@ bool argument_limit(Repl *repl, char *text, int64_t *limit) {
         char *end = word + strcspn(word, BLANKS);
         char *after = end + strspn(end, BLANKS);
         if ((at == text || is_blank(at[-1])) && (at == text || *after == '\0')) {
-            SCOPED_TEXT number = memory_strndup(word, (size_t)(end - word));
+            SCOPED_STRING number = memory_strndup(word, (size_t)(end - word));
             bool good = number[0] != '\0' ? argument_count(repl, number, 1, limit)
                                           : repl_fail(repl, "--limit needs a number of frames");
             memmove(at, after, strlen(after) + 1);
@@ -174,28 +174,28 @@ static void compile_names(Repl *repl) {
 
 // Executes `help`, `quit` and their synonyms. Returns false if the text is not one of these commands or if the word is
 // bound. If the word is bound, also sets *remark.
-static bool execute_alias(Repl *repl, const char *word, size_t length, const char *rest, ByteBuffer *remark) {
+static bool execute_alias(Repl *repl, const char *word, size_t length, const char *rest, Text *remark) {
     bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0;
     const char *command = bare_alias(word, length);
     bool topic = length > 1 || word[0] == '?'; // only `help` and `?` take an operand; `h` does not
     if (!command || !(alone || (topic && strcmp(command, ".help") == 0)))
         return false;
     if (is_bound(repl, word, length)) {
-        byte_buffer_format(remark, "'%.*s' is a name here; the command is %s", (int)length, word, command);
+        text_add_format(remark, "'%.*s' is a name here; the command is %s", (int)length, word, command);
         return false;
     }
-    SCOPED_BYTE_BUFFER line = {0};
+    SCOPED_TEXT line = {0};
     size_t inner = strlen(rest);
     bool called = !alone && rest[0] == '(' && rest[inner - 1] == ')'; // as in help(sin)
-    byte_buffer_format(&line, "%s %.*s", command, (int)(alone ? 0 : inner - 2 * called), rest + called);
-    repl_command(repl, line.data);
+    text_add_format(&line, "%s %.*s", command, (int)(alone ? 0 : inner - 2 * called), rest + called);
+    repl_command(repl, line.bytes);
     return true;
 }
 
-bool bare_execute(Repl *repl, const char *text, ByteBuffer *remark) {
-    SCOPED_TEXT line = argument_trimmed(text);
+bool bare_execute(Repl *repl, const char *text, Text *remark) {
+    SCOPED_STRING line = argument_trimmed(text);
     size_t length = word_length(line);
-    SCOPED_TEXT rest = argument_trimmed(line + length);
+    SCOPED_STRING rest = argument_trimmed(line + length);
     bool alias = bare_alias(line, length), command = line[0] != '.' && repl_find_command(line, length), done = false;
     if ((alias || command) && !strchr(line, '\n')) {
         compile_names(repl);
@@ -204,7 +204,7 @@ bool bare_execute(Repl *repl, const char *text, ByteBuffer *remark) {
             repl_fail(repl, "commands begin with a dot: did you mean .%s?", line);
             done = true;
         } else if (!done && command && rest[0] != '\0') {
-            byte_buffer_format(remark, "commands begin with a dot: did you mean .%s?", line);
+            text_add_format(remark, "commands begin with a dot: did you mean .%s?", line);
         }
     }
     return done;

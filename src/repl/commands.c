@@ -29,7 +29,7 @@ const ReplCommand *repl_find_command(const char *name, size_t length) {
     return command;
 }
 
-static void list_commands(ByteBuffer *text) {
+static void list_commands(Text *text) {
     SCOPED_TEXT_TABLE table = text_table_new(2);
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)); i++) {
@@ -40,14 +40,14 @@ static void list_commands(ByteBuffer *text) {
         text_table_add(&table, command->help);
     }
     table_text(&table, text);
-    byte_buffer_add_text(
-        text, "A number can be given as an expression, as in '.resolution 1/240'. Input that is not a command is "
-              "code: the value of an expression is printed; let, func, import and nodes are kept. Indented lines "
-              "belong to the line above them; Up returns to earlier lines, and an empty line ends the block. Ctrl-C "
-              "interrupts. Try '.help builtins', '.help nodes', '.help !particle', '.help polar' or '.help tempo'.\n");
+    text_add_c(text,
+               "A number can be given as an expression, as in '.resolution 1/240'. Input that is not a command is "
+               "code: the value of an expression is printed; let, func, import and nodes are kept. Indented lines "
+               "belong to the line above them; Up returns to earlier lines, and an empty line ends the block. Ctrl-C "
+               "interrupts. Try '.help builtins', '.help nodes', '.help !particle', '.help polar' or '.help tempo'.\n");
 }
 
-static void list_builtins(ByteBuffer *text) {
+static void list_builtins(Text *text) {
     SCOPED_TEXT_TABLE table = text_table_new(2);
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
@@ -59,7 +59,7 @@ static void list_builtins(ByteBuffer *text) {
     table_text(&table, text);
 }
 
-static void list_nodes(ByteBuffer *text) {
+static void list_nodes(Text *text) {
     SCOPED_TEXT_TABLE table = text_table_new(3);
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
@@ -84,7 +84,7 @@ static bool suggest_topic(Repl *repl, const char *topic) {
                : repl_fail(repl, "no help for '%.40s'; did you mean '%s'?", topic, nearest.found.bytes);
 }
 
-static bool add_help(Repl *repl, ByteBuffer *text, const char *topic) {
+static bool add_help(Repl *repl, Text *text, const char *topic) {
     if (topic[0] == '\0') {
         list_commands(text);
     } else if (strcmp(topic, "builtins") == 0) {
@@ -95,8 +95,8 @@ static bool add_help(Repl *repl, ByteBuffer *text, const char *topic) {
         bool found = topic[0] != '.' && topics_print(text, topic);
         const ReplCommand *command = repl_find_command(topic, strlen(topic));
         if (command) {
-            byte_buffer_format(text, "%s%s%s\n    %s\n", command->name, command->operands[0] == '\0' ? "" : " ",
-                               command->operands, command->help);
+            text_add_format(text, "%s%s%s\n    %s\n", command->name, command->operands[0] == '\0' ? "" : " ",
+                            command->operands, command->help);
         }
         return found || command || suggest_topic(repl, topic);
     }
@@ -104,7 +104,7 @@ static bool add_help(Repl *repl, ByteBuffer *text, const char *topic) {
 }
 
 static bool run_help(Repl *repl, const char *topic) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     bool found = add_help(repl, &text, topic);
     help_write(&repl->output, &text);
     return found;
@@ -177,8 +177,8 @@ static void report_unknown(Repl *repl, const char *name) {
 
 void repl_command(Repl *repl, const char *line) {
     size_t length = strcspn(line, " \t\n");
-    SCOPED_TEXT name = memory_strndup(line, length);
-    SCOPED_TEXT rest = argument_trimmed(line + length);
+    SCOPED_STRING name = memory_strndup(line, length);
+    SCOPED_STRING rest = argument_trimmed(line + length);
     const char *alias = bare_alias(name + 1, length - 1); // accepts .exit and .q too
     const ReplCommand *command = alias ? repl_find_command(alias, strlen(alias)) : repl_find_command(name, length);
     if (!command)

@@ -22,9 +22,9 @@ static void add_candidate(Search *search, const char *word) {
 }
 
 static void add_candidate_with(Search *search, const char *before, const char *word, const char *after) {
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_format(&text, "%s%s%s", before, word, after);
-    add_candidate(search, text.data);
+    SCOPED_TEXT text = {0};
+    text_add_format(&text, "%s%s%s", before, word, after);
+    add_candidate(search, text.bytes);
 }
 
 static bool is_word(char c) {
@@ -67,14 +67,14 @@ static void offer_attributes(Search *search, const char *kind, size_t length) {
 
 // Reads the state's keys from its printed lines, which have the form `KEY = VALUE`.
 static void offer_keys(Search *search) {
-    SCOPED_BYTE_BUFFER state = {0};
+    SCOPED_TEXT state = {0};
     Str line;
     size_t at = 0;
-    petri_print(search->repl->session, PETRI_PRINT_STATE, byte_buffer_collect, &state);
-    while (byte_buffer_next_line(&state, &at, &line)) {
+    petri_print(search->repl->session, PETRI_PRINT_STATE, text_collect, &state);
+    while (text_next_line(&state, &at, &line)) {
         const char *end = line.bytes[0] == '$' ? strstr(line.bytes, " = ") : NULL;
         if (end) {
-            SCOPED_TEXT key = memory_strndup(line.bytes, (size_t)(end - line.bytes));
+            SCOPED_STRING key = memory_strndup(line.bytes, (size_t)(end - line.bytes));
             add_candidate(search, key);
         }
     }
@@ -87,10 +87,10 @@ static void offer_systems(Search *search) {
 }
 
 static void offer_files(Search *search) {
-    SCOPED_BYTE_BUFFER pattern = {0};
+    SCOPED_TEXT pattern = {0};
     glob_t found = {0};
-    byte_buffer_format(&pattern, "%s*", search->typed);
-    glob(pattern.data, 0, NULL, &found);
+    text_add_format(&pattern, "%s*", search->typed);
+    glob(pattern.bytes, 0, NULL, &found);
     for (size_t i = 0; i < found.gl_pathc; i++)
         add_candidate(search, found.gl_pathv[i]);
     globfree(&found);
@@ -210,11 +210,11 @@ static void find_common(Completion *completion, size_t typed) {
         length++;
     while (length > typed && ((unsigned char)first[length] & 0xc0) == 0x80)
         length--; // do not split a UTF-8 character
-    byte_buffer_add(&completion->common, first + typed, length - typed);
+    text_add(&completion->common, (Str){first + typed, length - typed});
 }
 
 void complete_line(Repl *repl, const char *line, size_t length, Completion *completion) {
-    SCOPED_TEXT text = memory_strndup(line, length);
+    SCOPED_STRING text = memory_strndup(line, length);
     Search search = {.repl = repl, .found = completion};
     *completion = (Completion){0};
     size_t name = strcspn(text, " \t");
@@ -234,7 +234,7 @@ void complete_line(Repl *repl, const char *line, size_t length, Completion *comp
 
 void complete_free(Completion *completion) {
     texts_free(&completion->words);
-    byte_buffer_free(&completion->common);
+    text_free(&completion->common);
 }
 
 void complete_show(const Completion *completion, Output *output) {

@@ -116,12 +116,12 @@ static unsigned char handle_enter(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     size_t consumed = 0;
-    byte_buffer_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
-    byte_buffer_add_text(&text, "\n");
-    bool more = line_needs_more(editor->repl, text.data, text.length, &consumed);
-    el_cursor(line, (int)text.length); // moves the cursor to the end, because libedit stops there
+    text_add(&text, (Str){info->buffer, (size_t)(info->lastchar - info->buffer)});
+    text_add_c(&text, "\n");
+    bool more = line_needs_more(editor->repl, text.bytes, text.len, &consumed);
+    el_cursor(line, (int)text.len); // moves the cursor to the end, because libedit stops there
     if (!more)
         return push_keys(line, KEY_ACCEPT);
     return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;
@@ -207,7 +207,7 @@ static unsigned char complete_word(EditLine *line, wint_t character) {
         return el_insertstr(line, "    ") == 0 ? CC_REFRESH : CC_ERROR; // no word before the cursor: indent
     Completion completion;
     complete_line(editor->repl, start, (size_t)(info->cursor - start), &completion);
-    bool inserted = completion.common.length > 0 && el_insertstr(line, completion.common.data) == 0;
+    bool inserted = completion.common.len > 0 && el_insertstr(line, completion.common.bytes) == 0;
     unsigned char result = inserted ? CC_REFRESH : CC_ERROR;
     if (!inserted && completion.words.count > 1) {
         leave_block(editor);
@@ -227,11 +227,11 @@ static void replace_character(char *text, char old, char new) {
 
 static void load_history(Editor *editor) {
     HistEvent event;
-    SCOPED_BYTE_BUFFER lines = {0};
+    SCOPED_TEXT lines = {0};
     saved_read(&lines);
     Str line;
-    for (size_t at = 0; byte_buffer_next_line(&lines, &at, &line);) {
-        SCOPED_TEXT block = memory_strndup(line.bytes, line.len);
+    for (size_t at = 0; text_next_line(&lines, &at, &line);) {
+        SCOPED_STRING block = memory_strndup(line.bytes, line.len);
         replace_character(block, SAVED_LINE_END, '\n');
         history(editor->history, &event, H_ENTER, block);
     }
@@ -310,28 +310,28 @@ void editor_free(Editor *editor) {
 }
 
 // Adds a block to the history as one entry, without the empty line at its end.
-static void add_to_history(Editor *editor, const ByteBuffer *lines) {
+static void add_to_history(Editor *editor, const Text *lines) {
     HistEvent event;
     enum { MAX_BLOCK_LENGTH = 10000 };
-    size_t length = lines->length;
-    while (length > 0 && lines->data[length - 1] == '\n')
+    size_t length = lines->len;
+    while (length > 0 && lines->bytes[length - 1] == '\n')
         length--;
     if (length == 0 || length > MAX_BLOCK_LENGTH)
         return;
-    SCOPED_TEXT block = memory_strndup(lines->data, length);
+    SCOPED_STRING block = memory_strndup(lines->bytes, length);
     history(editor->history, &event, H_ENTER, block);
     replace_character(block, '\n', SAVED_LINE_END);
-    SCOPED_BYTE_BUFFER whole = {0};
-    byte_buffer_format(&whole, "%s\n", block);
+    SCOPED_TEXT whole = {0};
+    text_add_format(&whole, "%s\n", block);
     saved_add(&whole); // save now, because closing the terminal kills petri
 }
 
-LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *lines) {
+LineStatus editor_read(Editor *editor, const char *prompt, Text *lines) {
     bool coloured = editor->repl->options->colour;
     snprintf(editor->prompt, sizeof editor->prompt, coloured ? "\1\033[1;32m\1%s\1\033[0m\1" : "%s", prompt);
     int count = 0;
     editor->back = 0;
-    byte_buffer_add(lines, "", 0);
+    text_add_c(lines, "");
     const char *text = el_gets(editor->line, &count);
     if (!text || count <= 0) {
         bool stopped = repl_interrupted();
@@ -341,9 +341,9 @@ LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *lines) {
         output_flush(&editor->repl->output);
         return stopped ? LINE_INTERRUPTED : LINE_END;
     }
-    byte_buffer_add(lines, text, (size_t)count);
-    if (lines->data[lines->length - 1] != '\n')
-        byte_buffer_add_text(lines, "\n");
+    text_add(lines, (Str){text, (size_t)count});
+    if (lines->bytes[lines->len - 1] != '\n')
+        text_add_c(lines, "\n");
     add_to_history(editor, lines);
     return LINE_READ;
 }
@@ -361,7 +361,7 @@ void editor_free(Editor *editor) {
     (void)editor;
 }
 
-LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *line) {
+LineStatus editor_read(Editor *editor, const char *prompt, Text *line) {
     (void)editor;
     (void)prompt;
     (void)line;

@@ -16,8 +16,8 @@ enum { BLOCK = 1 << 16, MAX_ECHOED = 4000 };
 
 struct LineReader {
     Repl *repl;
-    Editor *editor;  // NULL: lines are not edited
-    ByteBuffer text; // input; the bytes from offset `at` on have not been returned yet
+    Editor *editor; // NULL: lines are not edited
+    Text text;      // input; the bytes from offset `at` on have not been returned yet
     size_t at;
     size_t searched; // number of bytes from `at` that are known to contain no line feed
     bool ended;      // true if the input has ended
@@ -26,14 +26,14 @@ struct LineReader {
 LineReader *line_reader_new(Repl *repl) {
     LineReader *reader = memory_calloc(sizeof *reader);
     reader->repl = repl;
-    byte_buffer_add(&reader->text, "", 0); // makes `data` non-NULL
+    text_add_c(&reader->text, ""); // makes `bytes` non-NULL
     reader->editor = repl->terminal ? editor_new(repl) : NULL;
     return reader;
 }
 
 void line_reader_free(LineReader *reader) {
     editor_free(reader->editor);
-    byte_buffer_free(&reader->text);
+    text_free(&reader->text);
     free(reader);
 }
 
@@ -53,29 +53,29 @@ LineWait line_wait(Repl *repl) {
 }
 
 // Moves the first line of the buffered input to `line`. Returns false if the line is incomplete.
-static bool read_buffered_line(LineReader *reader, ByteBuffer *line) {
-    const char *start = reader->text.data + reader->at;
-    size_t length = reader->text.length - reader->at;
+static bool read_buffered_line(LineReader *reader, Text *line) {
+    const char *start = reader->text.bytes + reader->at;
+    size_t length = reader->text.len - reader->at;
     const char *end = length == 0 ? NULL : memchr(start + reader->searched, '\n', length - reader->searched);
     reader->searched = length;
     if (!end && !(reader->ended && length > 0))
         return false;
     size_t consumed = !end ? length : (size_t)(end - start);
-    byte_buffer_add(line, start, consumed);
+    text_add(line, (Str){start, consumed});
     reader->at += consumed + (end != NULL);
     reader->searched = 0;
-    if (line->length > 0 && line->data[line->length - 1] == '\r')
-        line->data[--line->length] = '\0';
+    if (line->len > 0 && line->bytes[line->len - 1] == '\r')
+        line->bytes[--line->len] = '\0';
     return true;
 }
 
-static void echo_line(Repl *repl, const ByteBuffer *line) {
-    if (line->length <= MAX_ECHOED) {
-        output_write(&repl->output, line->data, line->length);
+static void echo_line(Repl *repl, const Text *line) {
+    if (line->len <= MAX_ECHOED) {
+        output_write(&repl->output, line->bytes, line->len);
         output_write(&repl->output, "\n", 1);
     } else {
-        output_write(&repl->output, line->data, 60);
-        output_format(&repl->output, "... (%zu bytes)\n", line->length);
+        output_write(&repl->output, line->bytes, 60);
+        output_format(&repl->output, "... (%zu bytes)\n", line->len);
     }
 }
 
@@ -100,21 +100,21 @@ static LineStatus read_block(LineReader *reader, const char *prompt) {
     char block[BLOCK];
     ssize_t got = read(STDIN_FILENO, block, sizeof block);
     reader->ended = got == 0 || (got < 0 && errno != EINTR);
-    byte_buffer_add(&reader->text, block, got > 0 ? (size_t)got : 0);
+    text_add(&reader->text, (Str){block, got > 0 ? (size_t)got : 0});
     return LINE_READ;
 }
 
 // The editor may return several lines at once. They are not echoed, because they are already on the screen.
-LineStatus line_read(LineReader *reader, const char *prompt, ByteBuffer *line) {
+LineStatus line_read(LineReader *reader, const char *prompt, Text *line) {
     Output *output = &reader->repl->output;
     output_flush(output);
-    byte_buffer_add(line, "", 0);
+    text_add_c(line, "");
     output_format(output, "%s", reader->editor ? "" : prompt);
     bool echoed = !reader->editor && !isatty(STDIN_FILENO);
     while (!read_buffered_line(reader, line)) {
         if (reader->at > 0) {
-            memmove(reader->text.data, reader->text.data + reader->at, reader->text.length - reader->at);
-            reader->text.length -= reader->at;
+            memmove(reader->text.bytes, reader->text.bytes + reader->at, reader->text.len - reader->at);
+            reader->text.len -= reader->at;
             reader->at = 0;
         }
         LineStatus status =
@@ -158,24 +158,24 @@ bool line_needs_more(Repl *repl, const char *text, size_t length, size_t *consum
 }
 
 // Appends the path of the history file. Returns false if the environment names no folder for it.
-static bool file_path(ByteBuffer *path) {
+static bool file_path(Text *path) {
     const char *folder = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
     if (folder && folder[0] == '/') // the XDG specification requires that relative paths are ignored
-        byte_buffer_add_text(path, folder);
+        text_add_c(path, folder);
     else if (home && home[0] != '\0')
-        byte_buffer_format(path, "%s/.local/state", home);
+        text_add_format(path, "%s/.local/state", home);
     else
         return false;
-    byte_buffer_format(path, "/petri/history");
+    text_add_format(path, "/petri/history");
     return true;
 }
 
-void saved_read(ByteBuffer *lines) {
-    SCOPED_BYTE_BUFFER path = {0};
+void saved_read(Text *lines) {
+    SCOPED_TEXT path = {0};
     if (file_path(&path))
-        byte_buffer_read_file(lines, path.data, MAX_HISTORY_BYTES);
-    if (lines->length > 0 && lines->data[lines->length - 1] != '\n')
-        byte_buffer_add_text(lines, "\n");
+        text_read_file(lines, path.bytes, MAX_HISTORY_BYTES);
+    if (lines->len > 0 && lines->bytes[lines->len - 1] != '\n')
+        text_add_c(lines, "\n");
 }
 
 // Creates the parent folders of a file, accessible only to the owner.
@@ -188,25 +188,25 @@ static void make_folders(char *path) {
 }
 
 // Returns the offset at which the last `max` lines begin.
-static size_t start_of_last(const ByteBuffer *lines, size_t max) {
-    size_t at = lines->length;
+static size_t start_of_last(const Text *lines, size_t max) {
+    size_t at = lines->len;
     while (at > 0 && max > 0) {
         at--;
-        while (at > 0 && lines->data[at - 1] != '\n')
+        while (at > 0 && lines->bytes[at - 1] != '\n')
             at--;
         max--;
     }
     return at;
 }
 
-void saved_add(const ByteBuffer *lines) {
-    SCOPED_BYTE_BUFFER path = {0}, all = {0};
-    if (lines->length > 0 && file_path(&path)) {
+void saved_add(const Text *lines) {
+    SCOPED_TEXT path = {0}, all = {0};
+    if (lines->len > 0 && file_path(&path)) {
         saved_read(&all); // read the file again, because another session may have added lines
-        byte_buffer_add(&all, lines->data, lines->length);
+        text_add(&all, text_str(lines));
         size_t start = start_of_last(&all, SAVED_MAX);
-        ByteBuffer kept = {.data = all.data + start, .length = all.length - start};
-        make_folders(path.data);
-        file_replace(path.data, (Str){kept.data, kept.length}, 0);
+        Text kept = {.bytes = all.bytes + start, .len = all.len - start};
+        make_folders(path.bytes);
+        file_replace(path.bytes, text_str(&kept), 0);
     }
 }

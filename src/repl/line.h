@@ -15,7 +15,7 @@ LineReader *line_reader_new(Repl *repl);
 void line_reader_free(LineReader *reader);
 // Reads one line and appends it to `line` without its line feed. Returns LINE_END at the end of the input, and
 // LINE_INTERRUPTED after Ctrl-C. In both cases, `line` is unchanged.
-LineStatus line_read(LineReader *reader, const char *prompt, ByteBuffer *line);
+LineStatus line_read(LineReader *reader, const char *prompt, Text *line);
 
 // Returns true if the statement in `text`, whose lines all end with a line feed, needs more lines. Sets *consumed to
 // the length of the statement. The last line is not part of the statement if it starts the next statement, or if it is
@@ -38,9 +38,9 @@ LineWait line_wait(Repl *repl);
 enum { SAVED_MAX = 2000 };        // maximum number of lines in the file
 enum { SAVED_LINE_END = '\036' }; // replaces line feeds within a block: the file has one line per block
 // Appends the lines of the history file; each ends with a line feed. Adds nothing if there is no file.
-void saved_read(ByteBuffer *lines);
+void saved_read(Text *lines);
 // Appends lines to the history file immediately. Ignores write errors.
-void saved_add(const ByteBuffer *lines);
+void saved_add(const Text *lines);
 
 // The line editor (edit.c), which uses libedit.
 typedef struct Editor Editor;
@@ -50,4 +50,4 @@ Editor *editor_new(Repl *repl);
 void editor_free(Editor *editor);
 // Like line_read, but appends a whole block: all lines of a statement, each with its line feed. Up and Down move
 // between the lines of a block. The history stores whole blocks.
-LineStatus editor_read(Editor *editor, const char *prompt, ByteBuffer *lines);
+LineStatus editor_read(Editor *editor, const char *prompt, Text *lines);

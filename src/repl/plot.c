@@ -123,7 +123,7 @@ static void print_plot(Repl *repl, const double *values, int64_t first, int64_t 
 
 // Recomputes `count` frames, ending with the current frame, and evaluates the expression in each of them.
 static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t first, int64_t count, double *values,
-                                   ByteBuffer *why) {
+                                   Text *why) {
     PetriStatus status = PETRI_OK;
     for (int64_t i = 0; i < count && status == PETRI_OK; i++) {
         PetriEvaluation result = {0};
@@ -141,7 +141,7 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
     first = first < min ? min : first;
     if (now < first)
         return repl_fail(repl, "no frames to plot; run .step first");
-    SCOPED_BYTE_BUFFER why = {0};
+    SCOPED_TEXT why = {0};
     double *values = memory_calloc((size_t)(now - first + 1) * sizeof *values);
     repl_busy(repl);
     PetriStatus status = evaluate_frames(repl, expression, first, now - first + 1, values, &why);
@@ -152,7 +152,7 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
         history_goto(&repl->history, repl->session, now, &why);
         repl_fail(repl, "%s",
                   stopped                         ? "interrupted"
-                  : why.length > 0                ? why.data
+                  : why.len > 0                   ? why.bytes
                   : status == PETRI_OUT_OF_MEMORY ? "out of memory"
                                                   : "nothing to plot");
     }
@@ -161,7 +161,7 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
 }
 
 static bool run_plot(Repl *repl, const char *rest) {
-    SCOPED_TEXT expression = memory_strdup(rest);
+    SCOPED_STRING expression = memory_strdup(rest);
     int64_t count = DEFAULT_FRAMES;
     argument_last_count(expression, &count);
     if (count > MAX_FRAMES)

@@ -24,19 +24,19 @@ typedef struct Filter {
 } Filter;
 
 static bool collect_unless_stopped(void *bytes, const char *text, size_t length) {
-    return byte_buffer_collect(bytes, text, length) && !repl_interrupted();
+    return text_collect(bytes, text, length) && !repl_interrupted();
 }
 
 // Passes each line of a section to the filter, which writes the lines that it selects. Returns filter->found.
 static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     Str line;
     size_t at = 0;
     filter->depth = SIZE_MAX;
     repl_busy(repl);
     petri_print(repl->session, section, collect_unless_stopped, &text);
-    byte_buffer_next_line(&text, &at, &line); // skip the frame's `@` line
-    while (byte_buffer_next_line(&text, &at, &line) && filter->repl->output.error == 0 && !repl_interrupted())
+    text_next_line(&text, &at, &line); // skip the frame's `@` line
+    while (text_next_line(&text, &at, &line) && filter->repl->output.error == 0 && !repl_interrupted())
         filter->handle_line(filter, line.bytes, line.len + 1);
     repl_idle(repl);
     return filter->found;
@@ -71,7 +71,7 @@ static void filter_entry(Filter *filter, const char *line, size_t length) {
 }
 
 static bool run_state(Repl *repl, const char *rest) {
-    SCOPED_TEXT asked = memory_strdup(rest);
+    SCOPED_STRING asked = memory_strdup(rest);
     // If the operand is only a number, the number is the wanted key, not the number of lines.
     bool counted = strpbrk(asked, " \t") || strcmp(asked, "all") == 0;
     size_t max_lines = argument_lines(repl, counted ? asked : (char[]){""}, RESERVED_LINES);
@@ -79,7 +79,7 @@ static bool run_state(Repl *repl, const char *rest) {
     bool enclosed = prefix[0] == '(';
     size_t length = strlen(prefix) - enclosed;
     length -= enclosed && length > 0 && prefix[length] == ')';
-    SCOPED_TEXT wanted = memory_strndup(prefix + enclosed, length);
+    SCOPED_STRING wanted = memory_strndup(prefix + enclosed, length);
     Filter filter = {.wanted = wanted, .repl = repl, .handle_line = filter_entry, .max_lines = max_lines};
     if (print_filtered(repl, PETRI_PRINT_STATE, &filter) == 0)
         repl_note(repl, wanted[0] == '\0' ? "the state is empty" : "the state has no entry under %s", wanted);
@@ -102,7 +102,7 @@ static void filter_node(Filter *filter, const char *line, size_t length) {
 }
 
 static bool run_tree(Repl *repl, const char *rest) {
-    SCOPED_TEXT asked = memory_strdup(rest);
+    SCOPED_STRING asked = memory_strdup(rest);
     size_t max_lines = argument_lines(repl, asked, RESERVED_LINES);
     const char *kind = asked + (asked[0] == '!');
     repl_busy(repl);
@@ -148,10 +148,10 @@ static bool print_systems(Repl *repl, const SystemRequest *request,
 }
 
 static void add_vector(TextTable *table, const double *vector, uint32_t dimensions) {
-    SCOPED_BYTE_BUFFER cell = {0};
+    SCOPED_TEXT cell = {0};
     for (uint32_t k = 0; k < dimensions && vector; k++)
-        byte_buffer_format(&cell, "%s%.6g", k == 0 ? "" : ";", vector[k]);
-    text_table_add(table, !vector ? "-" : cell.data);
+        text_add_format(&cell, "%s%.6g", k == 0 ? "" : ";", vector[k]);
+    text_table_add(table, !vector ? "-" : cell.bytes);
 }
 
 static void add_number(TextTable *table, double x) {
@@ -204,7 +204,7 @@ static void print_particles(Repl *repl, size_t number, const PetriSystem *system
 static bool run_particles(Repl *repl, const char *rest) {
     // Screen lines reserved for the command, title, column heads, closing note and prompt.
     enum { RESERVED_TABLE_LINES = 5 };
-    SCOPED_TEXT system = memory_strdup(rest);
+    SCOPED_STRING system = memory_strdup(rest);
     SystemRequest request = {.system = system, .max_lines = argument_lines(repl, system, RESERVED_TABLE_LINES)};
     bool good = print_systems(repl, &request, print_particles);
     return good;
@@ -216,7 +216,7 @@ static void print_energy(Repl *repl, size_t number, const PetriSystem *system, c
     output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, motion.moving,
                   motion.moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
     if (motion.moving > 0) {
-        SCOPED_BYTE_BUFFER fastest = {0};
+        SCOPED_TEXT fastest = {0};
         SCOPED_TEXT_TABLE table = text_table_new(2);
         text_table_add(&table, "  kinetic energy");
         add_number(&table, motion.kinetic_energy);
@@ -225,8 +225,8 @@ static void print_energy(Repl *repl, size_t number, const PetriSystem *system, c
         text_table_add(&table, "  fastest");
         const char *id =
             petri_format_value(repl->session, petri_particle_id(repl->session, number, motion.fastest_particle));
-        byte_buffer_format(&fastest, "%s at %.6g", !id ? "" : id, motion.fastest);
-        text_table_add(&table, fastest.data);
+        text_add_format(&fastest, "%s at %.6g", !id ? "" : id, motion.fastest);
+        text_table_add(&table, fastest.bytes);
         text_table_write(&table, &repl->output);
     }
     motion_free(&motion);
@@ -242,11 +242,10 @@ static bool run_watch(Repl *repl, const char *rest) {
         repl_note(repl, "%s", repl->watched.items[i]);
     if (rest[0] == '\0')
         return true;
-    SCOPED_BYTE_BUFFER value = {0};
-    if (!repl_status(repl,
-                     petri_evaluate(repl->session, rest, PETRI_NUL_TERMINATED, &result, byte_buffer_collect, &value)))
+    SCOPED_TEXT value = {0};
+    if (!repl_status(repl, petri_evaluate(repl->session, rest, PETRI_NUL_TERMINATED, &result, text_collect, &value)))
         return false;
-    output_format(&repl->output, "%s = %s\n", rest, value.data);
+    output_format(&repl->output, "%s = %s\n", rest, value.bytes);
     if (!texts_contain(&repl->watched, rest))
         texts_add(&repl->watched, rest);
     return true;

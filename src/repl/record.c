@@ -21,8 +21,8 @@ static bool same_path(const char *a, const char *b) {
 }
 
 static bool same_folder(const char *a, const char *b) {
-    SCOPED_TEXT first = script_folder(a);
-    SCOPED_TEXT second = script_folder(b);
+    SCOPED_STRING first = script_folder(a);
+    SCOPED_STRING second = script_folder(b);
     return same_path(first, second);
 }
 
@@ -63,52 +63,52 @@ static bool write_script(Repl *repl, const char *path) {
         return true;
     if (access(path, F_OK) == 0)
         return repl_fail(repl, "'%s' already exists and is another script; choose another name", path);
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_add(&text, repl->script_text.length == 0 ? "" : repl->script_text.data,
-                    repl->loaded ? repl->script_text.length : 0);
-    if (text.length > 0 && text.data[text.length - 1] != '\n')
-        byte_buffer_add_text(&text, "\n");
+    SCOPED_TEXT text = {0};
+    text_add(&text, (Str){repl->script_text.len == 0 ? "" : repl->script_text.bytes,
+                          repl->loaded ? repl->script_text.len : 0});
+    if (text.len > 0 && text.bytes[text.len - 1] != '\n')
+        text_add_c(&text, "\n");
     for (size_t i = 0; (kept = petri_prompt_statement(repl->session, i)); i++) {
-        byte_buffer_add_text(&text, kept);
-        byte_buffer_add_text(&text, "\n");
+        text_add_c(&text, kept);
+        text_add_c(&text, "\n");
     }
-    const char *problem = file_replace(path, (Str){text.data, text.length}, 0);
+    const char *problem = file_replace(path, text_str(&text), 0);
     bool done = !problem || repl_fail(repl, "cannot write '%s': %s", path, problem);
     return done;
 }
 
 // Adds the golden's first line, which contains the options. Fails if a definition contains blanks, because blanks
 // separate options.
-static bool add_options(Repl *repl, ByteBuffer *text, int64_t frames, int64_t every) {
-    byte_buffer_format(text, "# run --frames %" PRId64, frames);
+static bool add_options(Repl *repl, Text *text, int64_t frames, int64_t every) {
+    text_add_format(text, "# run --frames %" PRId64, frames);
     if (every > 1)
-        byte_buffer_format(text, " --every %" PRId64, every);
-    byte_buffer_format(text, " --print state,log");
+        text_add_format(text, " --every %" PRId64, every);
+    text_add_format(text, " --print state,log");
     if (repl->options->fps_given)
-        byte_buffer_format(text, " --fps %.17g", repl->options->fps);
+        text_add_format(text, " --fps %.17g", repl->options->fps);
     for (size_t i = 0; i < repl->definitions.count; i++) {
         if (strpbrk(repl->definitions.items[i], " \t\n"))
             return repl_fail(repl, "cannot record the definition '%s': it contains blanks", repl->definitions.items[i]);
-        byte_buffer_format(text, " -D %s", repl->definitions.items[i]);
+        text_add_format(text, " -D %s", repl->definitions.items[i]);
     }
-    byte_buffer_format(text, "\n");
+    text_add_format(text, "\n");
     return true;
 }
 
 // Recomputes frames 0 to `last` and collects the text of every `every`-th frame.
-static PetriStatus collect_output(Repl *repl, ByteBuffer *text, int64_t last, int64_t every, ByteBuffer *why) {
+static PetriStatus collect_output(Repl *repl, Text *text, int64_t last, int64_t every, Text *why) {
     PetriStatus status = PETRI_OK;
     for (int64_t i = 0; i <= last && status == PETRI_OK; i++) {
         status = history_goto(&repl->history, repl->session, i, why);
         if (status == PETRI_OK && i % every == 0)
-            status = petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, byte_buffer_collect, text);
+            status = petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, text_collect, text);
     }
     return status;
 }
 
 static bool write_golden(Repl *repl, const char *golden, const char *script, int64_t every) {
     int64_t last = petri_frame(repl->session).number;
-    SCOPED_BYTE_BUFFER text = {0}, why = {0};
+    SCOPED_TEXT text = {0}, why = {0};
     bool good = can_record(repl, script) && add_options(repl, &text, last + 1, every) && write_script(repl, script);
     if (good) {
         repl_busy(repl);
@@ -116,11 +116,11 @@ static bool write_golden(Repl *repl, const char *golden, const char *script, int
         bool stopped = repl_idle(repl);
         if (status != PETRI_OK) {
             history_goto(&repl->history, repl->session, last, &why);
-            good = why.length > 0 ? repl_fail(repl, "%s", why.data)
-                                  : repl_status(repl, stopped ? PETRI_INTERRUPTED : status);
+            good = why.len > 0 ? repl_fail(repl, "%s", why.bytes)
+                               : repl_status(repl, stopped ? PETRI_INTERRUPTED : status);
         }
     }
-    const char *problem = good ? file_replace(golden, (Str){text.data, text.length}, 0) : NULL;
+    const char *problem = good ? file_replace(golden, text_str(&text), 0) : NULL;
     if (problem)
         good = repl_fail(repl, "cannot write '%s': %s", golden, problem);
     if (good)
@@ -129,7 +129,7 @@ static bool write_golden(Repl *repl, const char *golden, const char *script, int
 }
 
 static bool run_record(Repl *repl, const char *rest) {
-    SCOPED_TEXT name = memory_strdup(rest);
+    SCOPED_STRING name = memory_strdup(rest);
     int64_t every = 1;
     argument_last_count(name, &every);
     size_t length = strlen(name);
@@ -141,10 +141,10 @@ static bool run_record(Repl *repl, const char *rest) {
             break;
         }
     }
-    SCOPED_BYTE_BUFFER golden = {0}, script = {0};
-    byte_buffer_format(&golden, "%.*s.golden", (int)length, name);
-    byte_buffer_format(&script, "%.*s.fl", (int)length, name);
-    return write_golden(repl, golden.data, script.data, every);
+    SCOPED_TEXT golden = {0}, script = {0};
+    text_add_format(&golden, "%.*s.golden", (int)length, name);
+    text_add_format(&script, "%.*s.fl", (int)length, name);
+    return write_golden(repl, golden.bytes, script.bytes, every);
 }
 
 const ReplCommand RECORD_COMMANDS[] = {

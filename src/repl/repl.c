@@ -49,14 +49,14 @@ bool repl_interrupted(void) {
 }
 
 void repl_note(Repl *repl, const char *format, ...) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     char line[1024];
     va_list list;
     va_start(list, format);
     vsnprintf(line, sizeof line, format, list);
     va_end(list);
-    byte_buffer_format(&text, repl->options->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
-    output_write(&repl->output, text.data, text.length);
+    text_add_format(&text, repl->options->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
+    output_write(&repl->output, text.bytes, text.len);
 }
 
 bool repl_fail(Repl *repl, const char *format, ...) {
@@ -102,7 +102,7 @@ static void execute_statement(Repl *repl, const char *text, size_t length) {
     PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done);
     repl_idle(repl);
     if (done.shadowed) {
-        SCOPED_TEXT name = memory_strdup(done.shadowed);
+        SCOPED_STRING name = memory_strdup(done.shadowed);
         repl_warn_shadowed(repl, name);
     }
     if (done.nodes > 0)
@@ -113,14 +113,14 @@ static void execute_statement(Repl *repl, const char *text, size_t length) {
 // If the text begins with a dot and is not a number such as .5, executes it as a command. Otherwise tries to execute it
 // as a command without its dot (bare_execute), and then as code.
 static void execute_text(Repl *repl, const char *text, size_t length) {
-    SCOPED_BYTE_BUFFER remark = {0};
+    SCOPED_TEXT remark = {0};
     size_t start = strspn(text, " \t");
     if (text[start] == '.' && (text[start + 1] < '0' || text[start + 1] > '9') && text[start + 1] != '.')
         repl_command(repl, text + start);
     else if (!bare_execute(repl, text, &remark))
         execute_statement(repl, text, length);
-    if (remark.length > 0 && (repl->failed || bare_alias(text + start, strcspn(text + start, " \t\n"))))
-        repl_note(repl, "%s", remark.data);
+    if (remark.len > 0 && (repl->failed || bare_alias(text + start, strcspn(text + start, " \t\n"))))
+        repl_note(repl, "%s", remark.bytes);
 }
 
 void repl_execute(Repl *repl, const char *text, size_t length) {
@@ -138,45 +138,45 @@ static void make_prompt(const Repl *repl, char *prompt, size_t size) {
 }
 
 // Reads the remaining lines of the statement in `text`. If a line starts the next statement, appends it to `next`.
-static LineStatus read_rest(Repl *repl, LineReader *reader, ByteBuffer *text, ByteBuffer *next) {
+static LineStatus read_rest(Repl *repl, LineReader *reader, Text *text, Text *next) {
     size_t consumed = 0;
-    while (line_needs_more(repl, text->data, text->length, &consumed)) {
-        SCOPED_BYTE_BUFFER line = {0};
+    while (line_needs_more(repl, text->bytes, text->len, &consumed)) {
+        SCOPED_TEXT line = {0};
         LineStatus status = line_read(reader, "... ", &line);
-        byte_buffer_add(text, line.data, line.length);
+        text_add(text, text_str(&line));
         if (status != LINE_READ)
             return status;
-        byte_buffer_add_text(text, "\n");
+        text_add_c(text, "\n");
     }
-    if (!line_is_blank(text->data + consumed))
-        byte_buffer_add(next, text->data + consumed, text->length - consumed - 1);
-    text->data[text->length = consumed] = '\0';
+    if (!line_is_blank(text->bytes + consumed))
+        text_add(next, (Str){text->bytes + consumed, text->len - consumed - 1});
+    text->bytes[text->len = consumed] = '\0';
     return LINE_READ;
 }
 
 // Reads the rest of an input whose first line is in `text`, and executes the input.
-static LineStatus execute_input(Repl *repl, LineReader *reader, ByteBuffer *text, ByteBuffer *next) {
-    byte_buffer_add_text(text, "\n");
+static LineStatus execute_input(Repl *repl, LineReader *reader, Text *text, Text *next) {
+    text_add_c(text, "\n");
     LineStatus status = read_rest(repl, reader, text, next);
     if (status != LINE_INTERRUPTED) // at the end of the input, an incomplete statement is executed as it is
-        repl_execute(repl, text->data, text->length);
+        repl_execute(repl, text->bytes, text->len);
     return status;
 }
 
 static void run_prompt(Repl *repl) {
     LineReader *reader = line_reader_new(repl);
-    ByteBuffer next = {0};
+    Text next = {0};
     LineStatus status = LINE_READ;
     while (status != LINE_END && !repl->quit && repl->output.error == 0) {
         char prompt[40];
-        ByteBuffer text = next;
-        next = (ByteBuffer){0};
+        Text text = next;
+        next = (Text){0};
         make_prompt(repl, prompt, sizeof prompt);
         repl_report_changes(repl, false);
-        status = text.length > 0 ? LINE_READ : line_read(reader, prompt, &text);
-        if (status == LINE_READ && !line_is_blank(text.data))
+        status = text.len > 0 ? LINE_READ : line_read(reader, prompt, &text);
+        if (status == LINE_READ && !line_is_blank(text.bytes))
             status = execute_input(repl, reader, &text, &next);
-        byte_buffer_free(&text);
+        text_free(&text);
         output_flush(&repl->output);
         if (status == LINE_INTERRUPTED && !repl->terminal) {
             repl->any_failed = true;
@@ -184,7 +184,7 @@ static void run_prompt(Repl *repl) {
         }
         interrupted = 0;
     }
-    byte_buffer_free(&next);
+    text_free(&next);
     line_reader_free(reader);
 }
 
@@ -246,7 +246,7 @@ static int repl_run(const CommandContext *host, Options *options) {
     texts_free(&repl.watched);
     texts_free(&repl.definitions);
     free(repl.script);
-    byte_buffer_free(&repl.script_text);
+    text_free(&repl.script_text);
     return status;
 }
 

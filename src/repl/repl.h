@@ -1,9 +1,9 @@
 // repl.h: internal declarations of `petri repl`: its state, output, commands and completion.
 #pragma once
 
-#include "cli/byte_buffer.h"
 #include "cli/file_watch.h"
 #include "cli/history.h"
+#include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "petri.h"
@@ -16,7 +16,7 @@ typedef struct Repl {
     FileWatch *files;        // watches the script and the files that it uses
     char *script;            // path; NULL: no script was named
     bool loaded;             // true if `script` is the running script
-    ByteBuffer script_text;  // text of the script when it was loaded
+    Text script_text;        // text of the script when it was loaded
     bool changed;            // true if the script's files have changed; the script is reloaded before the next step
     TextList watched;        // expressions that are printed after each step
     bool terminal;           // true if standard input and output are terminals
@@ -94,7 +94,7 @@ void repl_command(Repl *repl, const char *line);
 // Returns false if the text is code, for example because the script, the prompt or petri binds the first word. If the
 // first word is also the name of a command, this function can set *remark to a hint. The caller prints the hint if the
 // code fails, or if the word is one of the six above.
-bool bare_execute(Repl *repl, const char *text, ByteBuffer *remark);
+bool bare_execute(Repl *repl, const char *text, Text *remark);
 // Returns the command that one of these six words executes, such as ".quit" for "q". Returns NULL for other words.
 const char *bare_alias(const char *name, size_t length);
 
@@ -124,8 +124,8 @@ void repl_complete_frame(Repl *repl);
 
 // Completion of a word (complete.c).
 typedef struct Completion {
-    TextList words;    // words that begin with the typed text, sorted, without duplicates
-    ByteBuffer common; // text that all words share after the typed text
+    TextList words; // words that begin with the typed text, sorted, without duplicates
+    Text common;    // text that all words share after the typed text
 } Completion;
 
 // Completes the last word in the first `length` bytes of a line. The caller frees *completion with complete_free.

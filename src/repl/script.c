@@ -1,6 +1,7 @@
 // script.c: loads and reloads the script, describes its changes, and saves and restores the state.
 #include "cli/script.h"
 
+#include "base/file.h"
 #include "repl/repl.h"
 
 #include <errno.h>
@@ -17,11 +18,11 @@ typedef struct Lines {
     size_t count;
 } Lines;
 
-static Lines split_lines(const ByteBuffer *text) {
+static Lines split_lines(const Text *text) {
     Lines lines = {0};
     Str line;
     size_t at = 0, capacity = 0;
-    while (byte_buffer_next_line(text, &at, &line)) {
+    while (text_next_line(text, &at, &line)) {
         if (lines.count == capacity) {
             capacity = capacity == 0 ? 64 : capacity * 2;
             lines.items = memory_realloc(lines.items, capacity * sizeof *lines.items);
@@ -102,20 +103,20 @@ static Counts diff_lines(const Str *a, size_t rows, const Str *b, size_t columns
     return counts;
 }
 
-static void add_count(ByteBuffer *what, size_t count, const char *verb) {
-    bool first = what->length == 0;
+static void add_count(Text *what, size_t count, const char *verb) {
+    bool first = what->len == 0;
     if (count > 0) {
-        byte_buffer_format(what, "%s%zu %s%s", first ? "" : ", ", count,
-                           !first       ? ""
-                           : count == 1 ? "line "
-                                        : "lines ",
-                           verb);
+        text_add_format(what, "%s%zu %s%s", first ? "" : ", ", count,
+                        !first       ? ""
+                        : count == 1 ? "line "
+                                     : "lines ",
+                        verb);
     }
 }
 
 // Appends a summary of the changed lines and the names that they bind, such as `2 lines added, 1 removed (COUNT,
 // start)`. Appends nothing if the texts are equal.
-static void describe_changes(const ByteBuffer *before, const ByteBuffer *after, ByteBuffer *what) {
+static void describe_changes(const Text *before, const Text *after, Text *what) {
     Lines a = split_lines(before), b = split_lines(after);
     size_t start = 0, rows = a.count, columns = b.count;
     while (start < rows && start < columns && str_equal(a.items[start], b.items[start]))
@@ -131,8 +132,8 @@ static void describe_changes(const ByteBuffer *before, const ByteBuffer *after, 
     add_count(what, counts.added, "added");
     add_count(what, counts.removed, "removed");
     for (size_t i = 0; i < names.count; i++)
-        byte_buffer_format(what, "%s%.*s", i == 0 ? " (" : ", ", (int)names.items[i].len, names.items[i].bytes);
-    byte_buffer_add_text(what, names.count == 0 ? "" : ")");
+        text_add_format(what, "%s%.*s", i == 0 ? " (" : ", ", (int)names.items[i].len, names.items[i].bytes);
+    text_add_c(what, names.count == 0 ? "" : ")");
     free(a.items);
     free(b.items);
 }
@@ -146,9 +147,9 @@ void repl_watch_files(Repl *repl) {
 }
 
 static void store_script_text(Repl *repl) {
-    byte_buffer_free(&repl->script_text);
+    text_free(&repl->script_text);
     if (repl->script)
-        byte_buffer_read_file(&repl->script_text, repl->script, SCRIPT_MAX_BYTES);
+        text_read_file(&repl->script_text, repl->script, SCRIPT_MAX_BYTES);
 }
 
 static bool finish_load(Repl *repl, PetriStatus status) {
@@ -200,17 +201,16 @@ void repl_refresh(Repl *repl) {
 bool repl_report_changes(Repl *repl, bool at_prompt) {
     if (!file_watch_changed(repl->files))
         return false;
-    SCOPED_BYTE_BUFFER now = {0}, what = {0};
-    bool changed = repl->script && !byte_buffer_read_file(&now, repl->script, SCRIPT_MAX_BYTES);
+    SCOPED_TEXT now = {0}, what = {0};
+    bool changed = repl->script && !text_read_file(&now, repl->script, SCRIPT_MAX_BYTES);
     if (changed) {
         repl->changed = true;
         describe_changes(&repl->script_text, &now, &what);
         if (at_prompt)
             output_write(&repl->output, "\n", 1);
         // If the text of the script itself is unchanged, a file that it includes or imports has changed.
-        repl_note(repl, "%s%s changed%s%s; it is reloaded before the next step",
-                  what.length == 0 ? "a file used by " : "", repl->script, what.length == 0 ? "" : ": ",
-                  what.length == 0 ? "" : what.data);
+        repl_note(repl, "%s%s changed%s%s; it is reloaded before the next step", what.len == 0 ? "a file used by " : "",
+                  repl->script, what.len == 0 ? "" : ": ", what.len == 0 ? "" : what.bytes);
         output_flush(&repl->output);
     }
     return changed;

@@ -25,9 +25,9 @@ static bool is_bound(const Repl *repl, const char *name) {
 
 // Writes a parameter, such as `-- CELLS = 200  (1..500)  how many`.
 static void note_parameter(Repl *repl, const PetriParameter *parameter) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     parameter_describe(&text, parameter);
-    repl_note(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
+    repl_note(repl, "%s%s%s", text.bytes, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
 }
 
 // Reports the effect of setting a name. `warned` is true if a diagnostic has already reported that the setting has no
@@ -81,13 +81,13 @@ static bool run_set(Repl *repl, const char *rest) {
     if (rest[0] == '\0')
         return run_parameters(repl, rest);
     size_t length = strcspn(rest, " \t=");
-    SCOPED_TEXT name = memory_strndup(rest, length);
+    SCOPED_STRING name = memory_strndup(rest, length);
     const char *value = rest + length + strspn(rest + length, " \t");
     bool given = *value != '\0';
-    SCOPED_TEXT text = argument_trimmed(value + (*value == '='));
-    SCOPED_BYTE_BUFFER definition = {0};
-    byte_buffer_format(&definition, "%s=%s", name, text);
-    bool good = given ? set_parameter(repl, name, definition.data) : note_named_parameter(repl, name);
+    SCOPED_STRING text = argument_trimmed(value + (*value == '='));
+    SCOPED_TEXT definition = {0};
+    text_add_format(&definition, "%s=%s", name, text);
+    bool good = given ? set_parameter(repl, name, definition.bytes) : note_named_parameter(repl, name);
     return good;
 }
 

@@ -15,44 +15,44 @@ typedef struct StepRequest {
 } StepRequest;
 
 // Appends `EXPR = value` for each watched expression.
-static void add_watched(Repl *repl, ByteBuffer *text) {
+static void add_watched(Repl *repl, Text *text) {
     for (size_t i = 0; i < repl->watched.count; i++) {
         PetriEvaluation result;
-        SCOPED_BYTE_BUFFER value = {0};
+        SCOPED_TEXT value = {0};
         const char *expression = repl->watched.items[i];
         PetriStatus status =
-            petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, byte_buffer_collect, &value);
-        byte_buffer_format(text, "%s = ", expression);
-        byte_buffer_add(text, status == PETRI_OK ? value.data : "?", status == PETRI_OK ? value.length : 1);
-        byte_buffer_add_text(text, "\n");
+            petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, text_collect, &value);
+        text_add_format(text, "%s = ", expression);
+        text_add(text, (Str){status == PETRI_OK ? value.bytes : "?", status == PETRI_OK ? value.len : 1});
+        text_add_c(text, "\n");
     }
 }
 
 // Appends the frame's text. Returns true if other lines follow its `@` line.
-static bool format_frame(Repl *repl, ByteBuffer *text) {
-    petri_print(repl->session, PETRI_PRINT_LOG, byte_buffer_collect, text);
+static bool format_frame(Repl *repl, Text *text) {
+    petri_print(repl->session, PETRI_PRINT_LOG, text_collect, text);
     add_watched(repl, text);
-    return memchr(text->data, '\n', text->length) != text->data + text->length - 1;
+    return memchr(text->bytes, '\n', text->len) != text->bytes + text->len - 1;
 }
 
 void repl_show_frame(Repl *repl) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     if (petri_frame(repl->session).number < 0) {
         repl_note(repl, "this is before the first frame");
         return;
     }
     petri_preview(repl->session); // recomputes the log if a change of settings has discarded it
     format_frame(repl, &text);
-    output_write(&repl->output, text.data, text.length);
+    output_write(&repl->output, text.bytes, text.len);
 }
 
 // Writes the frame if it is the last frame or has a log or watched expressions. Returns true if it was written.
 static bool show_step(Repl *repl, Progress *progress, bool last) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     bool shown = format_frame(repl, &text) || last;
     if (shown) {
         progress_erase(progress);
-        output_write(&repl->output, text.data, text.length);
+        output_write(&repl->output, text.bytes, text.len);
         if (repl->terminal)
             output_flush(&repl->output);
     }
@@ -123,7 +123,7 @@ void repl_complete_frame(Repl *repl) {
 
 // Goes to a frame. Within the history, goes there directly. Beyond its end, computes frame by frame and shows a
 // progress line.
-static PetriStatus seek_frame(Repl *repl, int64_t frame, ByteBuffer *why) {
+static PetriStatus seek_frame(Repl *repl, int64_t frame, Text *why) {
     int64_t last = repl->history.last, made = 0;
     Progress progress;
     PetriStatus status = history_goto(&repl->history, repl->session, frame < last ? frame : last, why);
@@ -137,7 +137,7 @@ static PetriStatus seek_frame(Repl *repl, int64_t frame, ByteBuffer *why) {
 }
 
 static bool go_to(Repl *repl, int64_t frame) {
-    SCOPED_BYTE_BUFFER why = {0};
+    SCOPED_TEXT why = {0};
     repl_refresh(repl);
     repl->failed = false;
     repl_busy(repl);
@@ -147,7 +147,7 @@ static bool go_to(Repl *repl, int64_t frame) {
     if (stopped)
         repl_fail(repl, "interrupted");
     else if (status == PETRI_INVALID)
-        repl_fail(repl, "%s", why.length == 0 ? "cannot go to that frame" : why.data);
+        repl_fail(repl, "%s", why.len == 0 ? "cannot go to that frame" : why.bytes);
     else
         repl_status(repl, status);
     if (status == PETRI_OK || stopped)
@@ -175,7 +175,7 @@ static bool run_run(Repl *repl, const char *rest) {
 }
 
 static bool run_until(Repl *repl, const char *rest) {
-    SCOPED_TEXT expression = memory_strdup(rest);
+    SCOPED_STRING expression = memory_strdup(rest);
     int64_t limit = repl->options->limit;
     if (!argument_limit(repl, expression, &limit))
         return false;
@@ -192,13 +192,13 @@ static bool run_back(Repl *repl, const char *rest) {
         return false;
     if (count <= ago)
         return go_to(repl, petri_frame(repl->session).number - count);
-    SCOPED_BYTE_BUFFER start = {0}; // the reason why the history does not start earlier
+    SCOPED_TEXT start = {0}; // the reason why the history does not start earlier
     const char *why = repl->history.why;
-    byte_buffer_format(&start, !why ? "this is the start" : "the history starts here (%s)", why);
+    text_add_format(&start, !why ? "this is the start" : "the history starts here (%s)", why);
     if (ago > 0)
-        repl_note(repl, "went back only %" PRId64 " frame%s: %s", ago, ago == 1 ? "" : "s", start.data);
+        repl_note(repl, "went back only %" PRId64 " frame%s: %s", ago, ago == 1 ? "" : "s", start.bytes);
     else
-        repl_fail(repl, "cannot go back: %s", start.data);
+        repl_fail(repl, "cannot go back: %s", start.bytes);
     return ago > 0 && go_to(repl, repl->history.first);
 }
 

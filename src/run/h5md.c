@@ -50,7 +50,7 @@ static bool add_id(H5md *file, PetriSession *session, PetriValue value) {
         if (!text || !number_text(file, text, &id))
             return false;
     }
-    byte_buffer_add(&file->ids, (const char *)&id, sizeof id);
+    text_add(&file->ids, (Str){(const char *)&id, sizeof id});
     return true;
 }
 
@@ -101,14 +101,14 @@ static void send_head(Output *output, Hdf5Command act, uint64_t bytes) {
 }
 
 bool h5md_add(H5md *file, PetriSession *session, Output *output) {
-    SCOPED_BYTE_BUFFER texts = {0};
+    SCOPED_TEXT texts = {0};
     PetriFrame now = petri_frame(session);
     Hdf5Frame frame = {.number = now.number, .time = now.time, .text_count = file->sent};
     size_t bytes = sizeof frame;
     PetriSystem system;
-    file->ids.length = 0;
-    byte_buffer_add(&file->ids, "", 0);
-    byte_buffer_add(&texts, "", 0);
+    file->ids.len = 0;
+    text_add_c(&file->ids, "");
+    text_add_c(&texts, "");
     for (; petri_system(session, frame.system_count, &system); frame.system_count++) {
         if (!add_ids(file, session, frame.system_count, &system))
             return false;
@@ -116,13 +116,13 @@ bool h5md_add(H5md *file, PetriSession *session, Output *output) {
                  system.particle_count * (2 * system.dimensions + HDF5_NUMBERS) * sizeof(double);
     }
     for (; file->sent < file->texts.count; file->sent++)
-        byte_buffer_add(&texts, file->texts.items[file->sent], strlen(file->texts.items[file->sent]) + 1);
+        text_add(&texts, (Str){file->texts.items[file->sent], strlen(file->texts.items[file->sent]) + 1});
     frame.text_count = file->sent - frame.text_count;
-    frame.text_bytes = hdf5_padded(texts.length);
+    frame.text_bytes = hdf5_padded(texts.len);
     send_head(output, HDF5_ADD, bytes + frame.text_bytes);
     output_write(output, (const char *)&frame, sizeof frame);
-    send_text(output, texts.data, texts.length);
-    const int64_t *ids = (const int64_t *)(const void *)file->ids.data;
+    send_text(output, texts.bytes, texts.len);
+    const int64_t *ids = (const int64_t *)(const void *)file->ids.bytes;
     for (size_t s = 0; petri_system(session, s, &system); s++) {
         send_system(output, &system, ids);
         ids += system.particle_count;
@@ -141,6 +141,6 @@ bool h5md_close(H5md *file, bool keep, Output *output) {
     bool sent = output_flush(output);
     texts_free(&file->texts);
     hash_index_free(&file->index);
-    byte_buffer_free(&file->ids);
+    text_free(&file->ids);
     return hdf5_end(&file->writer) && sent;
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/hash_index.h"
-#include "cli/byte_buffer.h"
 #include "cli/hdf5.h"
+#include "cli/memory.h"
 #include "cli/output.h"
 #include "petri.h"
 #include "run/resume.h"
@@ -13,7 +13,7 @@ typedef struct H5md {
     TextList texts;  // ids that are not integers >= 0, as strings
     HashIndex index; // finds the position of a string in `texts`
     size_t sent;     // number of `texts` that were sent to petri-hdf5
-    ByteBuffer ids;  // ids of the particles of the current frame, as int64_t values
+    Text ids;        // ids of the particles of the current frame, as int64_t values
 } H5md;
 
 // Starts petri-hdf5 and makes `output` write to it. `resume` describes the state from which the run continues; if it is

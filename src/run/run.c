@@ -1,6 +1,6 @@
 // run.c: `petri run`, which runs frames without drawing them and prints the requested results.
-#include "cli/byte_buffer.h"
 #include "cli/helper_exec.h"
+#include "cli/memory.h"
 #include "cli/output.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
@@ -52,11 +52,11 @@ static void note_status(Run *run, PetriStatus status) {
 
 // Prints only logs and errors. Prints nothing for a frame that has neither (spec cli.md 3.3).
 static void print_if_any(Run *run, unsigned sections) {
-    SCOPED_BYTE_BUFFER text = {0};
-    note_status(run, petri_print(run->frames.session, sections, byte_buffer_collect, &text));
-    const char *end = memchr(text.data, '\n', text.length); // end of the `@` line
-    if (end + 1 < text.data + text.length)
-        write_text(run, text.data, text.length);
+    SCOPED_TEXT text = {0};
+    note_status(run, petri_print(run->frames.session, sections, text_collect, &text));
+    const char *end = memchr(text.bytes, '\n', text.len); // end of the `@` line
+    if (end + 1 < text.bytes + text.len)
+        write_text(run, text.bytes, text.len);
 }
 
 // Prints the frame and adds it to the trajectory.
@@ -248,7 +248,7 @@ static void exec_view(const Options *options, const CommandContext *host) {
         return;
     char **words = memory_calloc(((size_t)options->argc + 6) * sizeof *words);
     char called[] = "view", terminal[] = "--terminal", verbose[] = "--verbose", runtime[] = "--runtime=10";
-    SCOPED_TEXT program = memory_strdup(host->invoked_as);
+    SCOPED_STRING program = memory_strdup(host->invoked_as);
     char *const first[] = {program, called, terminal, verbose, runtime};
     int count = (int)(sizeof first / sizeof first[0]) - (has_end(options) ? 1 : 0);
     memcpy(words, first, (size_t)count * sizeof *first);

@@ -7,8 +7,8 @@
 #include "run/trajectory.h"
 
 #include "base/file.h"
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "cli/particles.h"
 #include "cli/script.h"
 #include "cli/signal_cleanup.h"

@@ -25,21 +25,21 @@ static int connect_to(const char *path) {
     return descriptor;
 }
 
-static int send_text(const char *path, const ByteBuffer *text) {
+static int send_text(const char *path, const Text *text) {
     int view = connect_to(path);
-    SCOPED_BYTE_BUFFER reply = {0};
+    SCOPED_TEXT reply = {0};
     if (view < 0)
         return STATUS_FAILED;
-    bool sent = file_write(view, text->data, text->length) && shutdown(view, SHUT_WR) == 0 &&
-                byte_buffer_read(&reply, view, SIZE_MAX / 2);
+    bool sent = file_write(view, text->bytes, text->len) && shutdown(view, SHUT_WR) == 0 &&
+                text_read(&reply, view, SIZE_MAX / 2);
     close(view);
-    if (!sent || reply.length == 0) {
+    if (!sent || reply.len == 0) {
         message("the view closed the connection without an answer");
         return STATUS_FAILED;
     }
-    int status = output_text(reply.data, reply.length, STATUS_DONE);
-    return status == STATUS_DONE && !strstr(reply.data, "\n{\"done\": false") &&
-                   strncmp(reply.data, "{\"done\": false", 14) != 0
+    int status = output_text(reply.bytes, reply.len, STATUS_DONE);
+    return status == STATUS_DONE && !strstr(reply.bytes, "\n{\"done\": false") &&
+                   strncmp(reply.bytes, "{\"done\": false", 14) != 0
                ? STATUS_DONE
                : STATUS_FAILED;
 }
@@ -53,11 +53,11 @@ static int send_run(const CommandContext *context, Options *options) {
                 "standard input");
         return STATUS_USAGE;
     }
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_add(&text, "", 0);
+    SCOPED_TEXT text = {0};
+    text_add_c(&text, "");
     if (!script_is_stdin(options->argv[1])) {
-        byte_buffer_add_text(&text, options->argv[1]);
-    } else if (!byte_buffer_read(&text, STDIN_FILENO, MAX_BYTES)) {
+        text_add_c(&text, options->argv[1]);
+    } else if (!text_read(&text, STDIN_FILENO, MAX_BYTES)) {
         message("cannot read standard input: %s", strerror(errno));
         return STATUS_FAILED;
     }

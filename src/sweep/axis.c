@@ -18,7 +18,7 @@ static size_t item_length(const char *text) {
 }
 
 static bool read_number(const char *text, size_t length, double *x) {
-    SCOPED_TEXT number = memory_strndup(text, length);
+    SCOPED_STRING number = memory_strndup(text, length);
     return petri_parse_number(number, x) && isfinite(*x);
 }
 
@@ -67,7 +67,7 @@ static bool add_item(Axis *axis, const char *item, bool alone) {
         return false;
     }
     if (item[0] == '(' && item[length - 1] == ')') {
-        SCOPED_TEXT inner = memory_strndup(item + 1, length - 2);
+        SCOPED_STRING inner = memory_strndup(item + 1, length - 2);
         texts_add(&axis->values, inner);
         return true;
     }
@@ -94,7 +94,7 @@ bool axis_read(Axis *axis, const char *text) {
     bool alone = item_length(list) == strlen(list);
     for (;;) {
         size_t length = item_length(list);
-        SCOPED_TEXT item = memory_strndup(list, length);
+        SCOPED_STRING item = memory_strndup(list, length);
         if (!add_item(axis, item, alone))
             return false;
         if (list[length] == '\0')
@@ -103,27 +103,27 @@ bool axis_read(Axis *axis, const char *text) {
     }
 }
 
-static void add_element(ByteBuffer *out, const char *element) {
+static void add_element(Text *out, const char *element) {
     double x = 0;
     if (petri_parse_number(element, &x)) {
-        byte_buffer_format(out, "(%.17g)", x);
+        text_add_format(out, "(%.17g)", x);
     } else if (element[0] == ':' && element[1] != '\0') {
-        byte_buffer_add_text(out, element);
+        text_add_c(out, element);
     } else {
-        byte_buffer_format(out, "'");
+        text_add_format(out, "'");
         for (const char *c = element; *c != '\0'; c++)
-            byte_buffer_format(out, *c == '\'' || *c == '\\' ? "\\%c" : "%c", *c);
-        byte_buffer_format(out, "'");
+            text_add_format(out, *c == '\'' || *c == '\\' ? "\\%c" : "%c", *c);
+        text_add_format(out, "'");
     }
 }
 
-void axis_add_literal(ByteBuffer *out, const char *value) {
-    SCOPED_TEXT copy = memory_strdup(value);
+void axis_add_literal(Text *out, const char *value) {
+    SCOPED_STRING copy = memory_strdup(value);
     char *rest = copy;
-    byte_buffer_format(out, "(");
+    text_add_format(out, "(");
     for (const char *element = strsep(&rest, ";"); element; element = strsep(&rest, ";")) {
         add_element(out, element);
-        byte_buffer_format(out, !rest ? "" : ";");
+        text_add_format(out, !rest ? "" : ";");
     }
-    byte_buffer_format(out, ")");
+    text_add_format(out, ")");
 }

@@ -181,22 +181,22 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
 // Evaluates the condition with the values of a run: `(A < B) where A=(1) B=(2)`.
 static bool evaluate_condition(PetriSession *session, const Design *design, size_t run, const char *where,
                                PetriEvaluation *result) {
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_format(&text, "(%s)%s", where, design->axis_count > 0 ? " where" : "");
+    SCOPED_TEXT text = {0};
+    text_add_format(&text, "(%s)%s", where, design->axis_count > 0 ? " where" : "");
     for (size_t i = 0; i < design->axis_count; i++) {
-        byte_buffer_format(&text, " %s=", design->axes[i].name);
+        text_add_format(&text, " %s=", design->axes[i].name);
         axis_add_literal(&text, design_value(design, run, i));
     }
-    return petri_evaluate(session, text.data, text.length, result, NULL, NULL) == PETRI_OK;
+    return petri_evaluate(session, text.bytes, text.len, result, NULL, NULL) == PETRI_OK;
 }
 
 // Evaluates the condition as the user wrote it, so that diagnostics show the user's text.
 static void report_condition_error(PetriSession *session, const Design *design, size_t run, const char *where) {
     PetriEvaluation result;
     for (size_t i = 0; i < design->axis_count; i++) {
-        SCOPED_BYTE_BUFFER definition = {0};
-        byte_buffer_format(&definition, "%s=%s", design->axes[i].name, design_value(design, run, i));
-        petri_define(session, definition.data);
+        SCOPED_TEXT definition = {0};
+        text_add_format(&definition, "%s=%s", design->axes[i].name, design_value(design, run, i));
+        petri_define(session, definition.bytes);
     }
     petri_evaluate(session, where, PETRI_NUL_TERMINATED, &result, NULL, NULL);
 }

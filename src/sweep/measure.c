@@ -1,6 +1,7 @@
 // measure.c: see measure.h.
 #include "sweep/measure.h"
 
+#include "base/file.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
 
@@ -10,12 +11,12 @@
 static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
     Measure *measure = user_data;
     if (diagnostic->level == PETRI_ERROR) {
-        byte_buffer_free(&measure->error);
+        text_free(&measure->error);
         if (diagnostic->file) {
-            byte_buffer_format(&measure->error, "%s:%" PRIu32 ":%" PRIu32 ": ", diagnostic->file, diagnostic->line,
-                               diagnostic->column);
+            text_add_format(&measure->error, "%s:%" PRIu32 ":%" PRIu32 ": ", diagnostic->file, diagnostic->line,
+                            diagnostic->column);
         }
-        byte_buffer_add_text(&measure->error, diagnostic->text);
+        text_add_c(&measure->error, diagnostic->text);
     }
     measure->invalid_definition = measure->invalid_definition || is_invalid_definition(diagnostic);
     if (!measure->silent)
@@ -39,8 +40,8 @@ bool measure_open(Measure *measure, const Sweep *sweep,
 void measure_close(Measure *measure) {
     petri_config_free(measure->base);
     petri_close(&measure->session);
-    byte_buffer_free(&measure->rows);
-    byte_buffer_free(&measure->error);
+    text_free(&measure->rows);
+    text_free(&measure->error);
 }
 
 // Resets the session and applies the definitions of a run.
@@ -48,14 +49,14 @@ static PetriStatus begin_run(Measure *measure, size_t run) {
     const Design *design = &measure->sweep->design;
     petri_config_apply(measure->session, measure->base);
     petri_reset(measure->session);
-    byte_buffer_free(&measure->error);
+    text_free(&measure->error);
     PetriStatus status = PETRI_OK;
     for (size_t i = 0; status == PETRI_OK && i < design->axis_count; i++) {
-        SCOPED_BYTE_BUFFER definition = {0};
-        byte_buffer_format(&definition, "%s=%s", design->axes[i].name, design_value(design, run, i));
-        status = petri_define(measure->session, definition.data);
+        SCOPED_TEXT definition = {0};
+        text_add_format(&definition, "%s=%s", design->axes[i].name, design_value(design, run, i));
+        status = petri_define(measure->session, definition.bytes);
         if (status == PETRI_INVALID)
-            byte_buffer_format(&measure->error, "not NAME=VALUE: '%s'", definition.data);
+            text_add_format(&measure->error, "not NAME=VALUE: '%s'", definition.bytes);
     }
     if (status != PETRI_OK)
         return status;
@@ -64,48 +65,48 @@ static PetriStatus begin_run(Measure *measure, size_t run) {
 }
 
 // Appends a cell. Replaces control characters, because tabs and line feeds separate cells and rows.
-static void add_cell(ByteBuffer *rows, const char *text, size_t length) {
-    size_t at = rows->length;
-    byte_buffer_add(rows, text, length);
-    for (; at < rows->length; at++)
-        rows->data[at] = (unsigned char)rows->data[at] < ' ' ? ' ' : rows->data[at];
+static void add_cell(Text *rows, const char *text, size_t length) {
+    size_t at = rows->len;
+    text_add(rows, (Str){text, length});
+    for (; at < rows->len; at++)
+        rows->bytes[at] = (unsigned char)rows->bytes[at] < ' ' ? ' ' : rows->bytes[at];
 }
 
 static PetriStatus add_metric(Measure *measure, const Metric *metric) {
-    SCOPED_BYTE_BUFFER value = {0};
+    SCOPED_TEXT value = {0};
     PetriEvaluation result = {0};
-    PetriStatus status = petri_evaluate(measure->session, metric->expression, PETRI_NUL_TERMINATED, &result,
-                                        byte_buffer_collect, &value);
-    byte_buffer_format(&measure->rows, "\t");
+    PetriStatus status =
+        petri_evaluate(measure->session, metric->expression, PETRI_NUL_TERMINATED, &result, text_collect, &value);
+    text_add_format(&measure->rows, "\t");
     if (status == PETRI_OK && result.length > 0)
-        add_cell(&measure->rows, value.data, value.length);
+        add_cell(&measure->rows, value.bytes, value.len);
     return status;
 }
 
 static void add_frame_number(Measure *measure) {
-    byte_buffer_format(&measure->rows, "%" PRId64, measure->frames > 0 ? measure->frames - 1 : 0);
+    text_add_format(&measure->rows, "%" PRId64, measure->frames > 0 ? measure->frames - 1 : 0);
 }
 
 static PetriStatus add_row(Measure *measure) {
-    size_t before = measure->rows.length;
+    size_t before = measure->rows.len;
     PetriStatus status = PETRI_OK;
     add_frame_number(measure);
     for (size_t i = 0; status == PETRI_OK && i < measure->sweep->metric_count; i++)
         status = add_metric(measure, &measure->sweep->metrics[i]);
-    byte_buffer_format(&measure->rows, "\t\n");
-    measure->rows.length = status == PETRI_OK ? measure->rows.length : before;
+    text_add_format(&measure->rows, "\t\n");
+    measure->rows.len = status == PETRI_OK ? measure->rows.len : before;
     return status;
 }
 
 static void add_failure(Measure *measure, PetriStatus status) {
-    const char *reason = measure->error.length > 0       ? measure->error.data
+    const char *reason = measure->error.len > 0          ? measure->error.bytes
                          : status == PETRI_OUT_OF_MEMORY ? "out of memory"
                                                          : "aborted";
     add_frame_number(measure);
     for (size_t i = 0; i <= measure->sweep->metric_count; i++)
-        byte_buffer_format(&measure->rows, "\t");
+        text_add_format(&measure->rows, "\t");
     add_cell(&measure->rows, reason, strlen(reason));
-    byte_buffer_format(&measure->rows, "\n");
+    text_add_format(&measure->rows, "\n");
 }
 
 static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
@@ -124,7 +125,7 @@ static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
 }
 
 void measure_run(Measure *measure, size_t run) {
-    byte_buffer_free(&measure->rows);
+    text_free(&measure->rows);
     measure->frames = 0;
     PetriStatus status = begin_run(measure, run);
     bool ends = measure->sweep->options->frames == 0, measured = false;
@@ -132,7 +133,7 @@ void measure_run(Measure *measure, size_t run) {
         status = step_frame(measure, &ends, &measured);
     if (status != PETRI_OK)
         add_failure(measure, status);
-    byte_buffer_add(&measure->rows, "", 0);
+    text_add_c(&measure->rows, "");
 }
 
 // Returns true if the expression is valid. Also returns true if its evaluation exceeded a limit, because the runs
@@ -163,10 +164,9 @@ int measure_dry_run(Measure *measure) {
 void measure_hash_sources(Measure *measure, Sha256 *hash) {
     const char *path = NULL;
     for (size_t i = 0; (path = petri_source_file(measure->session, i)); i++) {
-        SCOPED_BYTE_BUFFER text = {0};
-        byte_buffer_add(&text, "", 0);
-        byte_buffer_read_file(&text, path, SIZE_MAX);
-        sha256_add(hash, (const char *)&text.length, sizeof text.length);
-        sha256_add(hash, text.data, text.length);
+        SCOPED_TEXT text = {0};
+        text_read_file(&text, path, SIZE_MAX);
+        sha256_add(hash, (const char *)&text.len, sizeof text.len);
+        sha256_add(hash, text.bytes, text.len);
     }
 }

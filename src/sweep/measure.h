@@ -12,8 +12,8 @@ typedef struct Measure {
     bool silent;             // true if diagnostics are not reported
     bool invalid_definition; // true if the script rejected a value
     int64_t frames;          // number of frames of the last run
-    ByteBuffer rows;         // measurements of the last run, in the format of Result.rows
-    ByteBuffer error;        // last error of the last run; empty: none
+    Text rows;               // measurements of the last run, in the format of Result.rows
+    Text error;              // last error of the last run; empty: none
     void (*on_diagnostic)(void *context, PetriLevel level, const char *rendered);
     void *context;
 } Measure;

@@ -1,4 +1,5 @@
 // plan.c: parser for the YAML file of --plan, which contains a script and options.
+#include "base/file.h"
 #include "base/source.h"
 #include "cli/script.h"
 #include "sweep/plot_support.h"
@@ -26,9 +27,9 @@ static bool report_error(const Plan *plan, yaml_mark_t mark, const char *what, c
 }
 
 // Appends a value, or a list of values in the syntax of -D.
-static bool add_values(const Plan *plan, ByteBuffer *word, const yaml_node_t *value) {
+static bool add_values(const Plan *plan, Text *word, const yaml_node_t *value) {
     if (text_of(value)) {
-        byte_buffer_add_text(word, text_of(value));
+        text_add_c(word, text_of(value));
         return true;
     }
     if (value->type != YAML_SEQUENCE_NODE)
@@ -38,7 +39,7 @@ static bool add_values(const Plan *plan, ByteBuffer *word, const yaml_node_t *va
         if (!text)
             return report_error(plan, value->start_mark, "expected a list of values; write a vector as 1;2", "");
         bool vector = strchr(text, ';') && text[0] != '(';
-        byte_buffer_format(word, vector ? "%s(%s)" : "%s%s", item == value->data.sequence.items.start ? "" : ";", text);
+        text_add_format(word, vector ? "%s(%s)" : "%s%s", item == value->data.sequence.items.start ? "" : ";", text);
     }
     return true;
 }
@@ -49,21 +50,21 @@ static bool add_names(const Plan *plan, const char *option, const yaml_node_t *n
         return report_error(plan, names->start_mark, "expected indented lines `NAME: VALUE` below ", option);
     for (yaml_node_pair_t *pair = names->data.mapping.pairs.start; pair < names->data.mapping.pairs.top; pair++) {
         const yaml_node_t *key = yaml_document_get_node(plan->document, pair->key);
-        SCOPED_BYTE_BUFFER word = {0};
-        byte_buffer_format(&word, "--%s=%s=", option, !text_of(key) ? "" : text_of(key));
+        SCOPED_TEXT word = {0};
+        text_add_format(&word, "--%s=%s=", option, !text_of(key) ? "" : text_of(key));
         if (!add_values(plan, &word, yaml_document_get_node(plan->document, pair->value)))
             return false;
-        texts_add(plan->words, word.data);
+        texts_add(plan->words, word.bytes);
     }
     return true;
 }
 
 // Adds the script, whose path is relative to the plan's folder.
 static void add_script(const Plan *plan, const char *script) {
-    SCOPED_BYTE_BUFFER word = {0};
-    byte_buffer_format(&word, "%.*s%s", script[0] == '/' ? 0 : (int)path_directory(str_from(plan->path)).len,
-                       plan->path, script);
-    texts_add(plan->words, word.data);
+    SCOPED_TEXT word = {0};
+    text_add_format(&word, "%.*s%s", script[0] == '/' ? 0 : (int)path_directory(str_from(plan->path)).len, plan->path,
+                    script);
+    texts_add(plan->words, word.bytes);
 }
 
 static bool add_option(const Plan *plan, const OptionSpec *spec, const yaml_node_t *value) {
@@ -76,9 +77,9 @@ static bool add_option(const Plan *plan, const OptionSpec *spec, const yaml_node
         return true;
     if (!spec->value && strcmp(text, "true") != 0)
         return report_error(plan, value->start_mark, "expected true or false for ", spec->name);
-    SCOPED_BYTE_BUFFER word = {0};
-    byte_buffer_format(&word, !spec->value ? "--%s" : "--%s=%s", spec->name, text);
-    texts_add(plan->words, word.data);
+    SCOPED_TEXT word = {0};
+    text_add_format(&word, !spec->value ? "--%s" : "--%s=%s", spec->name, text);
+    texts_add(plan->words, word.bytes);
     return true;
 }
 
@@ -97,10 +98,10 @@ static bool add_entry(const Plan *plan, const yaml_node_t *key, const yaml_node_
         }
     }
     nearest_offer(&nearest, "script");
-    SCOPED_BYTE_BUFFER what = {0};
-    byte_buffer_format(&what, "not an option of petri sweep: '%s'%s", name,
-                       !nearest.found.bytes ? "; run 'petri help sweep' for a list" : "; did you mean ");
-    return report_error(plan, key->start_mark, what.data, !nearest.found.bytes ? "" : nearest.found.bytes);
+    SCOPED_TEXT what = {0};
+    text_add_format(&what, "not an option of petri sweep: '%s'%s", name,
+                    !nearest.found.bytes ? "; run 'petri help sweep' for a list" : "; did you mean ");
+    return report_error(plan, key->start_mark, what.bytes, !nearest.found.bytes ? "" : nearest.found.bytes);
 }
 
 static bool add_entries(const Plan *plan) {
@@ -119,13 +120,13 @@ static bool add_entries(const Plan *plan) {
 // Checks that brackets are not nested too deeply, because libyaml takes quadratic time for nested brackets: 17 s for
 // 100 KB of them. Brackets in strings and comments are rare, so they are counted like all others. Returns false after a
 // message.
-static bool check_depth(const char *path, const ByteBuffer *text) {
+static bool check_depth(const char *path, const Text *text) {
     enum { MAX_DEPTH = 64 };
     int depth = 0;
-    for (size_t i = 0; i < text->length && depth <= MAX_DEPTH; i++)
-        if (text->data[i] == '[' || text->data[i] == '{')
+    for (size_t i = 0; i < text->len && depth <= MAX_DEPTH; i++)
+        if (text->bytes[i] == '[' || text->bytes[i] == '{')
             depth++;
-        else if ((text->data[i] == ']' || text->data[i] == '}') && depth > 0)
+        else if ((text->bytes[i] == ']' || text->bytes[i] == '}') && depth > 0)
             depth--;
     if (depth > MAX_DEPTH)
         message("%s: more than %d nested brackets", path, (int)MAX_DEPTH);
@@ -133,9 +134,9 @@ static bool check_depth(const char *path, const ByteBuffer *text) {
 }
 
 bool plan_read(const char *path, TextList *words) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     static const size_t max_bytes = 64 << 10;
-    const char *problem = byte_buffer_read_file(&text, path, max_bytes);
+    const char *problem = text_read_file(&text, path, max_bytes);
     if (problem) {
         message("cannot read %s: %s", path, problem);
         return false;
@@ -148,7 +149,7 @@ bool plan_read(const char *path, TextList *words) {
         message("out of memory");
         return false;
     }
-    yaml_parser_set_input_string(&parser, (const unsigned char *)text.data, text.length);
+    yaml_parser_set_input_string(&parser, (const unsigned char *)text.bytes, text.len);
     Plan plan = {path, words, &document};
     bool good = yaml_parser_load(&parser, &document) != 0;
     if (good) {

@@ -94,15 +94,15 @@ static double tick_step(const Scale *scale) {
     return power * (times < 1.5 ? 1 : times < 3.5 ? 2 : times < 7.5 ? 5 : 10);
 }
 
-static void add_text(ByteBuffer *out, const char *text, double x, double y, double rotate) {
-    byte_buffer_format(
+static void add_text(Text *out, const char *text, double x, double y, double rotate) {
+    text_add_format(
         out, "                    !transform translate=%.1f;%.1f rotate=%g\n                        !text text=", x, y,
         rotate);
     axis_add_literal(out, text);
-    byte_buffer_format(out, "\n");
+    text_add_format(out, "\n");
 }
 
-static void add_ticks(ByteBuffer *out, const Scale *scale, bool across) {
+static void add_ticks(Text *out, const Scale *scale, bool across) {
     if (!(scale->max > scale->min)) {
         char label[32];
         snprintf(label, sizeof label, "%.4g", scale->min);
@@ -115,21 +115,21 @@ static void add_ticks(ByteBuffer *out, const Scale *scale, bool across) {
         char label[32];
         snprintf(label, sizeof label, "%.6g", k * step + 0.0); // adding 0 changes -0 to 0
         if (across) {
-            byte_buffer_format(out, "                    !line points=%.1f;%d;%.1f;%d stroke=true\n", at, HEIGHT, at,
-                               HEIGHT + 4);
+            text_add_format(out, "                    !line points=%.1f;%d;%.1f;%d stroke=true\n", at, HEIGHT, at,
+                            HEIGHT + 4);
             add_text(out, label, at, HEIGHT + 12, 0);
         } else {
-            byte_buffer_format(out, "                    !line points=-4;%.1f;0;%.1f stroke=true\n", HEIGHT - at,
-                               HEIGHT - at);
+            text_add_format(out, "                    !line points=-4;%.1f;0;%.1f stroke=true\n", HEIGHT - at,
+                            HEIGHT - at);
             add_text(out, label, -26, HEIGHT - at, 0);
         }
     }
 }
 
-static void add_numbers(ByteBuffer *out, const Plot *plot, const Point *points, size_t count, size_t step) {
+static void add_numbers(Text *out, const Plot *plot, const Point *points, size_t count, size_t step) {
     for (size_t i = 0; i < count; i += step) {
-        byte_buffer_format(out, "%s%.2f;%.2f", i == 0 ? "" : ";", scale_position(&plot->x, points[i].x, WIDTH),
-                           HEIGHT - scale_position(&plot->y, points[i].y, HEIGHT));
+        text_add_format(out, "%s%.2f;%.2f", i == 0 ? "" : ";", scale_position(&plot->x, points[i].x, WIDTH),
+                        HEIGHT - scale_position(&plot->y, points[i].y, HEIGHT));
     }
 }
 
@@ -151,21 +151,21 @@ static size_t average_points(Plot *plot) {
     return means;
 }
 
-static void add_plot(ByteBuffer *out, Plot *plot) {
-    byte_buffer_format(out, "                    !rect size=%d;%d stroke=true\n", WIDTH, HEIGHT);
+static void add_plot(Text *out, Plot *plot) {
+    text_add_format(out, "                    !rect size=%d;%d stroke=true\n", WIDTH, HEIGHT);
     if (plot->count == 0)
         return;
     add_ticks(out, &plot->x, true);
     add_ticks(out, &plot->y, false);
-    byte_buffer_format(out, "                    for x;y in (");
+    text_add_format(out, "                    for x;y in (");
     add_numbers(out, plot, plot->points, plot->count, plot->count / MAX_POINTS + 1);
-    byte_buffer_format(out,
-                       ")\n                        !ellipse point=x;y radius=1.8 fill=true color=0.15;0.4;0.75;0.5\n");
+    text_add_format(out,
+                    ")\n                        !ellipse point=x;y radius=1.8 fill=true color=0.15;0.4;0.75;0.5\n");
     size_t means = average_points(plot);
     if (means > 1 && means <= MAX_MEANS && means < plot->count) {
-        byte_buffer_format(out, "                    !line stroke=true stroke_width=1.5 color=0.85;0.35;0.1 points=");
+        text_add_format(out, "                    !line stroke=true stroke_width=1.5 color=0.85;0.35;0.1 points=");
         add_numbers(out, plot, plot->points, means, 1);
-        byte_buffer_format(out, "\n");
+        text_add_format(out, "\n");
     }
 }
 
@@ -180,17 +180,17 @@ static size_t find_columns(const Sweep *sweep, size_t *columns) {
 }
 
 // Writes the script that draws the grid.
-static void write_script(const Sweep *sweep, ByteBuffer *out) {
+static void write_script(const Sweep *sweep, Text *out) {
     size_t *columns = memory_calloc((sweep->design.axis_count + 1) * sizeof *columns);
     size_t across = find_columns(sweep, columns), down = row_numbers(sweep);
-    byte_buffer_format(out, "!window size=%zu;%zu\n    !canvas\n        !font size=11 family=\"DejaVu Sans\"\n",
-                       across * (WIDTH + GAP_X), down * (HEIGHT + GAP_Y));
-    byte_buffer_format(out, "            !rect size=%zu;%zu fill=true color=1\n", across * (WIDTH + GAP_X),
-                       down * (HEIGHT + GAP_Y));
+    text_add_format(out, "!window size=%zu;%zu\n    !canvas\n        !font size=11 family=\"DejaVu Sans\"\n",
+                    across * (WIDTH + GAP_X), down * (HEIGHT + GAP_Y));
+    text_add_format(out, "            !rect size=%zu;%zu fill=true color=1\n", across * (WIDTH + GAP_X),
+                    down * (HEIGHT + GAP_Y));
     for (size_t i = 0; i < across * down; i++) {
         size_t column = i % across, row = i / across;
-        byte_buffer_format(out, "            !transform translate=%zu;%zu\n                !paint color=0.1\n",
-                           LEFT + column * (WIDTH + GAP_X), TOP + row * (HEIGHT + GAP_Y));
+        text_add_format(out, "            !transform translate=%zu;%zu\n                !paint color=0.1\n",
+                        LEFT + column * (WIDTH + GAP_X), TOP + row * (HEIGHT + GAP_Y));
         Plot plot = collect_points(sweep, columns[column], row);
         add_plot(out, &plot);
         free(plot.points);
@@ -207,7 +207,7 @@ static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
 }
 
 bool plot_grid_draw(const Sweep *sweep, const char *path) {
-    SCOPED_BYTE_BUFFER script = {0};
+    SCOPED_TEXT script = {0};
     write_script(sweep, &script);
     PetriOptions wanted = petri_default_options();
     wanted.stack_limit = sweep->host->stack_bytes;
@@ -217,7 +217,7 @@ bool plot_grid_draw(const Sweep *sweep, const char *path) {
     PetriPainter *painter = petri_painter_open();
     PetriPictureOptions options = petri_default_picture_options();
     PetriPicture *picture = NULL;
-    PetriStatus status = !session ? PETRI_OUT_OF_MEMORY : petri_load_text(session, "plot", script.data, script.length);
+    PetriStatus status = !session ? PETRI_OUT_OF_MEMORY : petri_load_text(session, "plot", script.bytes, script.len);
     status = status == PETRI_OK ? petri_step(session) : status;
     status = status == PETRI_OK ? petri_picture(session, &options, &picture) : status;
     status = status == PETRI_OK ? petri_picture_save(picture, painter, path) : status;

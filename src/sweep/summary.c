@@ -38,19 +38,19 @@ static double quantile(const Number *sorted, size_t count, double fraction) {
 }
 
 // Appends the statistics of one metric in one frame. `sorted` contains the values in ascending order.
-static void add_statistics(ByteBuffer *out, const Number *sorted, size_t count) {
+static void add_statistics(Text *out, const Number *sorted, size_t count) {
     double sum = 0, squares = 0;
     for (size_t i = 0; i < count; i++)
         sum += sorted[i].x;
     double mean = sum / (double)count;
     for (size_t i = 0; i < count; i++)
         squares += (sorted[i].x - mean) * (sorted[i].x - mean);
-    byte_buffer_format(out, ",%zu,%.12g,", count, mean);
+    text_add_format(out, ",%zu,%.12g,", count, mean);
     if (count > 1)
-        byte_buffer_format(out, "%.12g", sqrt(squares / (double)(count - 1)));
+        text_add_format(out, "%.12g", sqrt(squares / (double)(count - 1)));
     for (int quarter = 0; quarter <= 4; quarter++)
-        byte_buffer_format(out, ",%.12g", quantile(sorted, count, quarter / 4.0));
-    byte_buffer_format(out, "\n");
+        text_add_format(out, ",%.12g", quantile(sorted, count, quarter / 4.0));
+    text_add_format(out, "\n");
 }
 
 static bool differ_in_seed_alone(const Design *design, size_t a, size_t b) {
@@ -59,14 +59,14 @@ static bool differ_in_seed_alone(const Design *design, size_t a, size_t b) {
                   compared * sizeof *design->value_indices) == 0;
 }
 
-static void add_values(const Design *design, size_t run, ByteBuffer *out) {
+static void add_values(const Design *design, size_t run, Text *out) {
     for (size_t i = 0; i < design->axis_count - design->seeded; i++) {
         csv_add(out, str_from(design_value(design, run, i)));
-        byte_buffer_format(out, ",");
+        text_add_format(out, ",");
     }
 }
 
-static void add_metric(const Sweep *sweep, size_t first, size_t end, size_t metric, ByteBuffer *out) {
+static void add_metric(const Sweep *sweep, size_t first, size_t end, size_t metric, Text *out) {
     NumberList list = {0};
     bool each_frame = sweep->options->row_every > 0;
     Row row;
@@ -84,21 +84,21 @@ static void add_metric(const Sweep *sweep, size_t first, size_t end, size_t metr
             next++;
         add_values(&sweep->design, first, out);
         if (each_frame)
-            byte_buffer_format(out, "%" PRId64 ",", list.items[i].frame);
+            text_add_format(out, "%" PRId64 ",", list.items[i].frame);
         csv_add(out, str_from(row_number_name(sweep, metric)));
         add_statistics(out, list.items + i, next - i);
     }
     free(list.items);
 }
 
-void summary_make(const Sweep *sweep, ByteBuffer *out) {
+void summary_make(const Sweep *sweep, Text *out) {
     const Design *design = &sweep->design;
     for (size_t i = 0; i < design->axis_count - design->seeded; i++) {
         csv_add(out, str_from(design->axes[i].name));
-        byte_buffer_format(out, ",");
+        text_add_format(out, ",");
     }
-    byte_buffer_format(out, "%smetric,runs,mean,deviation,least,quartile1,median,quartile3,most\n",
-                       sweep->options->row_every > 0 ? "frame," : "");
+    text_add_format(out, "%smetric,runs,mean,deviation,least,quartile1,median,quartile3,most\n",
+                    sweep->options->row_every > 0 ? "frame," : "");
     for (size_t run = 0, end = 0; run < design->run_count; run = end) {
         while (end < design->run_count && differ_in_seed_alone(design, run, end))
             end++;

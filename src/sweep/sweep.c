@@ -121,13 +121,13 @@ static bool read_shared_options(Sweep *sweep, const Command *command) {
         for (size_t i = 0; free_ones[i]; i++)
             counts = counts && strcmp(args.option->name, free_ones[i]) != 0;
         if (counts) {
-            SCOPED_BYTE_BUFFER word = {0};
-            byte_buffer_format(&word, !args.option->value ? "--%s" : "--%s=%s", args.option->name, args.value);
-            byte_buffer_format(&sweep->shared, " ");
-            shell_add_word(&sweep->shared, word.data);
+            SCOPED_TEXT word = {0};
+            text_add_format(&word, !args.option->value ? "--%s" : "--%s=%s", args.option->name, args.value);
+            text_add_format(&sweep->shared, " ");
+            shell_add_word(&sweep->shared, word.bytes);
         }
     }
-    byte_buffer_add(&sweep->shared, "", 0);
+    text_add_c(&sweep->shared, "");
     return true;
 }
 
@@ -158,7 +158,7 @@ static void compute_identity(Sweep *sweep, Measure *measure) {
     Sha256 hash = sha256_new();
     add_text(&hash, petri_version());
     measure_hash_sources(measure, &hash);
-    add_text(&hash, sweep->shared.data);
+    add_text(&hash, sweep->shared.bytes);
     add_text(&hash, sweep->options->until);
     int64_t numbers[] = {sweep->options->frames, sweep->options->row_every, (int64_t)design->run_count};
     sha256_add(&hash, (const char *)numbers, sizeof numbers);
@@ -186,33 +186,33 @@ static int dry_run(Sweep *sweep) {
 
 // --- output
 
-static bool write_file(const char *path, const ByteBuffer *text) {
-    const char *problem = file_replace(path, (Str){text->data, text->length}, 0);
+static bool write_file(const char *path, const Text *text) {
+    const char *problem = file_replace(path, (Str){text->bytes, text->len}, 0);
     if (problem)
         message("cannot write %s: %s", path, problem);
     return !problem;
 }
 
 static bool write_table(const Sweep *sweep) {
-    SCOPED_BYTE_BUFFER table = {0}, commands = {0}, path = {0};
+    SCOPED_TEXT table = {0}, commands = {0}, path = {0};
     const char *output = sweep->options->output;
     table_make(sweep, &table);
     if (!output) {
-        if (!file_write(STDOUT_FILENO, table.data, table.length) && errno != EPIPE) {
+        if (!file_write(STDOUT_FILENO, table.bytes, table.len) && errno != EPIPE) {
             message("cannot write standard output: %s", strerror(errno));
             return false;
         }
         return true;
     }
     table_commands(sweep, &commands);
-    byte_buffer_format(&path, "%s.runs", output);
-    return write_file(path.data, &commands) &&
-           (hdf5_has_suffix(output) ? hdf5_table(output, table.data, table.length, worker_pool_signal)
+    text_add_format(&path, "%s.runs", output);
+    return write_file(path.bytes, &commands) &&
+           (hdf5_has_suffix(output) ? hdf5_table(output, table.bytes, table.len, worker_pool_signal)
                                     : write_file(output, &table));
 }
 
 static bool write_all(const Sweep *sweep) {
-    SCOPED_BYTE_BUFFER summary = {0};
+    SCOPED_TEXT summary = {0};
     bool good = true;
     if (sweep->options->summary) {
         summary_make(sweep, &summary);
@@ -317,7 +317,7 @@ static void free_sweep(Sweep *sweep) {
         free(sweep->results[run].rows);
     free(sweep->metrics);
     free(sweep->results);
-    byte_buffer_free(&sweep->shared);
+    text_free(&sweep->shared);
     texts_free(&sweep->reported);
     design_free(&sweep->design);
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/sha256.h"
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/progress.h"
 
@@ -42,7 +42,7 @@ typedef struct Sweep {
     Design design;
     Metric *metrics;
     size_t metric_count;
-    ByteBuffer shared;                // options that apply to every run, quoted for a shell
+    Text shared;                      // options that apply to every run, quoted for a shell
     char identity[SHA256_DIGITS + 1]; // hash of everything that the table depends on
     Result *results;                  // indexed by run
     size_t shard;                     // shard of this process, from 0; it executes the runs with run % shards == shard
@@ -59,7 +59,7 @@ const char *design_value(const Design *design, size_t run, size_t axis);
 // Parses `NAME=VALUES`. Returns false after a message.
 bool axis_read(Axis *axis, const char *text);
 // Appends a value as an expression of the language.
-void axis_add_literal(ByteBuffer *out, const char *value);
+void axis_add_literal(Text *out, const char *value);
 
 // Returns true if the run belongs to the shard of this process.
 bool sweep_owns_run(const Sweep *sweep, size_t run);

@@ -52,73 +52,73 @@ double row_number(const Sweep *sweep, const Row *row, size_t number) {
     return end == cell.bytes + cell.len && isfinite(x) ? x : NAN;
 }
 
-void csv_add(ByteBuffer *out, Str cell) {
+void csv_add(Text *out, Str cell) {
     bool plain = true;
     for (size_t i = 0; i < cell.len; i++)
         plain = plain && !strchr(",\"\r\n", cell.bytes[i]);
     if (plain) {
-        byte_buffer_add(out, cell.bytes, cell.len);
+        text_add(out, cell);
         return;
     }
-    byte_buffer_add(out, "\"", 1);
+    text_add_c(out, "\"");
     for (size_t i = 0; i < cell.len; i++)
-        byte_buffer_add(out, cell.bytes[i] == '"' ? "\"\"" : &cell.bytes[i], cell.bytes[i] == '"' ? 2 : 1);
-    byte_buffer_add(out, "\"", 1);
+        text_add(out, (Str){cell.bytes[i] == '"' ? "\"\"" : &cell.bytes[i], cell.bytes[i] == '"' ? 2 : 1});
+    text_add_c(out, "\"");
 }
 
-static void add_run(const Sweep *sweep, size_t run, ByteBuffer *out) {
+static void add_run(const Sweep *sweep, size_t run, Text *out) {
     const Design *design = &sweep->design;
-    SCOPED_BYTE_BUFFER head = {0};
-    byte_buffer_format(&head, "%zu,", run + 1);
+    SCOPED_TEXT head = {0};
+    text_add_format(&head, "%zu,", run + 1);
     for (size_t i = 0; i < design->axis_count; i++) {
         csv_add(&head, str_from(design_value(design, run, i)));
-        byte_buffer_format(&head, ",");
+        text_add_format(&head, ",");
     }
     Row row;
     for (const char *at = sweep->results[run].rows; row_next(&at, &row);) {
-        byte_buffer_add(out, head.data, head.length);
-        byte_buffer_format(out, "%" PRId64, row.frame);
+        text_add(out, text_str(&head));
+        text_add_format(out, "%" PRId64, row.frame);
         for (size_t i = 0; i <= sweep->metric_count; i++) {
-            byte_buffer_format(out, ",");
+            text_add_format(out, ",");
             csv_add(out, row_cell(&row, i));
         }
-        byte_buffer_format(out, "\n");
+        text_add_format(out, "\n");
     }
 }
 
-void table_make(const Sweep *sweep, ByteBuffer *out) {
-    byte_buffer_format(out, "run,");
+void table_make(const Sweep *sweep, Text *out) {
+    text_add_format(out, "run,");
     for (size_t i = 0; i < sweep->design.axis_count; i++) {
         csv_add(out, str_from(sweep->design.axes[i].name));
-        byte_buffer_format(out, ",");
+        text_add_format(out, ",");
     }
-    byte_buffer_format(out, "frame,");
+    text_add_format(out, "frame,");
     for (size_t i = 0; i < sweep->metric_count; i++) {
         csv_add(out, str_from(sweep->metrics[i].name));
-        byte_buffer_format(out, ",");
+        text_add_format(out, ",");
     }
-    byte_buffer_format(out, "error\n");
+    text_add_format(out, "error\n");
     for (size_t run = 0; run < sweep->design.run_count; run++)
         add_run(sweep, run, out);
 }
 
-void table_commands(const Sweep *sweep, ByteBuffer *out) {
+void table_commands(const Sweep *sweep, Text *out) {
     const Design *design = &sweep->design;
-    SCOPED_BYTE_BUFFER head = {0};
+    SCOPED_TEXT head = {0};
     shell_add_program(&head, sweep->host->invoked_as);
-    byte_buffer_format(&head, " run ");
+    text_add_format(&head, " run ");
     shell_add_word(&head, sweep->options->script);
-    byte_buffer_add(&head, sweep->shared.data, sweep->shared.length);
+    text_add(&head, text_str(&sweep->shared));
     for (size_t run = 0; run < design->run_count; run++) {
-        byte_buffer_add(out, head.data, head.length);
+        text_add(out, text_str(&head));
         for (size_t i = 0; i < design->axis_count; i++) {
-            SCOPED_BYTE_BUFFER word = {0};
-            byte_buffer_format(&word, "%s=%s", design->axes[i].name, design_value(design, run, i));
-            byte_buffer_format(out, " -D ");
-            shell_add_word(out, word.data);
+            SCOPED_TEXT word = {0};
+            text_add_format(&word, "%s=%s", design->axes[i].name, design_value(design, run, i));
+            text_add_format(out, " -D ");
+            shell_add_word(out, word.bytes);
         }
         // `frames` does not count the frame in which a run failed, but the command must compute it as well.
         const Result *result = &sweep->results[run];
-        byte_buffer_format(out, " --frames %" PRId64 "\n", result->frames + sweep_is_failed(result));
+        text_add_format(out, " --frames %" PRId64 "\n", result->frames + sweep_is_failed(result));
     }
 }

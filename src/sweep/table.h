@@ -20,10 +20,10 @@ size_t row_numbers(const Sweep *sweep);
 const char *row_number_name(const Sweep *sweep, size_t number);
 
 // Appends a cell of a CSV file, quoted if RFC 4180 requires it.
-void csv_add(ByteBuffer *out, Str cell);
+void csv_add(Text *out, Str cell);
 
-void table_make(const Sweep *sweep, ByteBuffer *out);
+void table_make(const Sweep *sweep, Text *out);
 // Appends one line for each run: the command that repeats the run.
-void table_commands(const Sweep *sweep, ByteBuffer *out);
+void table_commands(const Sweep *sweep, Text *out);
 // Appends mean, standard deviation and quantiles of each metric over runs that differ only in SEED.
-void summary_make(const Sweep *sweep, ByteBuffer *out);
+void summary_make(const Sweep *sweep, Text *out);

@@ -82,30 +82,30 @@ static bool read_all(int fd, void *data, size_t length) {
 // Stores a diagnostic for the parent: a letter for the level, the text, NUL. Ignores diagnostics after 64 KiB.
 static void add_diagnostic(void *context, PetriLevel level, const char *rendered) {
     enum { MAX_DIAGNOSTIC_BYTES = 1 << 16 };
-    ByteBuffer *diagnostics = context;
-    if (diagnostics->length < MAX_DIAGNOSTIC_BYTES) {
-        byte_buffer_format(diagnostics, "%c", 'a' + (int)level);
-        byte_buffer_add(diagnostics, rendered, strlen(rendered) + 1);
+    Text *diagnostics = context;
+    if (diagnostics->len < MAX_DIAGNOSTIC_BYTES) {
+        text_add_format(diagnostics, "%c", 'a' + (int)level);
+        text_add(diagnostics, (Str){rendered, strlen(rendered) + 1});
     }
 }
 
 static int worker_loop(const Sweep *sweep, int requests, int results) {
     Measure measure;
-    ByteBuffer diagnostics = {0};
+    Text diagnostics = {0};
     if (!measure_open(&measure, sweep, add_diagnostic, &diagnostics))
         return STATUS_FAILED;
     int64_t run = 0;
     while (read_all(requests, &run, sizeof run)) {
-        diagnostics.length = 0;
+        diagnostics.len = 0;
         measure_run(&measure, (size_t)run);
-        ResultHeader head = {run, measure.frames, measure.rows.length, diagnostics.length};
+        ResultHeader head = {run, measure.frames, measure.rows.len, diagnostics.len};
         if (!file_write(results, (const char *)&head, sizeof head) ||
-            !file_write(results, measure.rows.data, measure.rows.length) ||
-            !file_write(results, diagnostics.data, diagnostics.length))
+            !file_write(results, measure.rows.bytes, measure.rows.len) ||
+            !file_write(results, diagnostics.bytes, diagnostics.len))
             break;
     }
     measure_close(&measure);
-    byte_buffer_free(&diagnostics);
+    text_free(&diagnostics);
     return STATUS_DONE;
 }
 
@@ -189,10 +189,10 @@ static bool store_result(WorkerPool *pool, const ResultHeader *head, const char 
     size_t length = (size_t)(head->rows + head->diagnostics), run = (size_t)head->run;
     pool->done++;
     if (is_remote(pool)) {
-        SCOPED_BYTE_BUFFER packet = {0};
-        byte_buffer_add(&packet, (const char *)head, sizeof *head);
-        byte_buffer_add(&packet, bytes, length);
-        pool->channel->send(0, packet.data, packet.length);
+        SCOPED_TEXT packet = {0};
+        text_add(&packet, (Str){(const char *)head, sizeof *head});
+        text_add(&packet, (Str){bytes, length});
+        pool->channel->send(0, packet.bytes, packet.len);
         return true;
     }
     progress_erase(&pool->progress);
@@ -209,7 +209,7 @@ static bool read_result(WorkerPool *pool, PoolWorker *worker, bool *gone) {
     if (*gone)
         return true;
     size_t length = (size_t)(head.rows + head.diagnostics);
-    SCOPED_TEXT bytes = memory_calloc(length + 1);
+    SCOPED_STRING bytes = memory_calloc(length + 1);
     *gone = !read_all(worker->result_pipe, bytes, length);
     if (*gone)
         return true;
@@ -220,20 +220,20 @@ static bool read_result(WorkerPool *pool, PoolWorker *worker, bool *gone) {
 
 // Receives MPI messages. Rank 0 receives requests and results; other ranks receive the runs that are assigned to them.
 static bool receive_messages(WorkerPool *pool) {
-    SCOPED_BYTE_BUFFER packet = {0};
+    SCOPED_TEXT packet = {0};
     bool good = true;
-    for (int from = 0; good && pool->channel && pool->channel->receive(&from, &packet); packet.length = 0) {
+    for (int from = 0; good && pool->channel && pool->channel->receive(&from, &packet); packet.len = 0) {
         if (is_remote(pool)) {
             int64_t run;
-            memcpy(&run, packet.data, sizeof run);
+            memcpy(&run, packet.bytes, sizeof run);
             pool->ended = pool->ended || run == END_OF_RUNS;
             pool->returned[pool->returned_count] = run;
             pool->returned_count += run != END_OF_RUNS;
             continue;
         }
         ResultHeader head = {.run = END_OF_RUNS};
-        memcpy(&head, packet.data, packet.length < sizeof head ? packet.length : sizeof head);
-        good = packet.length < sizeof head || store_result(pool, &head, packet.data + sizeof head);
+        memcpy(&head, packet.bytes, packet.len < sizeof head ? packet.len : sizeof head);
+        good = packet.len < sizeof head || store_result(pool, &head, packet.bytes + sizeof head);
         int64_t run = next_run(pool);
         if (run >= 0)
             pool->channel->send(from, &run, sizeof run);
@@ -258,15 +258,15 @@ static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
         pool->returned[pool->returned_count++] = worker->assigned[0];
         return true;
     }
-    SCOPED_BYTE_BUFFER row = {0};
-    byte_buffer_format(&row, "0");
+    SCOPED_TEXT row = {0};
+    text_add_format(&row, "0");
     for (size_t i = 0; i <= pool->sweep->metric_count; i++)
-        byte_buffer_format(&row, "\t");
+        text_add_format(&row, "\t");
     if (WIFSIGNALED(status))
-        byte_buffer_format(&row, "crashed: signal %d (%s)\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
+        text_add_format(&row, "crashed: signal %d (%s)\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
     else
-        byte_buffer_format(&row, "the process ended with status %d\n", WEXITSTATUS(status));
-    return !result || store_result(pool, &(ResultHeader){worker->assigned[0], 0, row.length, 0}, row.data);
+        text_add_format(&row, "the process ended with status %d\n", WEXITSTATUS(status));
+    return !result || store_result(pool, &(ResultHeader){worker->assigned[0], 0, row.len, 0}, row.bytes);
 }
 
 // Waits for results and messages and handles them. Returns false, after a message, if the sweep cannot continue.

@@ -72,36 +72,36 @@ void listener_close(Listener *listener) {
     close(listener->socket);
     if (listener->client >= 0)
         close(listener->client);
-    byte_buffer_free(&listener->text);
+    text_free(&listener->text);
     *listener = (Listener){0};
 }
 
 // --- answers
 
-static void add_diagnostics(PetriSession *session, ByteBuffer *out) {
+static void add_diagnostics(PetriSession *session, Text *out) {
     PetriDiagnostic diagnostic;
     for (size_t i = 0; petri_diagnostic(session, i, &diagnostic); i++) {
         json_add_diagnostic(out, &diagnostic);
-        byte_buffer_add_text(out, "\n");
+        text_add_c(out, "\n");
     }
 }
 
-static void add_output(const ByteBuffer *output, ByteBuffer *out) {
+static void add_output(const Text *output, Text *out) {
     Str line;
-    for (size_t at = 0; output->length > 0 && byte_buffer_next_line(output, &at, &line);) {
-        SCOPED_TEXT text = memory_strndup(line.bytes, line.len);
-        byte_buffer_add_text(out, "{\"text\": ");
+    for (size_t at = 0; output->len > 0 && text_next_line(output, &at, &line);) {
+        SCOPED_STRING text = memory_strndup(line.bytes, line.len);
+        text_add_c(out, "{\"text\": ");
         json_add_text(out, text);
-        byte_buffer_add_text(out, "}\n");
+        text_add_c(out, "}\n");
     }
 }
 
-static void add_result_line(ByteBuffer *out, bool done, int64_t frame, const PetriPromptResult *prompted) {
-    byte_buffer_format(
+static void add_result_line(Text *out, bool done, int64_t frame, const PetriPromptResult *prompted) {
+    text_add_format(
         out, "{\"done\": %s, \"frame\": %" PRId64 ", \"values\": %u, \"bindings\": %u, \"nodes\": %u, \"shadowed\": ",
         done ? "true" : "false", frame, prompted->values, prompted->bindings, prompted->nodes);
     json_add_text(out, prompted->shadowed);
-    byte_buffer_add_text(out, "}\n");
+    text_add_c(out, "}\n");
 }
 
 // Executes `.set NAME VALUE`. Modifies the text. Returns false if this fails.
@@ -113,21 +113,21 @@ static bool set_parameter(LiveScript *live, char *text) {
 }
 
 // Executes `.back` or `.back N`. Returns false after adding the reason to `output` if this fails.
-static bool go_back(LiveScript *live, const char *text, ByteBuffer *output) {
+static bool go_back(LiveScript *live, const char *text, Text *output) {
     char *end;
     long long count = *text == '\0' ? 1 : strtoll(text, &end, 10);
     if (*text != '\0' && (*end != '\0' || count < 1)) {
-        byte_buffer_add_text(output, ".back takes a number of frames >= 1 (default: 1)");
+        text_add_c(output, ".back takes a number of frames >= 1 (default: 1)");
         return false;
     }
     return live_script_go_back(live, count, output);
 }
 
-static ListenerResult execute_command(LiveScript *live, char *text, ByteBuffer *out) {
+static ListenerResult execute_command(LiveScript *live, char *text, Text *out) {
     static const char set[] = ".set ", back[] = ".back";
     ListenerResult result = LISTENER_ACCEPTED;
     PetriPromptResult prompted = {0};
-    SCOPED_BYTE_BUFFER output = {0};
+    SCOPED_TEXT output = {0};
     size_t length = strlen(text);
     while (length > 0 && strchr(" \n", text[length - 1]))
         text[--length] = '\0';
@@ -143,7 +143,7 @@ static ListenerResult execute_command(LiveScript *live, char *text, ByteBuffer *
     } else if (strcmp(text, ".drop") == 0) {
         petri_prompt_clear(live->session, true);
     } else {
-        done = petri_prompt(live->session, text, length, byte_buffer_collect, &output, &prompted) == PETRI_OK;
+        done = petri_prompt(live->session, text, length, text_collect, &output, &prompted) == PETRI_OK;
     }
     add_output(&output, out);
     add_diagnostics(live->session, out);
@@ -153,19 +153,19 @@ static ListenerResult execute_command(LiveScript *live, char *text, ByteBuffer *
 
 // Executes the client's text and sends the answer. If the client does not read the answer, waits at most one second.
 static ListenerResult answer_client(Listener *listener, LiveScript *live) {
-    SCOPED_BYTE_BUFFER out = {0};
-    byte_buffer_add(&listener->text, "", 0);
-    ListenerResult result = execute_command(live, listener->text.data, &out);
+    SCOPED_TEXT out = {0};
+    text_add_c(&listener->text, "");
+    ListenerResult result = execute_command(live, listener->text.bytes, &out);
     fcntl(listener->client, F_SETFL, 0);
     setsockopt(listener->client, SOL_SOCKET, SO_SNDTIMEO, &(struct timeval){.tv_sec = 1}, sizeof(struct timeval));
-    (void)file_write(listener->client, out.data, out.length);
+    (void)file_write(listener->client, out.bytes, out.len);
     return result;
 }
 
 static void disconnect_client(Listener *listener) {
     close(listener->client);
     listener->client = -1;
-    listener->text.length = 0;
+    listener->text.len = 0;
 }
 
 static bool has_waiting_client(const Listener *listener) {
@@ -186,9 +186,9 @@ ListenerResult listener_serve(Listener *listener, LiveScript *live) {
     char part[4096];
     ssize_t count;
     while ((count = read(listener->client, part, sizeof part)) > 0) {
-        byte_buffer_add(&listener->text, part, (size_t)count);
+        text_add(&listener->text, (Str){part, (size_t)count});
         listener->heard = clock_seconds();
-        if (listener->text.length > MAX_BYTES) {
+        if (listener->text.len > MAX_BYTES) {
             disconnect_client(listener);
             return LISTENER_NOTHING;
         }

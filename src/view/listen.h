@@ -10,11 +10,11 @@
 #include "view/live_script.h"
 
 typedef struct Listener {
-    char *path;      // NULL: not listening
-    int socket;      // accepts connections
-    int client;      // connection to the current client; -1: none
-    double heard;    // clock_seconds() when the client connected or last sent something
-    ByteBuffer text; // what the client has sent so far
+    char *path;   // NULL: not listening
+    int socket;   // accepts connections
+    int client;   // connection to the current client; -1: none
+    double heard; // clock_seconds() when the client connected or last sent something
+    Text text;    // what the client has sent so far
 } Listener;
 
 // Opens the socket, accessible only to its owner. Returns false after a message.

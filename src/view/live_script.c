@@ -16,18 +16,18 @@ enum { MAX_LOG = 1 << 16, MAX_ERROR_TEXT = 4000, MAX_WARNINGS = 3500 };
 static void log_text(LiveScript *live, const char *text) {
     if (!live->hold_messages)
         fputs(text, stderr);
-    else if (live->log.length < MAX_LOG)
-        byte_buffer_add_text(&live->log, text);
+    else if (live->log.len < MAX_LOG)
+        text_add_c(&live->log, text);
 }
 
 static void warnings_add(Warnings *warnings, const PetriDiagnostic *diagnostic) {
     warnings->count += diagnostic->level == PETRI_NOTE ? 0 : 1;
-    if (warnings->text.length < MAX_WARNINGS)
-        byte_buffer_add_text(&warnings->text, diagnostic->rendered);
+    if (warnings->text.len < MAX_WARNINGS)
+        text_add_c(&warnings->text, diagnostic->rendered);
 }
 
 static void warnings_clear(Warnings *warnings) {
-    byte_buffer_free(&warnings->text);
+    text_free(&warnings->text);
     *warnings = (Warnings){0};
 }
 
@@ -40,30 +40,30 @@ static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
         log_text(live, diagnostic->rendered);
         warnings_add(&live->warnings, diagnostic);
     }
-    if (diagnostic->level == PETRI_ERROR && live->error_text.length < MAX_ERROR_TEXT)
-        byte_buffer_add_text(&live->error_text, diagnostic->rendered);
+    if (diagnostic->level == PETRI_ERROR && live->error_text.len < MAX_ERROR_TEXT)
+        text_add_c(&live->error_text, diagnostic->rendered);
 }
 
 static void clear_error_text(LiveScript *live) {
-    byte_buffer_free(&live->error_text);
+    text_free(&live->error_text);
 }
 
 static void truncate_error_text(LiveScript *live, size_t length) {
-    if (live->error_text.length > length) {
-        live->error_text.length = length;
-        live->error_text.data[length] = '\0';
+    if (live->error_text.len > length) {
+        live->error_text.len = length;
+        live->error_text.bytes[length] = '\0';
     }
 }
 
 const char *live_script_error_text(const LiveScript *live) {
-    return live->error_text.length > 0 ? live->error_text.data : "";
+    return live->error_text.len > 0 ? live->error_text.bytes : "";
 }
 
 // Inserts a line at the start of the error text.
 static void prefix_error_text(LiveScript *live, const char *line) {
-    ByteBuffer whole = {0};
-    byte_buffer_format(&whole, "%s\n%s", line, live_script_error_text(live));
-    byte_buffer_free(&live->error_text);
+    Text whole = {0};
+    text_add_format(&whole, "%s\n%s", line, live_script_error_text(live));
+    text_free(&live->error_text);
     live->error_text = whole;
 }
 
@@ -113,8 +113,8 @@ void live_script_close(LiveScript *live) {
     history_free(&live->history);
     petri_close(&live->session);
     file_watch_free(live->watch);
-    byte_buffer_free(&live->log);
-    byte_buffer_free(&live->error_text);
+    text_free(&live->log);
+    text_free(&live->error_text);
     warnings_clear(&live->warnings);
 }
 
@@ -160,9 +160,9 @@ PetriPicture *live_script_draw(LiveScript *live) {
     bool complete = status == PETRI_OK && !petri_picture_lacks_shader(live->picture);
     live->picture_complete = complete;
     live_script_check_drawn(live, status);
-    size_t before = live->error_text.length;
+    size_t before = live->error_text.len;
     petri_picture_report(live->session, live->picture);
-    if (!complete && live->last_complete && before == 0 && live->error_text.length > 0)
+    if (!complete && live->last_complete && before == 0 && live->error_text.len > 0)
         prefix_error_text(live, "a shader failed, showing the last complete picture");
     return complete || !live->last_complete ? live->picture : live->last_complete;
 }
@@ -197,7 +197,7 @@ void live_script_begin(LiveScript *live) {
 }
 
 bool live_script_step(LiveScript *live) {
-    size_t before = live->error_text.length;
+    size_t before = live->error_text.len;
     PetriStatus status = live->keeps_history ? history_step(&live->history, live->session) : petri_step(live->session);
     PetriFrame frame = petri_frame(live->session);
     if (status != PETRI_OK) {
@@ -256,7 +256,7 @@ bool live_script_reload(LiveScript *live) {
 }
 
 bool live_script_set_parameter(LiveScript *live, const char *name, const char *value) {
-    size_t before = live->error_text.length;
+    size_t before = live->error_text.len;
     Warnings known = live->warnings;
     live->warnings = (Warnings){0};
     bool done = petri_set_parameter(live->session, name, value) == PETRI_OK;
@@ -277,18 +277,18 @@ bool live_script_enable_history(LiveScript *live) {
     return live->keeps_history;
 }
 
-bool live_script_go_back(LiveScript *live, int64_t count, ByteBuffer *why) {
+bool live_script_go_back(LiveScript *live, int64_t count, Text *why) {
     int64_t now = petri_frame(live->session).number, first = live->history.first + 1;
     if (now <= first) {
-        byte_buffer_format(why, "cannot go back: %s", !live->history.why ? "this is the start" : live->history.why);
+        text_add_format(why, "cannot go back: %s", !live->history.why ? "this is the start" : live->history.why);
         return false;
     }
     PetriStatus status = history_goto(&live->history, live->session, count < now - first ? now - count : first, why);
     if (status == PETRI_OK) {
         live->halted = false;
         update_picture(live);
-    } else if (why->length == 0) {
-        byte_buffer_add_text(why, petri_status_text(status));
+    } else if (why->len == 0) {
+        text_add_c(why, petri_status_text(status));
     }
     petri_resync_clock(live->session);
     return status == PETRI_OK;
@@ -350,9 +350,9 @@ void live_script_save(LiveScript *live, bool at_once) {
 
 void live_script_release_messages(LiveScript *live) {
     live->hold_messages = false;
-    if (live->log.length > 0)
-        fputs(live->log.data, stderr);
-    byte_buffer_free(&live->log);
+    if (live->log.len > 0)
+        fputs(live->log.bytes, stderr);
+    text_free(&live->log);
 }
 
 void warnings_mark(const Warnings *warnings, char *text, size_t size) {
@@ -367,5 +367,5 @@ void warnings_list(const Warnings *warnings, char *text, size_t size) {
         return;
     }
     snprintf(text, size, "%d warning%s. w hides this.\n%s%s", warnings->count, warnings->count == 1 ? "" : "s",
-             warnings->text.data, warnings->text.length < MAX_WARNINGS ? "" : "More warnings are on standard error.");
+             warnings->text.bytes, warnings->text.len < MAX_WARNINGS ? "" : "More warnings are on standard error.");
 }

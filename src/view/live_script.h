@@ -4,9 +4,9 @@
 // fails, the error is reported and the program is halted.
 #pragma once
 
-#include "cli/byte_buffer.h"
 #include "cli/file_watch.h"
 #include "cli/history.h"
+#include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/shader_test.h"
 #include "cli/state_file.h"
@@ -16,7 +16,7 @@
 // The warnings about the current program.
 typedef struct Warnings {
     int count; // number of warnings and errors, excluding notes
-    ByteBuffer text;
+    Text text;
 } Warnings;
 
 typedef struct LiveScript {
@@ -49,10 +49,10 @@ typedef struct LiveScript {
     // True if messages are collected in `log` until the display is closed, because the display uses the terminal to
     // which standard error writes.
     bool hold_messages;
-    bool shown;            // true if the last error or warning was shown; its notes are then shown too
-    ByteBuffer log;        // collected messages; limited in size
-    ByteBuffer error_text; // current errors, for the overlay
-    Warnings warnings;     // warnings since the current program was loaded
+    bool shown;        // true if the last error or warning was shown; its notes are then shown too
+    Text log;          // collected messages; limited in size
+    Text error_text;   // current errors, for the overlay
+    Warnings warnings; // warnings since the current program was loaded
 } LiveScript;
 
 // Opens a session and loads the script. Returns OPTIONS_READ on success, else the exit status. The caller calls
@@ -80,7 +80,7 @@ bool live_script_set_parameter(LiveScript *live, const char *name, const char *v
 bool live_script_enable_history(LiveScript *live);
 // Goes back `count` frames, or to the first stored frame if fewer are stored, and makes the frame's picture. On
 // failure, returns false and adds the reason to `why`.
-bool live_script_go_back(LiveScript *live, int64_t count, ByteBuffer *why);
+bool live_script_go_back(LiveScript *live, int64_t count, Text *why);
 // Restarts the last good program before frame 0 with an empty state.
 void live_script_reset(LiveScript *live);
 // Returns the current errors, or "". Valid until the next call.

@@ -57,33 +57,33 @@ static size_t count_parameters(PetriSession *session) {
     return count;
 }
 
-static void describe_parameter(LiveScript *live, size_t chosen, ByteBuffer *text) {
+static void describe_parameter(LiveScript *live, size_t chosen, Text *text) {
     PetriParameter parameter;
     if (petri_parameter(live->session, chosen, &parameter)) {
         parameter_describe(text, &parameter);
-        byte_buffer_format(text, "%s%s", parameter.comment[0] == '\0' ? "" : "  ", parameter.comment);
+        text_add_format(text, "%s%s", parameter.comment[0] == '\0' ? "" : "  ", parameter.comment);
     }
 }
 
-static ParameterResult set_value(ParameterKeys *keys, LiveScript *live, const char *value, ByteBuffer *text) {
+static ParameterResult set_value(ParameterKeys *keys, LiveScript *live, const char *value, Text *text) {
     PetriParameter parameter;
     petri_parameter(live->session, keys->chosen, &parameter);
-    SCOPED_TEXT name = memory_strdup(parameter.name);
+    SCOPED_STRING name = memory_strdup(parameter.name);
     bool done = live_script_set_parameter(live, name, value);
     describe_parameter(live, keys->chosen, text);
     return done ? PARAMETER_CHANGED : PARAMETER_MESSAGE;
 }
 
-static ParameterResult step_value(ParameterKeys *keys, LiveScript *live, int steps, ByteBuffer *text) {
+static ParameterResult step_value(ParameterKeys *keys, LiveScript *live, int steps, Text *text) {
     PetriParameter parameter;
     petri_parameter(live->session, keys->chosen, &parameter);
     double to = parameter_stepped(&parameter, steps);
     if (isnan(to) || to == parameter.number) {
         describe_parameter(live, keys->chosen, text);
-        byte_buffer_format(text, "%s",
-                           isnan(parameter.number) ? ": the keys change only numbers"
-                           : isnan(to)             ? ": the keys do not set 0, because 0 selects the default"
-                                                   : "");
+        text_add_format(text, "%s",
+                        isnan(parameter.number) ? ": the keys change only numbers"
+                        : isnan(to)             ? ": the keys do not set 0, because 0 selects the default"
+                                                : "");
         return PARAMETER_MESSAGE;
     }
     char value[40];
@@ -91,14 +91,14 @@ static ParameterResult step_value(ParameterKeys *keys, LiveScript *live, int ste
     return set_value(keys, live, to == parameter.default_number ? NULL : value, text);
 }
 
-ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, ByteBuffer *text) {
+ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, Text *text) {
     int by = 0;
     KeyMeaning meaning = meaning_of(key, &by);
     if (meaning == MEANS_NOTHING)
         return PARAMETER_NOT_A_KEY;
     size_t count = count_parameters(live->session);
     if (count == 0) {
-        byte_buffer_format(text, "the script has no parameters; 'let SIZE=SIZE or 20' declares one");
+        text_add_format(text, "the script has no parameters; 'let SIZE=SIZE or 20' declares one");
         return PARAMETER_MESSAGE;
     }
     bool first = !keys->used || keys->chosen >= count; // the number of parameters may have changed
@@ -113,10 +113,10 @@ ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char 
     return meaning == MEANS_STEP ? step_value(keys, live, by, text) : set_value(keys, live, NULL, text);
 }
 
-void parameter_status(const ParameterKeys *keys, LiveScript *live, ByteBuffer *text) {
+void parameter_status(const ParameterKeys *keys, LiveScript *live, Text *text) {
     size_t count = count_parameters(live->session);
     if (count > 0) {
-        byte_buffer_format(text, "\ntab parameter  up down change  0 default\n");
+        text_add_format(text, "\ntab parameter  up down change  0 default\n");
         describe_parameter(live, keys->chosen < count ? keys->chosen : 0, text);
     }
 }

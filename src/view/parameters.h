@@ -1,7 +1,7 @@
 // parameters.h: handles the keys that select and change parameters while the script runs.
 #pragma once
 
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "petri.h"
 #include "view/live_script.h"
 
@@ -20,8 +20,8 @@ typedef enum ParameterResult {
 } ParameterResult;
 
 // Handles a key press and appends the message to `text`.
-ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, ByteBuffer *text);
+ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, Text *text);
 // Returns true for keys that act repeatedly while held.
 bool parameter_key_repeats(const char *key);
 // If the script has parameters, appends lines about the selected parameter and the keys to `text`.
-void parameter_status(const ParameterKeys *keys, LiveScript *live, ByteBuffer *text);
+void parameter_status(const ParameterKeys *keys, LiveScript *live, Text *text);

@@ -57,10 +57,10 @@ void view_update_error_text(View *view) {
 }
 
 static void add_parameters(View *view, char *text, size_t size) {
-    SCOPED_BYTE_BUFFER more = {0};
+    SCOPED_TEXT more = {0};
     size_t length = strlen(text);
     parameter_status(&view->parameters, &view->live, &more);
-    snprintf(text + length, size - length, "%s", more.length == 0 ? "" : more.data);
+    snprintf(text + length, size - length, "%s", more.len == 0 ? "" : more.bytes);
 }
 
 void view_update_status(View *view) {

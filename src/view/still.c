@@ -2,7 +2,7 @@
 #include "view/still.h"
 
 #include "base/file.h"
-#include "cli/byte_buffer.h"
+#include "cli/memory.h"
 #include "cli/progress.h"
 #include "cli/shader_test.h"
 #include "view/terminal_picture.h"
@@ -22,7 +22,7 @@ static PetriStatus write_picture(PetriPicture *picture, PetriPainter *painter, T
     PetriStatus status =
         petri_picture_draw(picture, painter, pixels, cells.width, cells.height, (size_t)cells.width * sizeof *pixels);
     size_t length = 0;
-    SCOPED_TEXT text = status == PETRI_OK ? terminal_picture_text(renderer, pixels, &cells, &length) : NULL;
+    SCOPED_STRING text = status == PETRI_OK ? terminal_picture_text(renderer, pixels, &cells, &length) : NULL;
     free(pixels);
     if (text) {
         write(user_data, text, length);
@@ -61,7 +61,7 @@ bool still_show_pixels(const uint32_t *pixels, int width, int height, bool colou
     TerminalCells cells = terminal_picture_fit(renderer, columns, rows > below ? rows - below : 1, width, height);
     cells.width = width;
     cells.height = height;
-    SCOPED_TEXT text = terminal_picture_text(renderer, pixels, &cells, &length);
+    SCOPED_STRING text = terminal_picture_text(renderer, pixels, &cells, &length);
     terminal_picture_free(renderer);
     return text && file_write(STDOUT_FILENO, text, length) && file_write(STDOUT_FILENO, "\n", 1);
 }

@@ -3,8 +3,8 @@
 // While the display is open, the terminal uses its alternate screen, reports single keys and the mouse, and hides the
 // cursor. The terminal is restored when the process ends, except after SIGKILL.
 #include "base/file.h"
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "cli/progress.h"
 #include "view/display.h"
 #include "view/terminal_keys.h"
@@ -117,9 +117,9 @@ static void measure_terminal(Display *display) {
 
 static void terminal_set_title(Display *display, const char *title) {
     overlay_set(display->title, sizeof display->title, title);
-    SCOPED_BYTE_BUFFER text = {0};
-    byte_buffer_format(&text, "\033]0;%s\033\\", display->title);
-    file_write(STDOUT_FILENO, text.data, text.length);
+    SCOPED_TEXT text = {0};
+    text_add_format(&text, "\033]0;%s\033\\", display->title);
+    file_write(STDOUT_FILENO, text.bytes, text.len);
 }
 
 static void terminal_close(Display *display) {
@@ -217,16 +217,16 @@ static bool terminal_coarse(const Display *display) {
 }
 
 // Writes the lines of a text over the full width, starting at `row`. `look` is an escape sequence for the style.
-static void add_lines(ByteBuffer *out, const char *text, int row, const Display *display, const char *look) {
+static void add_lines(Text *out, const char *text, int row, const Display *display, const char *look) {
     for (const char *line = text; line && *text != '\0' && row < display->rows; row++) {
-        byte_buffer_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)strcspn(line, "\n"), line);
+        text_add_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)strcspn(line, "\n"), line);
         const char *end = strchr(line, '\n');
         line = !end ? NULL : end + 1;
     }
 }
 
 // Adds the errors at the top, the mark at the top right, and the other texts at the bottom.
-static void add_overlay(ByteBuffer *out, const Display *display, const Overlay *overlay) {
+static void add_overlay(Text *out, const Display *display, const Overlay *overlay) {
     static const char reverse[] = "\033[7m", careful[] = "\033[38;5;230;48;5;58m";
     char text[sizeof *overlay];
     int columns = display->columns - 2, row = display->rows;
@@ -235,8 +235,8 @@ static void add_overlay(ByteBuffer *out, const Display *display, const Overlay *
     add_lines(out, text, 0, display, display->colour ? wrong : reverse);
     int length = overlay_columns(overlay->mark);
     if (length > 0 && length + 2 <= display->columns) {
-        byte_buffer_format(out, "\033[1;%dH%s %s \033[0m", display->columns - length - 1,
-                           display->colour ? careful : reverse, overlay->mark);
+        text_add_format(out, "\033[1;%dH%s %s \033[0m", display->columns - length - 1,
+                        display->colour ? careful : reverse, overlay->mark);
     }
     overlay_fit(text, sizeof text, overlay->status, columns);
     row -= overlay_lines(text);
@@ -246,13 +246,13 @@ static void add_overlay(ByteBuffer *out, const Display *display, const Overlay *
     add_lines(out, text, row < 0 ? 0 : row, display, display->colour ? "\033[38;5;153;48;5;234m" : reverse);
 }
 
-static void add_picture(ByteBuffer *out, const Display *display, const char *text, size_t length) {
+static void add_picture(Text *out, const Display *display, const char *text, size_t length) {
     int row = display->top;
     for (const char *end = text + length; text < end; row++) {
         const char *newline = memchr(text, '\n', (size_t)(end - text));
         size_t part = (size_t)((!newline ? end : newline) - text);
-        byte_buffer_format(out, "\033[%d;%dH", row + 1, display->left + 1);
-        byte_buffer_add(out, text, part);
+        text_add_format(out, "\033[%d;%dH", row + 1, display->left + 1);
+        text_add(out, (Str){text, part});
         text += part + 1;
     }
 }
@@ -272,17 +272,17 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
         message("out of memory");
         return false;
     }
-    SCOPED_BYTE_BUFFER out = {0};
-    byte_buffer_add_text(&out, BEGIN_UPDATE);
+    SCOPED_TEXT out = {0};
+    text_add_c(&out, BEGIN_UPDATE);
     // Fills the space around the picture with black, as in a window.
     if (display->clear || !same_lines(overlay, &display->shown))
-        byte_buffer_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : "");
+        text_add_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : "");
     if (terminal_picture_is_graphics(display->renderer))
-        byte_buffer_add_text(&out, DELETE_IMAGES);
+        text_add_c(&out, DELETE_IMAGES);
     add_picture(&out, display, text, length);
     add_overlay(&out, display, overlay);
-    byte_buffer_format(&out, "\033[0m%s", END_UPDATE);
-    file_write(STDOUT_FILENO, out.data, out.length);
+    text_add_format(&out, "\033[0m%s", END_UPDATE);
+    file_write(STDOUT_FILENO, out.bytes, out.len);
     free(text);
     display->shown = *overlay;
     display->clear = false;

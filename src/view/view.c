@@ -123,10 +123,10 @@ static void reset_script(View *view) {
 
 // Handles a key for the script's parameters.
 static void change_parameters(View *view, const char *key) {
-    SCOPED_BYTE_BUFFER text = {0};
+    SCOPED_TEXT text = {0};
     ParameterResult act = parameter_key(&view->parameters, &view->live, key, &text);
     if (act != PARAMETER_NOT_A_KEY) {
-        view_notice(view, "%s", text.data);
+        view_notice(view, "%s", text.bytes);
         view_update_status(view);
     }
     if (act == PARAMETER_CHANGED) {

@@ -1,6 +1,6 @@
 // window.c: the window display, which uses SDL.
-#include "cli/byte_buffer.h"
 #include "cli/cli.h"
+#include "cli/memory.h"
 #include "petri.h"
 #include "view/display.h"
 #include "view/display_probe.h"

@@ -4,16 +4,16 @@
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    SCOPED_BYTE_BUFFER text = {0}, once = {0}, twice = {0};
+    SCOPED_TEXT text = {0}, once = {0}, twice = {0};
     PetriSession *session = fuzz_open(NULL);
-    byte_buffer_add(&text, (const char *)data, size);
+    text_add(&text, (Str){(const char *)data, size});
     Str script = layout_normalise(&text);
     if (petri_load_text(session, "fuzz.fl", script.bytes, script.len) == PETRI_OK &&
         layout_text(session, script, &once)) {
-        Str formatted = {once.data, once.length};
+        Str formatted = {once.bytes, once.len};
         if (!layout_same(session, "fuzz.fl", script, formatted))
             fuzz_fail("formatting changes the meaning:\n%.*s", (int)formatted.len, formatted.bytes);
-        if (!layout_text(session, formatted, &twice) || !str_equal(formatted, (Str){twice.data, twice.length}))
+        if (!layout_text(session, formatted, &twice) || !str_equal(formatted, text_str(&twice)))
             fuzz_fail("formatting is not idempotent:\n%.*s", (int)formatted.len, formatted.bytes);
     }
     fuzz_close(&session);

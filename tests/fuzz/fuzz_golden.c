@@ -10,13 +10,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const uint8_t *part = memchr(data, 30, size);
     size_t length = part ? (size_t)(part - data) : size;
     Golden golden;
-    ByteBuffer error_text = {0}, output = {0};
+    Text error_text = {0}, output = {0};
     fuzz_put("fuzz.golden", data, length);
-    byte_buffer_add(&output, part ? (const char *)part + 1 : "", part ? size - length - 1 : 0);
+    text_add(&output, (Str){part ? (const char *)part + 1 : "", part ? size - length - 1 : 0});
     if (golden_read(&golden, fuzz_file("fuzz.golden"), &error_text))
         golden_compare(&golden, &output, &error_text);
     golden_free(&golden);
-    byte_buffer_free(&error_text);
-    byte_buffer_free(&output);
+    text_free(&error_text);
+    text_free(&output);
     return 0;
 }

@@ -1,6 +1,7 @@
 // fuzz_h5md.c: fuzzes H5MD files that a run continues. The input is a list of changes to a valid file, each of four
 // bytes: kind, object, and two operands. libhdf5 itself makes the changes, so that the file is always valid HDF5 and
 // libhdf5's own parser is not fuzzed. petri-hdf5 then continues the file.
+#include "base/file.h"
 #include "cli/cli.h"
 #include "cli/hdf5.h"
 #include "fuzz.h"
@@ -187,11 +188,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     enum { CHANGE = 4, MAX_CHANGES = 16 };
     const char *path = fuzz_file("t.h5");
     if (base.length == 0) {
-        SCOPED_BYTE_BUFFER bytes = {0};
+        SCOPED_TEXT bytes = {0};
         continue_file(path, -1);
-        if (byte_buffer_read_file(&bytes, path, SIZE_MAX))
+        if (text_read_file(&bytes, path, SIZE_MAX))
             fuzz_fail("cannot read the valid file");
-        fuzz_append(&base, bytes.data, bytes.length);
+        fuzz_append(&base, bytes.bytes, bytes.len);
     }
     fuzz_put("t.h5", base.bytes, base.length);
     hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);

@@ -36,7 +36,7 @@ static void put_journal(const Sweep *sweep, const uint8_t *data, size_t size) {
 
 // Calls the functions that print results, which need a result for each run.
 static void print_results(Sweep *sweep) {
-    SCOPED_BYTE_BUFFER table = {0}, summary = {0}, commands = {0};
+    SCOPED_TEXT table = {0}, summary = {0}, commands = {0};
     Result result = {.rows = "3\t1\t2\t\n", .frames = 3};
     for (size_t run = 0; run < RUNS; run++) {
         sweep_store_result(sweep, run, result.frames, result.rows, strlen(result.rows));
@@ -54,7 +54,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     Sweep sweep = {.host = &context, .options = &options, .metrics = metrics, .metric_count = 2, .shards = 1};
     Journal journal = {.file = -1};
     options.seeds = RUNS;
-    byte_buffer_add(&sweep.shared, "", 0);
+    text_add_c(&sweep.shared, "");
     memset(sweep.identity, 'a', SHA256_DIGITS);
     if (!design_make(&sweep.design, &options, &context))
         fuzz_fail("cannot plan the runs");
@@ -70,7 +70,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (size_t run = 0; run < sweep.design.run_count; run++)
         free(sweep.results[run].rows);
     free(sweep.results);
-    byte_buffer_free(&sweep.shared);
+    text_free(&sweep.shared);
     design_free(&sweep.design);
     return 0;
 }

@@ -8,7 +8,7 @@
 #include <zlib.h>
 
 // Appends the link whose JSON is `json`.
-static void encode_json(ByteBuffer *out, const uint8_t *json, size_t length) {
+static void encode_json(Text *out, const uint8_t *json, size_t length) {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
     z_stream stream = {.next_in = (unsigned char *)json, .avail_in = (unsigned)length};
     if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, -MAX_WBITS, 1, Z_DEFAULT_STRATEGY) != Z_OK)
@@ -20,10 +20,10 @@ static void encode_json(ByteBuffer *out, const uint8_t *json, size_t length) {
     deflate(&stream, Z_FINISH);
     size_t count = capacity - stream.avail_out;
     deflateEnd(&stream);
-    byte_buffer_add_text(out, "#");
+    text_add_c(out, "#");
     for (size_t bit = 0; bit < 8 * count; bit += 6) {
         unsigned pair = (unsigned)packed[bit / 8] << 8 | packed[bit / 8 + 1];
-        byte_buffer_add(out, &digits[pair >> (10 - bit % 8) & 63], 1);
+        text_add_char(out, digits[pair >> (10 - bit % 8) & 63]);
     }
     free(packed);
 }
@@ -33,7 +33,7 @@ static bool same_text(const char *a, const char *b) {
 }
 
 static bool same_link(const Linked *a, const Linked *b) {
-    bool same = a->text.length == b->text.length && memcmp(a->text.data, b->text.data, a->text.length) == 0 &&
+    bool same = a->text.len == b->text.len && memcmp(a->text.bytes, b->text.bytes, a->text.len) == 0 &&
                 same_text(a->name, b->name) && same_text(a->hash, b->hash) && a->change_count == b->change_count &&
                 (!a->hash || a->frame == b->frame);
     for (size_t i = 0; same && i < a->change_count; i++)
@@ -43,7 +43,7 @@ static bool same_link(const Linked *a, const Linked *b) {
 }
 
 static void check_round_trip(const Linked *linked) {
-    SCOPED_BYTE_BUFFER packed = {0};
+    SCOPED_TEXT packed = {0};
     Linked again = {0};
     if (link_pack(&packed, linked) && (!link_read(&again, &packed) || !same_link(linked, &again)))
         fuzz_fail("packing changes a link");
@@ -51,11 +51,11 @@ static void check_round_trip(const Linked *linked) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    SCOPED_BYTE_BUFFER link = {0};
+    SCOPED_TEXT link = {0};
     Linked linked = {0};
-    byte_buffer_add_text(&link, "");
+    text_add_c(&link, "");
     if (size > 0 && data[0] == '#')
-        byte_buffer_add(&link, (const char *)data, size);
+        text_add(&link, (Str){(const char *)data, size});
     else
         encode_json(&link, data, size);
     if (link_read(&linked, &link))

@@ -54,7 +54,7 @@ static void send_text(const char *text, size_t length) {
     listener_serve(&listener, &live);
     if (listener.client >= 0)
         fuzz_fail("a client was not answered");
-    byte_buffer_free(&listener.text);
+    text_free(&listener.text);
     close(ends[0]);
 }
 

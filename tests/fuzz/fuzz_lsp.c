@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 // The linker uses the functions __wrap_… instead of those without this prefix (meson.build).
-bool __wrap_rpc_has_input(const ByteBuffer *input);
+bool __wrap_rpc_has_input(const Text *input);
 DIR *__wrap_opendir(const char *folder);
 DIR *__real_opendir(const char *folder);
 
@@ -21,7 +21,7 @@ static unsigned asked; // number of calls of rpc_has_input during this input
 static bool serving;   // true while the server runs; libFuzzer also lists folders
 
 // Lets the server check documents after every second message, as it does when the editor sends nothing for a while.
-bool __wrap_rpc_has_input(const ByteBuffer *input) {
+bool __wrap_rpc_has_input(const Text *input) {
     (void)input;
     return asked++ % 2 == 1;
 }

@@ -40,15 +40,15 @@ static void step(Player *player, int frames) {
 }
 
 static void go_to(Player *player, int64_t frame) {
-    ByteBuffer why = {0};
+    Text why = {0};
     PetriStatus status = history_goto(&history, player->session, frame, &why);
     if (status != PETRI_OK)
-        print_error("%lld: %s\n", (long long)frame, why.data ? why.data : "");
+        print_error("%lld: %s\n", (long long)frame, why.bytes ? why.bytes : "");
     assert_int_equal(status, PETRI_OK);
     assert_int_equal(petri_frame(player->session).number, frame);
     if (frame >= 0)
         assert_true(state_hash(player) == hashes[frame]);
-    byte_buffer_free(&why);
+    text_free(&why);
 }
 
 static void start_history(Player *player) {
@@ -116,18 +116,18 @@ static void test_change_applies_to_later_frames(void **state) {
 
 static void test_goto_before_start_is_rejected(void **state) {
     Player *player = *state;
-    ByteBuffer why = {0};
+    Text why = {0};
     start_history(player);
     step(player, 30);
     assert_true(history_start(&history, player->session, "for a reason"));
     step(player, 30);
     assert_int_equal(history_goto(&history, player->session, 12, &why), PETRI_INVALID);
-    assert_non_null(strstr(why.data, "starts at frame 29: for a reason"));
+    assert_non_null(strstr(why.bytes, "starts at frame 29: for a reason"));
     assert_int_equal(petri_frame(player->session).number, 59);
     go_to(player, 30);
     assert_int_equal(history_reset(&history, player->session), PETRI_OK);
     assert_int_equal(petri_frame(player->session).number, 29);
-    byte_buffer_free(&why);
+    text_free(&why);
     history_free(&history);
 }
 

@@ -1,0 +1,85 @@
+// memory.c: see memory.h.
+#include "cli/memory.h"
+
+#include "base/heap.h"
+#include "cli/cli.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void heap_exhausted(void) {
+    message("out of memory");
+    exit(STATUS_FAILED);
+}
+
+static void *exit_if_null(void *block) {
+    if (!block)
+        heap_exhausted();
+    return block;
+}
+
+void *memory_calloc(size_t size) {
+    return exit_if_null(calloc(1, size == 0 ? 1 : size));
+}
+
+void *memory_realloc(void *block, size_t size) {
+    return exit_if_null(realloc(block, size));
+}
+
+char *memory_strndup(const char *text, size_t length) {
+    char *copy = exit_if_null(malloc(length + 1));
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    return copy;
+}
+
+char *memory_strdup(const char *text) {
+    return memory_strndup(text, strlen(text));
+}
+
+void memory_free_string(char **text) {
+    free(*text);
+}
+
+bool text_collect(void *text, const char *more, size_t length) {
+    text_add(text, (Str){more, length});
+    return true;
+}
+
+bool text_next_line(const Text *text, size_t *at, Str *line) {
+    if (*at >= text->len)
+        return false;
+    const char *start = text->bytes + *at, *end = memchr(start, '\n', text->len - *at);
+    *line = (Str){start, !end ? text->len - *at : (size_t)(end - start)};
+    *at += line->len + 1;
+    return true;
+}
+
+void text_add_uri(Text *text, const char *path) {
+    text_add_c(text, path[0] == '/' ? "file://" : "");
+    for (const char *c = path; *c != '\0'; c++) {
+        bool plain =
+            (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9') || strchr("/-._~", *c);
+        text_add_format(text, plain ? "%c" : "%%%02X", (unsigned char)*c);
+    }
+}
+
+void texts_add(TextList *list, const char *text) {
+    list->items = memory_realloc(list->items, (list->count + 2) * sizeof *list->items);
+    list->items[list->count++] = memory_strdup(text);
+    list->items[list->count] = NULL;
+}
+
+bool texts_contain(const TextList *list, const char *text) {
+    size_t i = 0;
+    while (i < list->count && strcmp(list->items[i], text) != 0)
+        i++;
+    return i < list->count;
+}
+
+void texts_free(TextList *list) {
+    while (list->count > 0)
+        free(list->items[--list->count]);
+    free(list->items);
+    list->items = NULL;
+}
