@@ -100,6 +100,12 @@ int str_edit_distance(Str a, Str b) {
     return above[b.len];
 }
 
+StrNearest str_nearest(Str wanted) {
+    enum { MAX_LENGTH = 12 };
+    int length = wanted.len < MAX_LENGTH ? (int)wanted.len : MAX_LENGTH;
+    return (StrNearest){wanted, length < 2 ? 1 : 2 + length / 6, {0}};
+}
+
 bool str_try_nearest(StrNearest *nearest, Str name) {
     int distance = str_edit_distance(nearest->wanted, name);
     if (distance >= nearest->limit)

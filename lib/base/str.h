@@ -44,6 +44,8 @@ typedef struct StrNearest {
     int limit;  // a name must have a smaller edit distance to be accepted; after a match, the distance of `found`
     Str found;  // nearest name; empty: none within the limit
 } StrNearest;
+// Starts a search. Longer names can differ more; no other name of one byte is similar.
+StrNearest str_nearest(Str wanted);
 // Considers one existing name. Returns true if it is the nearest so far.
 bool str_try_nearest(StrNearest *nearest, Str name);
 

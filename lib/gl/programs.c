@@ -1,11 +1,11 @@
 // programs.c: compiles shader programs and caches them by their source.
+#include "base/clock.h"
 #include "base/heap.h"
 #include "gl/internal.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 const char gl_quad[] = "#version 300 es\n"
                        "in vec2 position;\n"
@@ -197,24 +197,18 @@ void gl_draw_quad(Gl *gl, unsigned program) {
     gl_after_draw(gl);
 }
 
-static double seconds_of(clockid_t clock) {
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 // Draws with a program into a box of the target and waits for the result. Returns how long that took, in seconds.
 static double draw_box(Gl *gl, unsigned program, int y, int width, int height) {
-    double start = seconds_of(CLOCK_MONOTONIC);
+    double start = clock_seconds();
     glScissor(0, y, width, height);
     gl_draw_quad(gl, program);
     glFinish();
-    return seconds_of(CLOCK_MONOTONIC) - start;
+    return clock_seconds() - start;
 }
 
 double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, double seconds, double *needed) {
     static const double COMPILES = 0.01, BAND_SECONDS = 0.05, UNEVEN = 8, THREADS = 2;
-    const double processor = seconds_of(CLOCK_PROCESS_CPUTIME_ID), start = seconds_of(CLOCK_MONOTONIC);
+    const double processor = clock_read(CLOCK_PROCESS_CPUTIME_ID), start = clock_seconds();
     const double pixels = fmin(width, GL_TRY_SIDE) * fmin(height, GL_TRY_SIDE);
     glEnable(GL_SCISSOR_TEST);
     // The first box is as large as the pictures of gl_try_program. It is drawn again if the driver may have compiled,
@@ -233,8 +227,8 @@ double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, doub
         draw_box(gl, program, y, width, rows < height - y ? rows : height - y);
         // A GPU takes no processor time; waiting for it counts a quarter. Other threads of this process take processor
         // time for other work, so that it counts for a few threads only.
-        double wall = seconds_of(CLOCK_MONOTONIC) - start;
-        taken = fmax(fmin(seconds_of(CLOCK_PROCESS_CPUTIME_ID) - processor, THREADS * wall), wall / 4);
+        double wall = clock_seconds() - start;
+        taken = fmax(fmin(clock_read(CLOCK_PROCESS_CPUTIME_ID) - processor, THREADS * wall), wall / 4);
         good = taken <= seconds;
         *needed = taken * height / fmin(y + rows, height);
     }

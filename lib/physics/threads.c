@@ -1,6 +1,7 @@
 // threads.c: the thread pool and the claiming of chunks (threads.h).
 #include "physics/threads.h"
 
+#include "base/clock.h"
 #include "base/heap.h"
 #include "physics/backoff.h"
 #include "physics/internal.h"
@@ -10,7 +11,6 @@
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdint.h>
-#include <time.h>
 #include <unistd.h>
 
 // The ticket is a 64-bit word. Its fields are, from the high bits: the number of the job, the number of its chunks, how
@@ -55,12 +55,6 @@ struct PhysThreads {
     pthread_mutex_t mutex;
     pthread_cond_t wake;
 };
-
-static uint64_t nanoseconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint64_t)now.tv_sec * 1000000000 + (uint64_t)now.tv_nsec;
-}
 
 static int count_at(uint64_t ticket, int shift) {
     return (int)(ticket >> shift & ((1u << COUNT_BITS) - 1));
@@ -123,14 +117,14 @@ static bool sleep_until_woken(PhysThreads *threads) {
 }
 
 static void poll_for_work(PhysThreads *threads, bool from_back) {
-    uint64_t last = nanoseconds(), now = last;
+    uint64_t last = clock_nanoseconds(), now = last;
     while (now - last < SPIN_NS) {
         bool any = false;
         for (int polls = 0; polls < POLLS_PER_CHECK; polls++) {
             any |= run_chunks(threads, true, from_back) > 0;
             cpu_relax();
         }
-        now = nanoseconds();
+        now = clock_nanoseconds();
         last = any ? now : last;
     }
 }
@@ -212,7 +206,7 @@ void phys_spin_wait(PhysSpinWait *wait) {
     cpu_relax();
     if (++wait->spins % POLLS_PER_CHECK)
         return;
-    uint64_t now = nanoseconds();
+    uint64_t now = clock_nanoseconds();
     if (!wait->since)
         wait->since = now;
     else if (now - wait->since > YIELD_NS)
@@ -221,11 +215,11 @@ void phys_spin_wait(PhysSpinWait *wait) {
 
 void phys_spin_wait_end(PhysThreads *threads, const PhysSpinWait *wait) {
     if (wait->since)
-        threads->waited += nanoseconds() - wait->since;
+        threads->waited += clock_nanoseconds() - wait->since;
 }
 
 static void run_in_parallel(PhysThreads *threads, int chunks, PhysTask *work, void *context) {
-    PhysJobTimes job = {.begin = nanoseconds()};
+    PhysJobTimes job = {.begin = clock_nanoseconds()};
     unsigned before = atomic_load_explicit(&threads->done, memory_order_relaxed);
     threads->waited = 0;
     publish_job(threads, chunks, work, context);
@@ -235,7 +229,7 @@ static void run_in_parallel(PhysThreads *threads, int chunks, PhysTask *work, vo
     while (atomic_load_explicit(&threads->done, memory_order_acquire) - before < others)
         phys_spin_wait(&wait);
     phys_spin_wait_end(threads, &wait);
-    job.end = nanoseconds();
+    job.end = clock_nanoseconds();
     job.waited = threads->waited;
     job.answered = threads->helped = others > 0;
     phys_backoff_learn(&threads->backoff, &job);
@@ -244,12 +238,12 @@ static void run_in_parallel(PhysThreads *threads, int chunks, PhysTask *work, vo
 static bool has_helpers(PhysThreads *threads) {
     if (threads && !threads->started)
         start_threads(threads);
-    return threads && threads->count > 0 && !phys_backoff_pauses(&threads->backoff, nanoseconds());
+    return threads && threads->count > 0 && !phys_backoff_pauses(&threads->backoff, clock_nanoseconds());
 }
 
 // Returns true if a helper is awake. If not, and if short jobs come in quick succession, wakes helpers for later jobs.
 static bool has_awake_helper(PhysThreads *threads) {
-    uint64_t now = nanoseconds();
+    uint64_t now = clock_nanoseconds();
     if (phys_backoff_pauses(&threads->backoff, now))
         return false;
     if (threads->count > 0 && atomic_load(&threads->sleeping) < threads->count)
@@ -281,10 +275,10 @@ int phys_short_job_threads(const PhysSystem *system, uint64_t units) {
 void phys_parallel_short(const PhysSystem *system, int chunks, uint64_t units, PhysTask *work, void *context) {
     PhysTuner *tuner = tuner_of(system->threads, units);
     system->threads->helped = false;
-    uint64_t begin = nanoseconds();
+    uint64_t begin = clock_nanoseconds();
     phys_parallel(system, chunks, work, context);
     if (chunks == 1 || system->threads->helped)
-        phys_tuner_learn(tuner, chunks > 1, (double)(nanoseconds() - begin) / (double)units);
+        phys_tuner_learn(tuner, chunks > 1, (double)(clock_nanoseconds() - begin) / (double)units);
 }
 
 void phys_parallel(const PhysSystem *system, int chunks, PhysTask *work, void *context) {

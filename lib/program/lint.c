@@ -181,12 +181,13 @@ void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
 void lint_pragma(Compiler *compiler, const Ast *pragma) {
     static const Str known[] = {{"tempo", 5}, {"quantum", 7}, {"fps", 3}};
     Str name = pragma->name->name, hint = {0};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
-        if (str_equal(name, known[i]))
-            return;
-        if (str_edit_distance(name, known[i]) < 3)
-            hint = str_format(compiler->arena, "did you mean '%s'?", known[i].bytes);
-    }
+    StrNearest nearest = str_nearest(name);
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        str_try_nearest(&nearest, known[i]);
+    if (str_equal(nearest.found, name))
+        return;
+    if (nearest.found.len)
+        hint = str_format(compiler->arena, "did you mean '%.*s'?", STR_ARGS(nearest.found));
     if (lint_enabled(compiler))
         compile_report(compiler, pragma->span, DIAG_WARNING, "unknown-pragma",
                        str_format(compiler->arena, "unknown pragma '%.*s'", STR_ARGS(name)), hint);

@@ -192,7 +192,7 @@ static bool follows_slashes(const Compiler *compiler, Span span) {
 
 // Returns a hint "did you mean 'x'?" if a visible name is similar, else an empty string.
 static Str nearest_name(Compiler *compiler, Str wanted) {
-    StrNearest nearest = {.wanted = wanted, .limit = wanted.len < 4 ? 2 : 3};
+    StrNearest nearest = str_nearest(wanted);
     for (const FunctionScope *function = compiler->function; function; function = function->outer) {
         for (const Binding *binding = function->scope; binding; binding = binding->outer)
             str_try_nearest(&nearest, binding->name->name);

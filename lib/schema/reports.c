@@ -34,12 +34,8 @@ void reader_report_attr(const Reader *reader, const char *code, AttrName name, S
     report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text);
 }
 
-static StrNearest nearest_to(Str name) {
-    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names can differ more
-}
-
 void reader_report_unknown(const Reader *reader, const Symbol *name) {
-    StrNearest nearest = nearest_to(name->name);
+    StrNearest nearest = str_nearest(name->name);
     for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++)
         str_try_nearest(&nearest, str_from(schema_names[schema_rows[i].name]));
     Text out = text_new(reader->arena);
@@ -50,7 +46,7 @@ void reader_report_unknown(const Reader *reader, const Symbol *name) {
 }
 
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after) {
-    StrNearest nearest = nearest_to(kind);
+    StrNearest nearest = str_nearest(kind);
     for (int i = 0; i < KIND_COUNT; i++)
         if (schema_can_contain((NodeKind)i, place) || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
             str_try_nearest(&nearest, str_from(schema_kinds[i].name));

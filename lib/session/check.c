@@ -6,7 +6,7 @@
 // Returns the known kind of top-level node that is spelled most similarly. Returns an empty string if `kind` is itself
 // known, or if no kind is similar. Top-level nodes of unknown kinds are allowed, but have no effect.
 static Str nearest_top_kind(Str kind) {
-    StrNearest nearest = {.wanted = kind, .limit = (int)kind.len < 6 ? (int)kind.len / 3 + 1 : 3};
+    StrNearest nearest = str_nearest(kind);
     for (int i = 0; i < KIND_COUNT && nearest.limit > 0; i++)
         if (schema_kinds[i].place == PLACE_SCENE || schema_kinds[i].place == PLACE_TOP)
             str_try_nearest(&nearest, str_from(schema_kinds[i].name));

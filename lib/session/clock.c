@@ -1,22 +1,9 @@
 // clock.c: implementation of clock.h.
 #include "session/clock.h"
 
+#include "base/clock.h"
+
 #include <math.h>
-#include <time.h>
-
-static double read_clock(clockid_t clock) {
-    struct timespec time;
-    clock_gettime(clock, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
-
-double clock_monotonic(void) {
-    return read_clock(CLOCK_MONOTONIC);
-}
-
-double clock_of_day(void) {
-    return read_clock(CLOCK_REALTIME);
-}
 
 void clock_rewind(Clock *clock) {
     *clock = (Clock){
@@ -39,7 +26,7 @@ void clock_resume(Clock *clock, int64_t number) {
 }
 
 static double wall_time(const Clock *clock) {
-    return clock_monotonic() - clock->wall.origin;
+    return clock_seconds() - clock->wall.origin;
 }
 
 // Longest delay, in seconds, that a session catches up. If a session is further behind real time, it skips the rest.
@@ -56,7 +43,7 @@ static double lockstep_time(const Clock *clock) {
 static double start_wall_clock(Clock *clock) {
     double time = lockstep_time(clock);
     clock->wall.running = true;
-    clock->wall.origin = clock_monotonic() - time;
+    clock->wall.origin = clock_seconds() - time;
     clock->wall.due = time + 1 / clock->rates.fps;
     return time;
 }
@@ -105,7 +92,7 @@ double clock_seconds_until_due(const Clock *clock) {
 // Changes the origin of the wall clock so that the next frame is due now.
 static void set_to_due(Clock *clock) {
     clock->wall.due = clock->time + 1 / clock->rates.fps;
-    clock->wall.origin = clock_monotonic() - clock->wall.due;
+    clock->wall.origin = clock_seconds() - clock->wall.due;
 }
 
 void clock_resync(Clock *clock) {

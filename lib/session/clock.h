@@ -40,11 +40,6 @@ typedef struct Clock {
     WallClock wall;
 } Clock;
 
-// Returns the monotonic clock in seconds.
-double clock_monotonic(void);
-// Returns the time of day in seconds since 1970.
-double clock_of_day(void);
-
 // Rewinds to before frame 0.
 void clock_rewind(Clock *clock);
 // Changes the rates from the current frame on, without a jump in time or beat.

@@ -1,4 +1,5 @@
 // frame.c: computation of one frame: evaluates the script, then advances the systems (spec language.md L16).
+#include "base/clock.h"
 #include "session/session.h"
 
 #include <math.h>
@@ -163,7 +164,7 @@ void session_set_globals(const PetriSession *session, Vm *vm) {
         [ENGINE_QUANTUM] = clock->rates.quantum,
         [ENGINE_PERFORMANCE] = clock->wall.performance,
         [ENGINE_SLOW_FRAME] = clock->wall.slow_frame,
-        [ENGINE_CLOCK] = clock->realtime ? clock_of_day() : 0,
+        [ENGINE_CLOCK] = clock->realtime ? clock_read(CLOCK_REALTIME) : 0,
         [ENGINE_REALTIME] = clock->realtime,
         [ENGINE_OFFSCREEN] = 1,
     };
@@ -272,19 +273,19 @@ PetriStatus session_update_names(PetriSession *session) {
 static PetriStatus evaluate_script(PetriSession *session, void *context) {
     InputUndo *undo = context;
     SessionFrame *frame = &session->frame;
-    double start = clock_monotonic();
+    double start = clock_seconds();
     input_write(scene_input(session->scene), session->state, &frame->arena, session->clock.beat, undo);
     if (state_clear_exhausted(session->state))
         arena_exhausted(&frame->arena);
     session_evaluate(session, session->state);
-    frame->evaluation_seconds = clock_monotonic() - start;
+    frame->evaluation_seconds = clock_seconds() - start;
     return PETRI_OK;
 }
 
 static PetriStatus update_systems(PetriSession *session, void *context) {
     (void)context;
     SessionFrame *made = &session->frame;
-    double start = clock_monotonic();
+    double start = clock_seconds();
     if (made->no_frame_yet)
         session_lint_top_nodes(session);
     made->no_frame_yet = false;
@@ -297,7 +298,7 @@ static PetriStatus update_systems(PetriSession *session, void *context) {
                         .generation = session->loader.generation,
                         .resolution = session->config.resolution};
     made->physics_steps = scene_update(session->scene, made->tree, &frame);
-    made->physics_seconds = clock_monotonic() - start;
+    made->physics_seconds = clock_seconds() - start;
     return PETRI_OK;
 }
 

@@ -146,8 +146,7 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
 // Returns the parameter with the most similar name, or NULL if none is similar.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
     const Parameter *found = NULL;
-    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // with a limit of 1, no other one-letter name is similar
-    StrNearest nearest = {name, limit, {0}};
+    StrNearest nearest = str_nearest(name);
     for (uint32_t i = 0; i < program->parameter_count; i++)
         if (str_try_nearest(&nearest, program->parameters[i].name->name))
             found = &program->parameters[i];

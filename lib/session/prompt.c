@@ -4,6 +4,7 @@
 // their values of the last frame, before its systems were updated (session_evaluate). Names bound at the prompt are
 // evaluated in the state after the frame, as if they were typed again (session_update_names). In both cases, the values
 // do not depend on how the session reached the frame. Expressions are evaluated in a separate arena and retain nothing.
+#include "base/clock.h"
 #include "base/heap.h"
 #include "session/session.h"
 #include "syntax/parse.h"
@@ -126,9 +127,9 @@ static PetriStatus run_program(PetriSession *session, void *context) {
     session->vm.state = session->state;
     session->vm.arena = session->vm.builtins.arena = job->arena;
     job->exports = arena_alloc_array(job->arena, job->program->export_count, sizeof *job->exports);
-    double start = clock_monotonic();
+    double start = clock_seconds();
     job->value = vm_run(&session->vm, job->program, session->frame.values, job->exports);
-    job->seconds = clock_monotonic() - start;
+    job->seconds = clock_seconds() - start;
     session->vm.arena = session->vm.builtins.arena = &session->frame.arena;
     return PETRI_OK;
 }

@@ -1,16 +1,10 @@
 // profile.c: see profile.h.
 #include "vm/profile.h"
 
+#include "base/clock.h"
 #include "base/heap.h"
 
 #include <string.h>
-#include <time.h>
-
-static uint64_t monotonic_nanoseconds(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (uint64_t)time.tv_sec * 1000000000u + (uint64_t)time.tv_nsec;
-}
 
 Profile *vm_profile_new(void) {
     Profile *profile = heap_calloc(1, sizeof *profile);
@@ -37,11 +31,11 @@ void vm_profile_begin(Profile *profile, jmp_buf *escape) {
     for (uint32_t i = 0; i < profile->file_count; i++)
         profile->files[i].frame_source = NULL;
     profile->position = (ProfilePosition){0};
-    profile->last_change = monotonic_nanoseconds();
+    profile->last_change = clock_nanoseconds();
 }
 
 static void charge_elapsed(Profile *profile) {
-    uint64_t time = monotonic_nanoseconds();
+    uint64_t time = clock_nanoseconds();
     if (profile->position.counts)
         profile->position.counts->nanoseconds += time - profile->last_change;
     profile->last_change = time;

@@ -25,7 +25,7 @@ static const char *find_other_command(const Args *args, const char *name) {
 }
 
 static int unknown_option(const Args *args, const char *word, const char *name) {
-    StrNearest nearest = nearest_start(name);
+    StrNearest nearest = str_nearest(str_from(name));
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
         if (spec->commands & args->command->options)
             nearest_offer(&nearest, spec->name);

@@ -101,8 +101,7 @@ void signal_catch(int number, void (*handler)(int), int flags);
 // Writes `petri: text` and a newline to standard error. Control characters become `?`.
 __attribute__((format(printf, 1, 2))) void message(const char *format, ...);
 
-// Starts a search for the candidate that is most similar to a mistyped word.
-StrNearest nearest_start(const char *word);
-// Compares a candidate with the word. Returns true if it is the most similar one so far; nearest->found then points to
-// the NUL-terminated `name`.
+// Compares a candidate with a mistyped word, as str_try_nearest does, but also accepts a word that is a prefix of
+// `name`. Returns true if the candidate is the most similar one so far; nearest->found then points to the
+// NUL-terminated `name`.
 bool nearest_offer(StrNearest *nearest, const char *name);

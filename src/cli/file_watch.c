@@ -4,9 +4,9 @@
 // enough. Elsewhere the files are only polled.
 #include "cli/file_watch.h"
 
+#include "base/clock.h"
 #include "base/source.h"
 #include "cli/memory.h"
-#include "cli/progress.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 // hdf5.c: see hdf5.h.
 #include "cli/hdf5.h"
 
+#include "base/clock.h"
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
 #include "cli/memory.h"
-#include "cli/progress.h"
 #include "cli/script.h"
 #include "cli/signal_cleanup.h"
 

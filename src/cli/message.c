@@ -51,11 +51,6 @@ void message(const char *format, ...) {
     file_write(STDERR_FILENO, line, length);
 }
 
-StrNearest nearest_start(const char *word) {
-    Str wanted = str_from(word);
-    return (StrNearest){.wanted = wanted, .limit = 2 + (int)wanted.len / 5};
-}
-
 bool nearest_offer(StrNearest *nearest, const char *name) {
     // A word that is a prefix of the name counts as similar, such as `def` for `define`.
     bool shortened = nearest->wanted.len >= 3 && str_starts_with(str_from(name), nearest->wanted);

@@ -1,6 +1,7 @@
 // options.c: see options.h.
 #include "cli/options.h"
 
+#include "base/clock.h"
 #include "cli/args.h"
 #include "cli/memory.h"
 #include "cli/progress.h"

@@ -1,22 +1,17 @@
 // progress.c: see progress.h.
 #include "cli/progress.h"
 
+#include "base/clock.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { BAR_WIDTH = 30, DEFAULT_COLUMNS = 80, MAX_SECONDS = 999 * 60 };
 
 static const double REDRAW_SECONDS = 0.1;
-
-double clock_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
 
 bool progress_possible(void) {
     const char *terminal = getenv("TERM");

@@ -13,8 +13,6 @@ typedef struct Progress {
     double last;        // time of the last redraw on the same clock; 0: none
 } Progress;
 
-// Returns the time of the monotonic clock in seconds.
-double clock_seconds(void);
 // Sets *columns and *rows to the size of the terminal `fd`. Does not modify them if `fd` is not a terminal.
 void terminal_extent(int fd, int *columns, int *rows);
 // Returns true if standard error is a terminal that can erase a line.

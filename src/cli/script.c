@@ -116,7 +116,7 @@ static bool differs_in_suffix(const char *name, const char *script) {
 // Returns the path of the script whose file name is most similar to `name`, or NULL if no name is similar. All paths
 // start with the same folder, `folder` bytes long.
 static const char *find_nearest(const glob_t *scripts, size_t folder, const char *name) {
-    StrNearest nearest = nearest_start(name);
+    StrNearest nearest = str_nearest(str_from(name));
     const char *found = NULL;
     for (size_t i = 0; i < scripts->gl_pathc; i++) {
         const char *path = scripts->gl_pathv[i];

@@ -1,8 +1,8 @@
 // state_file.c: see state_file.h.
 #include "cli/state_file.h"
 
+#include "base/clock.h"
 #include "cli/cli.h"
-#include "cli/progress.h"
 
 #include <stddef.h>
 

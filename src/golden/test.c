@@ -1,8 +1,8 @@
 // test.c: the command `petri test`, which runs scripts and compares their output with goldens.
+#include "base/clock.h"
 #include "base/source.h"
 #include "cli/options.h"
 #include "cli/output.h"
-#include "cli/progress.h"
 #include "cli/script.h"
 #include "cli/subprocess.h"
 #include "golden/golden.h"

@@ -74,7 +74,7 @@ static bool print_option(Text *text, const char *word) {
 }
 
 static int unknown_topic(const char *topic) {
-    StrNearest nearest = nearest_start(topic);
+    StrNearest nearest = str_nearest(str_from(topic));
     for (size_t i = 0; COMMANDS[i]; i++)
         nearest_offer(&nearest, COMMANDS[i]->name);
     nearest_offer(&nearest, "builtins");

@@ -35,7 +35,7 @@ static bool is_script_without_suffix(const char *word) {
 }
 
 static int unknown_command(const char *word) {
-    StrNearest nearest = nearest_start(word);
+    StrNearest nearest = str_nearest(str_from(word));
     for (size_t i = 0; COMMANDS[i]; i++)
         nearest_offer(&nearest, COMMANDS[i]->name);
     if (nearest_offer(&nearest, "builtins") || nearest_offer(&nearest, "nodes")) {

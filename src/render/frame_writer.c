@@ -4,11 +4,11 @@
 // several frames write the same file, the last of them remains.
 #include "render/frame_writer.h"
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "base/replace.h"
 #include "cli/cli.h"
 #include "cli/memory.h"
-#include "cli/progress.h"
 #include "cli/shader_test.h"
 #include "render/recording.h"
 #include "render/video.h"

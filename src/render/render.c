@@ -1,4 +1,5 @@
 // render.c: `petri render`, which writes an image of a frame, a series of images or a video.
+#include "base/clock.h"
 #include "cli/memory.h"
 #include "cli/script.h"
 #include "cli/stdout_file.h"

@@ -1,6 +1,6 @@
 // commands.c: looks up and executes commands; implements .help, .time and .quit.
+#include "base/clock.h"
 #include "cli/help.h"
-#include "cli/progress.h"
 #include "cli/text_table.h"
 #include "repl/repl.h"
 
@@ -73,7 +73,7 @@ static void list_nodes(Text *text) {
 }
 
 static bool suggest_topic(Repl *repl, const char *topic) {
-    StrNearest nearest = nearest_start(topic);
+    StrNearest nearest = str_nearest(str_from(topic));
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)); i++)
         if (nearest_offer(&nearest, command->name + (topic[0] != '.')))
@@ -165,7 +165,7 @@ const ReplCommand OTHER_COMMANDS[] = {
 };
 
 static void report_unknown(Repl *repl, const char *name) {
-    StrNearest nearest = nearest_start(name);
+    StrNearest nearest = str_nearest(str_from(name));
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)); i++)
         nearest_offer(&nearest, command->name);

@@ -1,6 +1,7 @@
 // frames.c: the loop over a script's frames.
 #include "run/frames.h"
 
+#include "base/clock.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "cli/signal_cleanup.h"

@@ -1,4 +1,5 @@
 // run.c: `petri run`, which runs frames without drawing them and prints the requested results.
+#include "base/clock.h"
 #include "cli/helper_exec.h"
 #include "cli/memory.h"
 #include "cli/output.h"

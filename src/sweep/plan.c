@@ -85,7 +85,7 @@ static bool add_option(const Plan *plan, const OptionSpec *spec, const yaml_node
 
 static bool add_entry(const Plan *plan, const yaml_node_t *key, const yaml_node_t *value) {
     const char *name = !text_of(key) ? "" : text_of(key);
-    StrNearest nearest = nearest_start(name);
+    StrNearest nearest = str_nearest(str_from(name));
     if (strcmp(name, "script") == 0 && text_of(value)) {
         add_script(plan, text_of(value));
         return true;

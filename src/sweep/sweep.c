@@ -1,6 +1,7 @@
 // sweep.c: `petri sweep`, which runs a script over many parameter values and measures the results.
 #include "sweep/sweep.h"
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "cli/args.h"
 #include "cli/hdf5.h"

@@ -1,9 +1,9 @@
 // listen.c: implementation of listen.h.
 #include "view/listen.h"
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "cli/json.h"
-#include "cli/progress.h"
 
 #include <errno.h>
 #include <fcntl.h>

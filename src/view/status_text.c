@@ -1,5 +1,5 @@
 // status_text.c: updates the texts shown over the picture; see view.h.
-#include "cli/progress.h"
+#include "base/clock.h"
 #include "view/view.h"
 
 #include <inttypes.h>

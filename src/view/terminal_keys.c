@@ -1,7 +1,7 @@
 // terminal_keys.c: implementation of terminal_keys.h.
 #include "view/terminal_keys.h"
 
-#include "cli/progress.h"
+#include "base/clock.h"
 #include "petri.h"
 
 #include <errno.h>

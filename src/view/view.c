@@ -1,7 +1,7 @@
 // view.c: `petri view`: the main loop, which connects a live script (live_script.h) and a display (display.h).
 #include "view/view.h"
 
-#include "cli/progress.h"
+#include "base/clock.h"
 #include "cli/script.h"
 #include "view/still.h"
 
