@@ -4,6 +4,8 @@
 // finishes the file, so the file is always valid.
 #pragma once
 
+#include "base/str.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -22,21 +24,22 @@ typedef struct Hdf5 {
 } Hdf5;
 
 // Starts petri-hdf5. Returns false after a message. `kind` selects what the caller writes to the stream. "trajectory":
-// any number of Hdf5Head, each followed by its data. "table": one HDF5_ADD with CSV, then HDF5_COMMIT.
-// If `after` is not NULL, the trajectory survives a crash of petri and petri-hdf5 and can be resumed. `after` then has
-// the form "FRAME LAST". FRAME is the frame after which the run resumes (-1: none). LAST is the last frame that an
-// existing file should contain.
-// `pending_signal` returns the number of a signal that has been caught, or 0. NULL: signals are not caught. After a
-// signal, petri-hdf5 is continued if it is stopped. It is killed if it then does nothing for some seconds, so that
-// petri does not wait for it forever.
+// any number of Hdf5Head, each followed by its data. "table": one HDF5_ADD with the data of hdf5_table, then
+// HDF5_COMMIT. If `after` is not NULL, the trajectory survives a crash of petri and petri-hdf5 and can be resumed.
+// `after` then has the form "FRAME LAST". FRAME is the frame after which the run resumes (-1: none). LAST is the last
+// frame that an existing file should contain. `pending_signal` returns the number of a signal that has been caught, or
+// 0. NULL: signals are not caught. After a signal, petri-hdf5 is continued if it is stopped. It is killed if it then
+// does nothing for some seconds, so that petri does not wait for it forever.
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after, int (*pending_signal)(void));
 // Sends bytes to the Hdf5 that `writer` points to. On failure returns false with errno set. An OutputSend.
 bool hdf5_write(void *writer, const char *bytes, size_t length);
 // Waits until petri-hdf5 answers an HDF5_SYNC. All data that was sent before the HDF5_SYNC is then on disk. On failure,
 // returns false after a message from petri-hdf5.
 bool hdf5_wait(Hdf5 *writer);
-// Writes a whole table. Returns false after a message.
-bool hdf5_table(const char *path, const char *csv, size_t length, int (*pending_signal)(void));
+// Writes a whole table. `cells` has the NUL-terminated cells of all rows, each of `width` cells; the first row has the
+// names of the columns. A column is stored as integers if all its cells are integers, and as doubles if all are numbers
+// or empty (NaN). Other columns, and the last, are strings. Returns false after a message.
+bool hdf5_table(const char *path, uint64_t width, Str cells, int (*pending_signal)(void));
 // Returns true if the file name ends in .h5 or .hdf5. A table is then written as HDF5.
 bool hdf5_has_suffix(const char *path);
 // Closes the stream and waits until the file has its final name. Returns false if petri-hdf5 was not started, or

@@ -22,18 +22,18 @@ __attribute__((format(printf, 2, 3))) static void write_format(const RowWriter *
     writer->write(writer->host, text, (size_t)length);
 }
 
-// Writes a comma and a CSV field, quoted if it contains commas, quotes or line ends.
-static void write_text(const RowWriter *writer, const char *text) {
-    size_t length = strlen(text);
-    writer->write(writer->host, ",", 1);
-    if (!strpbrk(text, ",\"\r\n")) {
-        writer->write(writer->host, text, length);
+void csv_write(Str cell, PetriWriteCallback *write, void *user_data) {
+    bool plain = true;
+    for (size_t i = 0; i < cell.len; i++)
+        plain = plain && !strchr(",\"\r\n", cell.bytes[i]);
+    if (plain) {
+        write(user_data, cell.bytes, cell.len);
         return;
     }
-    writer->write(writer->host, "\"", 1);
-    for (const char *c = text; *c != '\0'; c++)
-        writer->write(writer->host, *c == '"' ? "\"\"" : c, *c == '"' ? 2 : 1);
-    writer->write(writer->host, "\"", 1);
+    write(user_data, "\"", 1);
+    for (const char *c = cell.bytes; c < cell.bytes + cell.len; c++)
+        write(user_data, *c == '"' ? "\"\"" : c, *c == '"' ? 2 : 1);
+    write(user_data, "\"", 1);
 }
 
 static void write_vector(const RowWriter *writer, const PetriSystem *system, PetriColumn column, uint32_t particle) {
@@ -74,9 +74,10 @@ bool particles_rows(PetriSession *session, uint32_t dimensions, PetriWriteCallba
             const char *id = petri_format_value(session, petri_particle_id(session, s, i));
             if (!id)
                 return false;
-            write_format(&writer, "%" PRId64 ",%.17g", frame.number, frame.time);
-            write_text(&writer, system.name);
-            write_text(&writer, id);
+            write_format(&writer, "%" PRId64 ",%.17g,", frame.number, frame.time);
+            csv_write(str_from(system.name), write, user_data);
+            write_format(&writer, ",");
+            csv_write(str_from(id), write, user_data);
             write_format(&writer, ",%d", system.anchor[i * system.anchor_stride] ? 1 : 0);
             write_vector(&writer, &system, system.position, i);
             write_vector(&writer, &system, system.velocity, i);

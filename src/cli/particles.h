@@ -1,11 +1,15 @@
-// particles.h: CSV trajectories (RFC 4180), one row per particle and frame. Used by `petri run --trajectory run.csv`
-// and by the playground.
+// particles.h: CSV files (RFC 4180), and trajectories in this format with one row per particle and frame. Used by
+// `petri sweep`, by `petri run --trajectory run.csv` and by the playground.
 #pragma once
 
+#include "base/str.h"
 #include "petri.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+// Writes a cell, quoted if it contains commas, quotes or line ends.
+void csv_write(Str cell, PetriWriteCallback *write, void *user_data);
 
 // Returns the largest number of dimensions of the systems in the last frame, at least 1.
 uint32_t particles_dimensions(PetriSession *session);

@@ -3,6 +3,5 @@
 
 #include "hdf5/store.h"
 
-// Writes a CSV table, whose first line contains the column names, as the data set `table`. A column is stored as
-// integers if all its cells are integers, and as doubles if all are numbers or empty (NaN). Other columns are strings.
-void table_store(Store *store, const char *csv, size_t length);
+// Writes the `length` bytes of data that hdf5_table (cli/hdf5.h) has sent, as the data set `table`.
+void table_store(Store *store, const char *data, size_t length);

@@ -1,4 +1,5 @@
 // summary.c: mean, standard deviation and quantiles of each metric over runs that differ only in SEED.
+#include "cli/particles.h"
 #include "sweep/table.h"
 
 #include <inttypes.h>
@@ -61,7 +62,7 @@ static bool differ_in_seed_alone(const Design *design, size_t a, size_t b) {
 
 static void add_values(const Design *design, size_t run, Text *out) {
     for (size_t i = 0; i < design->axis_count - design->seeded; i++) {
-        csv_add(out, str_from(design_value(design, run, i)));
+        csv_write(str_from(design_value(design, run, i)), text_collect, out);
         text_add_format(out, ",");
     }
 }
@@ -85,7 +86,7 @@ static void add_metric(const Sweep *sweep, size_t first, size_t end, size_t metr
         add_values(&sweep->design, first, out);
         if (each_frame)
             text_add_format(out, "%" PRId64 ",", list.items[i].frame);
-        csv_add(out, str_from(row_number_name(sweep, metric)));
+        csv_write(str_from(row_number_name(sweep, metric)), text_collect, out);
         add_statistics(out, list.items + i, next - i);
     }
     free(list.items);
@@ -94,7 +95,7 @@ static void add_metric(const Sweep *sweep, size_t first, size_t end, size_t metr
 void summary_make(const Sweep *sweep, Text *out) {
     const Design *design = &sweep->design;
     for (size_t i = 0; i < design->axis_count - design->seeded; i++) {
-        csv_add(out, str_from(design->axes[i].name));
+        csv_write(str_from(design->axes[i].name), text_collect, out);
         text_add_format(out, ",");
     }
     text_add_format(out, "%smetric,runs,mean,deviation,least,quartile1,median,quartile3,most\n",

@@ -197,7 +197,8 @@ static bool write_file(const char *path, const Text *text) {
 static bool write_table(const Sweep *sweep) {
     SCOPED_TEXT table = {0}, commands = {0}, path = {0};
     const char *output = sweep->options->output;
-    table_make(sweep, &table);
+    bool csv = !output || !hdf5_has_suffix(output);
+    table_make(sweep, csv, &table);
     if (!output) {
         if (!file_write(STDOUT_FILENO, table.bytes, table.len) && errno != EPIPE) {
             message("cannot write standard output: %s", strerror(errno));
@@ -208,8 +209,8 @@ static bool write_table(const Sweep *sweep) {
     table_commands(sweep, &commands);
     text_add_format(&path, "%s.runs", output);
     return write_file(path.bytes, &commands) &&
-           (hdf5_has_suffix(output) ? hdf5_table(output, table.bytes, table.len, worker_pool_signal)
-                                    : write_file(output, &table));
+           (csv ? write_file(output, &table)
+                : hdf5_table(output, table_width(sweep), text_str(&table), worker_pool_signal));
 }
 
 static bool write_all(const Sweep *sweep) {

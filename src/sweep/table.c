@@ -1,10 +1,12 @@
 // table.c: the table of all runs, and the command lines that repeat them.
 #include "sweep/table.h"
 
+#include "cli/particles.h"
 #include "cli/script.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,54 +54,50 @@ double row_number(const Sweep *sweep, const Row *row, size_t number) {
     return end == cell.bytes + cell.len && isfinite(x) ? x : NAN;
 }
 
-void csv_add(Text *out, Str cell) {
-    bool plain = true;
-    for (size_t i = 0; i < cell.len; i++)
-        plain = plain && !strchr(",\"\r\n", cell.bytes[i]);
-    if (plain) {
+// Appends a cell and, for CSV, the character that follows it.
+static void add_cell(Text *out, bool csv, Str cell, char end) {
+    if (csv)
+        csv_write(cell, text_collect, out);
+    else
         text_add(out, cell);
-        return;
-    }
-    text_add_c(out, "\"");
-    for (size_t i = 0; i < cell.len; i++)
-        text_add(out, (Str){cell.bytes[i] == '"' ? "\"\"" : &cell.bytes[i], cell.bytes[i] == '"' ? 2 : 1});
-    text_add_c(out, "\"");
+    text_add_char(out, csv ? end : '\0');
 }
 
-static void add_run(const Sweep *sweep, size_t run, Text *out) {
+static void add_number(Text *out, bool csv, int64_t number) {
+    char text[24];
+    snprintf(text, sizeof text, "%" PRId64, number);
+    add_cell(out, csv, str_from(text), ',');
+}
+
+static void add_run(const Sweep *sweep, size_t run, bool csv, Text *out) {
     const Design *design = &sweep->design;
     SCOPED_TEXT head = {0};
-    text_add_format(&head, "%zu,", run + 1);
-    for (size_t i = 0; i < design->axis_count; i++) {
-        csv_add(&head, str_from(design_value(design, run, i)));
-        text_add_format(&head, ",");
-    }
+    add_number(&head, csv, (int64_t)run + 1);
+    for (size_t i = 0; i < design->axis_count; i++)
+        add_cell(&head, csv, str_from(design_value(design, run, i)), ',');
     Row row;
     for (const char *at = sweep->results[run].rows; row_next(&at, &row);) {
         text_add(out, text_str(&head));
-        text_add_format(out, "%" PRId64, row.frame);
-        for (size_t i = 0; i <= sweep->metric_count; i++) {
-            text_add_format(out, ",");
-            csv_add(out, row_cell(&row, i));
-        }
-        text_add_format(out, "\n");
+        add_number(out, csv, row.frame);
+        for (size_t i = 0; i <= sweep->metric_count; i++)
+            add_cell(out, csv, row_cell(&row, i), i < sweep->metric_count ? ',' : '\n');
     }
 }
 
-void table_make(const Sweep *sweep, Text *out) {
-    text_add_format(out, "run,");
-    for (size_t i = 0; i < sweep->design.axis_count; i++) {
-        csv_add(out, str_from(sweep->design.axes[i].name));
-        text_add_format(out, ",");
-    }
-    text_add_format(out, "frame,");
-    for (size_t i = 0; i < sweep->metric_count; i++) {
-        csv_add(out, str_from(sweep->metrics[i].name));
-        text_add_format(out, ",");
-    }
-    text_add_format(out, "error\n");
+void table_make(const Sweep *sweep, bool csv, Text *out) {
+    add_cell(out, csv, STR("run"), ',');
+    for (size_t i = 0; i < sweep->design.axis_count; i++)
+        add_cell(out, csv, str_from(sweep->design.axes[i].name), ',');
+    add_cell(out, csv, STR("frame"), ',');
+    for (size_t i = 0; i < sweep->metric_count; i++)
+        add_cell(out, csv, str_from(sweep->metrics[i].name), ',');
+    add_cell(out, csv, STR("error"), '\n');
     for (size_t run = 0; run < sweep->design.run_count; run++)
-        add_run(sweep, run, out);
+        add_run(sweep, run, csv, out);
+}
+
+size_t table_width(const Sweep *sweep) {
+    return sweep->design.axis_count + sweep->metric_count + 3;
 }
 
 void table_commands(const Sweep *sweep, Text *out) {

@@ -19,10 +19,11 @@ double row_number(const Sweep *sweep, const Row *row, size_t number);
 size_t row_numbers(const Sweep *sweep);
 const char *row_number_name(const Sweep *sweep, size_t number);
 
-// Appends a cell of a CSV file, quoted if RFC 4180 requires it.
-void csv_add(Text *out, Str cell);
-
-void table_make(const Sweep *sweep, Text *out);
+// Appends all rows, the first with the names of the columns: as CSV or, if `csv` is false, as NUL-terminated cells
+// (hdf5_table).
+void table_make(const Sweep *sweep, bool csv, Text *out);
+// Returns the number of columns of the table.
+size_t table_width(const Sweep *sweep);
 // Appends one line for each run: the command that repeats the run.
 void table_commands(const Sweep *sweep, Text *out);
 // Appends mean, standard deviation and quantiles of each metric over runs that differ only in SEED.

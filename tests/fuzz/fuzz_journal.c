@@ -42,7 +42,7 @@ static void print_results(Sweep *sweep) {
         sweep_store_result(sweep, run, result.frames, result.rows, strlen(result.rows));
         fuzz_sink(NULL, "", sweep_is_failed(&sweep->results[run]));
     }
-    table_make(sweep, &table);
+    table_make(sweep, true, &table);
     table_commands(sweep, &commands);
     summary_make(sweep, &summary);
 }
