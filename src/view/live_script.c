@@ -67,6 +67,18 @@ static void prefix_error_text(LiveScript *live, const char *line) {
     live->error_text = whole;
 }
 
+static bool is_outdated(const LiveScript *live) {
+    return live->state == LIVE_OUTDATED || live->state == LIVE_OUTDATED_HALTED;
+}
+
+bool live_script_halted(const LiveScript *live) {
+    return live->state == LIVE_HALTED || live->state == LIVE_OUTDATED_HALTED;
+}
+
+static void resume(LiveScript *live) {
+    live->state = is_outdated(live) ? LIVE_OUTDATED : LIVE_RUNNING;
+}
+
 // Watches the script and all files that it has included or imported so far.
 static void watch_sources(LiveScript *live) {
     const char *source;
@@ -79,7 +91,7 @@ static int load_initial(LiveScript *live) {
     PetriStatus status = script_load(live->session, live->options->script);
     if (status != PETRI_OK)
         return live->invalid_definition ? STATUS_USAGE : STATUS_FAILED;
-    state_file_restore(&live->state, live->session, live->options->state_file);
+    state_file_restore(&live->state_file, live->session, live->options->state_file);
     return OPTIONS_READ;
 }
 
@@ -144,21 +156,20 @@ static PetriPictureOptions picture_options(const LiveScript *live) {
 
 // Frees the picture, or stores it for later if it is complete.
 static void retire_picture(LiveScript *live) {
-    if (live->picture_complete) {
+    if (live->picture_state == PICTURE_COMPLETE) {
         petri_picture_free(&live->last_complete);
         live->last_complete = live->picture;
         live->picture = NULL;
     }
-    live->picture_complete = false;
     petri_picture_free(&live->picture);
 }
 
 PetriPicture *live_script_draw(LiveScript *live) {
-    if (live->picture_hidden || !live->picture)
+    if (live->picture_state <= PICTURE_HIDDEN)
         return NULL;
     PetriStatus status = petri_picture_render(live->picture, live->painter);
     bool complete = status == PETRI_OK && !petri_picture_lacks_shader(live->picture);
-    live->picture_complete = complete;
+    live->picture_state = complete ? PICTURE_COMPLETE : PICTURE_MADE;
     live_script_check_drawn(live, status);
     size_t before = live->error_text.len;
     petri_picture_report(live->session, live->picture);
@@ -175,9 +186,9 @@ static void update_picture(LiveScript *live) {
     live->before_first_picture = !petri_picture_ready(live->session, &options);
     if (live->before_first_picture && live->picture)
         return;
-    live->picture_hidden = live->before_first_picture;
     retire_picture(live);
     PetriStatus status = petri_picture(live->session, &options, &live->picture);
+    live->picture_state = !live->picture ? PICTURE_NONE : live->before_first_picture ? PICTURE_HIDDEN : PICTURE_MADE;
     if (live_script_check_drawn(live, status) && !live->before_first_picture)
         record_frame(live);
 }
@@ -198,7 +209,8 @@ void live_script_begin(LiveScript *live) {
 
 bool live_script_step(LiveScript *live) {
     size_t before = live->error_text.len;
-    PetriStatus status = live->keeps_history ? history_step(&live->history, live->session) : petri_step(live->session);
+    PetriStatus status =
+        live->options->listen ? history_step(&live->history, live->session) : petri_step(live->session);
     PetriFrame frame = petri_frame(live->session);
     if (status != PETRI_OK) {
         char line[100];
@@ -208,7 +220,7 @@ bool live_script_step(LiveScript *live) {
         log_text(live, line);
         log_text(live, "\n");
         prefix_error_text(live, line);
-        live->halted = true;
+        live->state = is_outdated(live) ? LIVE_OUTDATED_HALTED : LIVE_HALTED;
         return false;
     }
     watch_sources(live); // the frame may have imported modules
@@ -244,11 +256,11 @@ bool live_script_reload(LiveScript *live) {
     bool loaded = petri_reload(live->session, live->options->script) == PETRI_OK;
     choose_warnings(live, &before, loaded);
     if (loaded) {
-        live->halted = live->broken = false;
+        live->state = LIVE_RUNNING;
         watch_sources(live);
         clear_error_text(live); // after a successful load, errors are listed only with the warnings
     } else {
-        live->broken = true;
+        live->state = live_script_halted(live) ? LIVE_OUTDATED_HALTED : LIVE_OUTDATED;
         prefix_error_text(live, "reload failed, still running the last good version");
     }
     petri_resync_clock(live->session);
@@ -262,8 +274,8 @@ bool live_script_set_parameter(LiveScript *live, const char *name, const char *v
     bool done = petri_set_parameter(live->session, name, value) == PETRI_OK;
     choose_warnings(live, &known, done);
     if (done) {
-        live->halted = false;
-        truncate_error_text(live, live->broken ? before : 0);
+        resume(live);
+        truncate_error_text(live, is_outdated(live) ? before : 0);
     }
     petri_resync_clock(live->session);
     return done;
@@ -271,10 +283,10 @@ bool live_script_set_parameter(LiveScript *live, const char *name, const char *v
 
 bool live_script_enable_history(LiveScript *live) {
     live->history.live = live->options->realtime;
-    live->keeps_history = history_start(&live->history, live->session, NULL);
-    if (!live->keeps_history)
+    bool started = history_start(&live->history, live->session, NULL);
+    if (!started)
         message("out of memory");
-    return live->keeps_history;
+    return started;
 }
 
 bool live_script_go_back(LiveScript *live, int64_t count, Text *why) {
@@ -285,7 +297,7 @@ bool live_script_go_back(LiveScript *live, int64_t count, Text *why) {
     }
     PetriStatus status = history_goto(&live->history, live->session, count < now - first ? now - count : first, why);
     if (status == PETRI_OK) {
-        live->halted = false;
+        resume(live);
         update_picture(live);
     } else if (why->len == 0) {
         text_add_c(why, petri_status_text(status));
@@ -296,10 +308,10 @@ bool live_script_go_back(LiveScript *live, int64_t count, Text *why) {
 
 void live_script_reset(LiveScript *live) {
     petri_reset(live->session);
-    if (live->keeps_history)
+    if (live->options->listen)
         history_start(&live->history, live->session, NULL);
-    live->halted = false;
-    if (!live->broken)
+    resume(live);
+    if (!is_outdated(live))
         clear_error_text(live);
 }
 
@@ -327,7 +339,7 @@ static bool save_picture(LiveScript *live, const char *name) {
 
 bool live_script_screenshot(LiveScript *live, char *name, size_t size) {
     char base[200];
-    if (!live->picture || live->picture_hidden) {
+    if (live->picture_state <= PICTURE_HIDDEN) {
         snprintf(name, size, "a picture: nothing has been drawn");
         return false;
     }
@@ -340,7 +352,7 @@ bool live_script_screenshot(LiveScript *live, char *name, size_t size) {
 }
 
 void live_script_save(LiveScript *live, bool at_once) {
-    const char *error = state_file_save(&live->state, live->session, at_once);
+    const char *error = state_file_save(&live->state_file, live->session, at_once);
     if (error) {
         log_text(live, "petri: ");
         log_text(live, error);

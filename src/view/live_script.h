@@ -1,7 +1,28 @@
 // live_script.h: the script of `petri view`, which runs, is reloaded when it is saved, and produces pictures.
 //
 // If the changed script cannot be loaded, the error is reported and the last good program keeps running. If a frame
-// fails, the error is reported and the program is halted.
+// fails, the error is reported and the program is halted. States of the program (LiveState):
+//
+//                a frame failed
+//              ──────────────────▶
+//     RUNNING  ◀──────────────────  HALTED        Every reload that succeeds leads to RUNNING.
+//        │      reset, go back, set    │
+//        │ a parameter                 │ reload failed
+//        ▼       a frame failed        ▼
+//              ──────────────────▶
+//     OUTDATED ◀──────────────────  OUTDATED_HALTED
+//               as above
+//
+// States of the picture (PictureState), which is replaced after each frame:
+//
+//                    the particles are at their positions (petri_picture_ready)
+//       NONE ────────────────────────────────────────────────────▶ MADE ◀──────▶ COMPLETE
+//        │ not yet: the picture is made only for its size            ▲    drawn with all
+//        └───────────────────────▶ HIDDEN ───────────────────────────┘    shaders, or not
+//
+//     Out of memory: NONE. While a later frame is not ready, the picture and its state are retained.
+//
+// Only live_script.c changes these states.
 #pragma once
 
 #include "cli/file_watch.h"
@@ -19,13 +40,17 @@ typedef struct Warnings {
     Text text;
 } Warnings;
 
+typedef enum LiveState { LIVE_RUNNING, LIVE_HALTED, LIVE_OUTDATED, LIVE_OUTDATED_HALTED } LiveState;
+typedef enum PictureState { PICTURE_NONE, PICTURE_HIDDEN, PICTURE_MADE, PICTURE_COMPLETE } PictureState;
+
 typedef struct LiveScript {
     const Options *options;
     PetriSession *session;
     PetriPainter *painter;
     ShaderTester tester;
+    LiveState state;
+    PictureState picture_state;
     PetriPicture *picture;       // picture of the last frame; NULL: nothing to draw
-    bool picture_complete;       // true if `picture` was drawn with all shaders
     PetriPicture *last_complete; // earlier picture that was drawn with all shaders; NULL: none
     Recording recording;
     FileWatch *watch;
@@ -35,15 +60,10 @@ typedef struct LiveScript {
     double detail; // detail of future pictures (PetriPictureOptions)
     // True while the display is not open yet. Nothing is drawn, because the display determines how the painter draws.
     bool awaits_display;
-    // True if `picture` was made when before_first_picture was true. It is not shown; only its size is used.
-    bool picture_hidden;
-    bool halted;          // true after a frame has failed; the next load or reset resumes the run
-    bool broken;          // true if the script on disk cannot be loaded; an earlier version keeps running
     bool failed;          // true if an error occurred while reading, writing or recording
     bool memory_reported; // true if a failure to allocate memory for a picture was reported
-    StateFile state;
-    bool keeps_history; // true if frames are stored in `history`, so that the user can go back
-    FrameHistory history;
+    StateFile state_file;
+    FrameHistory history;    // used if other programs control the view (Options.listen), so that they can go back
     bool invalid_definition; // true if a value of -D is invalid for the script
     // Messages
     // True if messages are collected in `log` until the display is closed, because the display uses the terminal to
@@ -76,6 +96,8 @@ bool live_script_check_drawn(LiveScript *live, PetriStatus status);
 bool live_script_reload(LiveScript *live);
 // Sets a parameter of the script, or resets it to its default if `value` is NULL. Returns false if this fails.
 bool live_script_set_parameter(LiveScript *live, const char *name, const char *value);
+// Returns true if a frame has failed and the program was not changed or reset since.
+bool live_script_halted(const LiveScript *live);
 // Starts storing frames. Returns false, after a message, if out of memory.
 bool live_script_enable_history(LiveScript *live);
 // Goes back `count` frames, or to the first stored frame if fewer are stored, and makes the frame's picture. On

@@ -70,7 +70,7 @@ static bool at_end(const View *view) {
 }
 
 static bool can_step(const View *view) {
-    return !view->live.halted && (!view->paused || view->step_once);
+    return !live_script_halted(&view->live) && (!view->paused || view->step_once);
 }
 
 // Returns the number of seconds until the next action: a step, a picture, or the end of a notice.
@@ -311,7 +311,8 @@ static void run_loop(View *view) {
             step_script(view);
         }
         // If the length of the run is limited, a frame that fails ends the run.
-        if (view->live.halted && (view->live.options->frames < INT64_MAX || !isnan(view->live.options->run_time)))
+        if (live_script_halted(&view->live) &&
+            (view->live.options->frames < INT64_MAX || !isnan(view->live.options->run_time)))
             return;
         view_measure_rate(view);
         if (view->redraw && clock_seconds() - view->drawn >= view->kind->min_seconds) {
@@ -404,13 +405,13 @@ static int run_view(View *view) {
     live_script_release_messages(&view->live);
     if (!opened)
         return STATUS_FAILED;
-    if (!view->live.halted)
+    if (!live_script_halted(&view->live))
         live_script_save(&view->live, true);
     report_summary(view);
-    bool failed = view->live.halted || view->live.failed || view->broken;
-    if (interrupted && !view->live.state.outdated)
+    bool failed = live_script_halted(&view->live) || view->live.failed || view->broken;
+    if (interrupted && !view->live.state_file.outdated)
         return STATUS_SIGNAL + interrupted;
-    return failed || state_file_failed(&view->live.state) ? STATUS_FAILED : STATUS_DONE;
+    return failed || state_file_failed(&view->live.state_file) ? STATUS_FAILED : STATUS_DONE;
 }
 
 static int view_run(const CommandContext *context, Options *options) {

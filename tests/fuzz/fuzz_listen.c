@@ -25,6 +25,7 @@ static int open_live(const CommandContext *context, Options *options) {
     copy = *options;
     copy.script = "fuzz.fl";
     copy.realtime = false;
+    copy.listen = "listener";
     live = (LiveScript){.awaits_display = true};
     if (live_script_open(&live, context, &copy) != OPTIONS_READ)
         fuzz_fail("cannot open the script");
@@ -70,7 +71,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     live_script_reset(&live);
     while (fuzz_next_part(&at, end, &part, &length)) {
         send_text(part, length);
-        if (!live.halted)
+        if (!live_script_halted(&live))
             live_script_step(&live);
     }
     fuzz_end_watch();
