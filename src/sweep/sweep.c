@@ -2,21 +2,13 @@
 #include "sweep/sweep.h"
 
 #include "base/clock.h"
-#include "base/file.h"
-#include "cli/args.h"
-#include "cli/hdf5.h"
 #include "cli/helper_exec.h"
 #include "cli/mpi_channel.h"
-#include "cli/mpirun.h"
-#include "cli/script.h"
 #include "petri.h"
 #include "sweep/measure.h"
 #include "sweep/plot_support.h"
-#include "sweep/table.h"
 #include "sweep/worker_pool.h"
 
-#include <errno.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,102 +43,6 @@ void sweep_report(Sweep *sweep, PetriLevel level, const char *rendered) {
 
 static void report_diagnostic(void *context, PetriLevel level, const char *rendered) {
     sweep_report(context, level, rendered);
-}
-
-// --- options
-
-static bool is_column(const Sweep *sweep, const char *name, size_t metrics) {
-    bool taken = strcmp(name, "run") == 0 || strcmp(name, "frame") == 0 || strcmp(name, "error") == 0;
-    for (size_t i = 0; i < sweep->design.axis_count; i++)
-        taken = taken || strcmp(name, sweep->design.axes[i].name) == 0;
-    for (size_t i = 0; i < metrics; i++)
-        taken = taken || strcmp(name, sweep->metrics[i].name) == 0;
-    return taken;
-}
-
-static bool read_metrics(Sweep *sweep) {
-    const TextList *texts = &sweep->options->metrics;
-    sweep->metrics = memory_calloc((texts->count + 1) * sizeof *sweep->metrics);
-    for (; sweep->metric_count < texts->count; sweep->metric_count++) {
-        const char *text = texts->items[sweep->metric_count];
-        Metric *metric = &sweep->metrics[sweep->metric_count];
-        size_t name = strcspn(text, "=");
-        *metric = (Metric){memory_strndup(text, name), text + name + 1};
-        if (is_column(sweep, metric->name, sweep->metric_count)) {
-            message("--metric %s: the table already has a column with this name", metric->name);
-            sweep->metric_count++;
-            return false;
-        }
-    }
-    if (sweep->metric_count == 0 && !sweep->options->until) {
-        message("nothing to measure; add --metric NAME='EXPR', such as --metric speed='hypot($(:cells;0;:velocity))'");
-        return false;
-    }
-    return true;
-}
-
-// Parses --shard, such as `2/4`. Without --shard, each process of mpirun executes one shard if petri was built
-// without MPI.
-static bool read_shard(Sweep *sweep) {
-    const char *text = sweep->options->shard;
-    int shard = 1, shards = 1, rank = 0, count = 0;
-    char trailing = '\0';
-    if (text) {
-        if (sscanf(text, "%d/%d%c", &shard, &shards, &trailing) != 2 || shard < 1 || shard > shards) {
-            message("option '--shard' expects I/N, such as 2/4 for the second of four, not '%s'", text);
-            return false;
-        }
-    }
-    if (!text && !sweep->host->channel && mpirun_rank(&rank, &count)) {
-        shard = rank + 1;
-        shards = count;
-    }
-    sweep->shard = (size_t)shard - 1;
-    sweep->shards = (size_t)shards;
-    if (shards > 1 && !sweep->options->output) {
-        message("option '--shard' needs a file for the table; add -o FILE.csv");
-        return false;
-    }
-    return true;
-}
-
-// Collects the options that apply to individual runs and can change their results.
-static bool read_shared_options(Sweep *sweep, const Command *command) {
-    static const char *const free_ones[] = {"color", "quiet", "threads", "neighbours", NULL};
-    Options again = *sweep->options;
-    Args args = {.command = command, .options = &again, .argc = again.argc, .argv = again.argv};
-    for (int id = args_next(&args); id != ARG_END; id = args_next(&args)) {
-        if (id != ARG_OPTION || !(args.option->commands & FOR_RUN))
-            continue;
-        bool counts = true;
-        for (size_t i = 0; free_ones[i]; i++)
-            counts = counts && strcmp(args.option->name, free_ones[i]) != 0;
-        if (counts) {
-            SCOPED_TEXT word = {0};
-            text_add_format(&word, !args.option->value ? "--%s" : "--%s=%s", args.option->name, args.value);
-            text_add_format(&sweep->shared, " ");
-            shell_add_word(&sweep->shared, word.bytes);
-        }
-    }
-    text_add_c(&sweep->shared, "");
-    return true;
-}
-
-static bool check_plot(const Sweep *sweep) {
-    const char *plot = sweep->options->plot;
-    if (!plot || sweep->host->plot_support->plot_fits(plot))
-        return true;
-    message("option '--plot' expects a file name that ends in .svg, .png or .pdf, not '%s'", plot);
-    return false;
-}
-
-static bool check_output(const Sweep *sweep) {
-    const char *output = sweep->options->output;
-    if (!output || script_suffix(output, ".nc .nc4 .cdf") < 0)
-        return true;
-    message("option '--output' expects a file name that ends in .csv or .h5, not '%s'; NetCDF is not supported",
-            output);
-    return false;
 }
 
 static void add_text(Sha256 *hash, const char *text) {
@@ -185,45 +81,6 @@ static int dry_run(Sweep *sweep) {
     return status;
 }
 
-// --- output
-
-static bool write_file(const char *path, const Text *text) {
-    const char *problem = file_replace(path, (Str){text->bytes, text->len}, 0);
-    if (problem)
-        message("cannot write %s: %s", path, problem);
-    return !problem;
-}
-
-static bool write_table(const Sweep *sweep) {
-    SCOPED_TEXT table = {0}, commands = {0}, path = {0};
-    const char *output = sweep->options->output;
-    bool csv = !output || !hdf5_has_suffix(output);
-    table_make(sweep, csv, &table);
-    if (!output) {
-        if (!file_write(STDOUT_FILENO, table.bytes, table.len) && errno != EPIPE) {
-            message("cannot write standard output: %s", strerror(errno));
-            return false;
-        }
-        return true;
-    }
-    table_commands(sweep, &commands);
-    text_add_format(&path, "%s.runs", output);
-    return write_file(path.bytes, &commands) &&
-           (csv ? write_file(output, &table)
-                : hdf5_table(output, table_width(sweep), text_str(&table), worker_pool_signal));
-}
-
-static bool write_all(const Sweep *sweep) {
-    SCOPED_TEXT summary = {0};
-    bool good = true;
-    if (sweep->options->summary) {
-        summary_make(sweep, &summary);
-        good = write_file(sweep->options->summary, &summary);
-    }
-    good = (!sweep->options->plot || sweep->host->plot_support->plot_grid_draw(sweep, sweep->options->plot)) && good;
-    return write_table(sweep) && good;
-}
-
 static size_t count_done(const Sweep *sweep, bool ours) {
     size_t count = 0;
     for (size_t run = 0; run < sweep->design.run_count; run++)
@@ -255,7 +112,7 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t mad
                 sweep->options->output);
         return STATUS_DONE;
     }
-    if (!write_all(sweep))
+    if (!sweep_write_all(sweep))
         return worker_pool_signal() != 0 ? STATUS_SIGNAL + worker_pool_signal() : STATUS_FAILED;
     if (journal->path)
         journal_remove(journal, sweep);
@@ -285,14 +142,6 @@ static int make_runs(Sweep *sweep, Journal *journal) {
     return status;
 }
 
-// Checks early that petri-hdf5 can write the table. Nothing is written, because petri-hdf5 discards a table without
-// data.
-static bool can_write(const char *output) {
-    Hdf5 writer;
-    return !output || !hdf5_has_suffix(output) ||
-           (hdf5_start(&writer, "table", output, NULL, NULL) && hdf5_end(&writer));
-}
-
 static int run_sweep(Sweep *sweep) {
     Journal journal = {.file = -1};
     int status = dry_run(sweep);
@@ -302,7 +151,7 @@ static int run_sweep(Sweep *sweep) {
         sweep->results = memory_calloc(sweep->design.run_count * sizeof *sweep->results);
         return worker_pool_run(sweep, &journal, jobs_of(sweep));
     }
-    if (!can_write(sweep->options->output))
+    if (!sweep_can_write(sweep))
         return STATUS_FAILED;
     sweep->results = memory_calloc(sweep->design.run_count * sizeof *sweep->results);
     if (sweep->options->output)
@@ -365,9 +214,7 @@ static int sweep_run(const CommandContext *host, Options *options) {
     options->threads = options->threads > 0 ? options->threads : 1;
     options->output = options->output && strcmp(options->output, "-") == 0 ? NULL : options->output;
     Sweep sweep = {.host = host, .options = options};
-    bool good = design_make(&sweep.design, options, host) && read_metrics(&sweep) && read_shard(&sweep) &&
-                check_plot(&sweep) && check_output(&sweep) && read_shared_options(&sweep, &SWEEP_COMMAND);
-    int status = good ? run_sweep(&sweep) : STATUS_USAGE;
+    int status = sweep_read_options(&sweep, &SWEEP_COMMAND) ? run_sweep(&sweep) : STATUS_USAGE;
     free_sweep(&sweep);
     return status;
 }

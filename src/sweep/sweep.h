@@ -4,7 +4,6 @@
 #include "base/sha256.h"
 #include "cli/memory.h"
 #include "cli/options.h"
-#include "cli/progress.h"
 
 // A name given with -D and its values, as strings that `petri run -D` accepts.
 typedef struct Axis {
@@ -60,6 +59,14 @@ const char *design_value(const Design *design, size_t run, size_t axis);
 bool axis_read(Axis *axis, const char *text);
 // Appends a value as an expression of the language.
 void axis_add_literal(Text *out, const char *value);
+
+// Creates the design and reads the metrics and all other options of a sweep. Returns false after a message.
+bool sweep_read_options(Sweep *sweep, const Command *command);
+// Checks early that petri-hdf5 can write the table. Nothing is written, because petri-hdf5 discards a table without
+// data. Returns false after a message.
+bool sweep_can_write(const Sweep *sweep);
+// Writes the summary, the plot and the table. Returns false after a message.
+bool sweep_write_all(const Sweep *sweep);
 
 // Returns true if the run belongs to the shard of this process.
 bool sweep_owns_run(const Sweep *sweep, size_t run);

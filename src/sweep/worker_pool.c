@@ -20,6 +20,7 @@
 
 #include "base/file.h"
 #include "cli/mpi_channel.h"
+#include "cli/progress.h"
 #include "sweep/measure.h"
 
 // RUNS_PER_WORKER: maximum number of runs assigned to a worker. REDRAW: milliseconds between progress updates.

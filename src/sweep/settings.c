@@ -1,0 +1,109 @@
+// settings.c: options of `petri sweep`: metrics, shards, files, and the options that are passed on to each run.
+#include "cli/args.h"
+#include "cli/mpirun.h"
+#include "cli/script.h"
+#include "sweep/plot_support.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static bool is_column(const Sweep *sweep, const char *name, size_t metrics) {
+    bool taken = strcmp(name, "run") == 0 || strcmp(name, "frame") == 0 || strcmp(name, "error") == 0;
+    for (size_t i = 0; i < sweep->design.axis_count; i++)
+        taken = taken || strcmp(name, sweep->design.axes[i].name) == 0;
+    for (size_t i = 0; i < metrics; i++)
+        taken = taken || strcmp(name, sweep->metrics[i].name) == 0;
+    return taken;
+}
+
+static bool read_metrics(Sweep *sweep) {
+    const TextList *texts = &sweep->options->metrics;
+    sweep->metrics = memory_calloc((texts->count + 1) * sizeof *sweep->metrics);
+    for (; sweep->metric_count < texts->count; sweep->metric_count++) {
+        const char *text = texts->items[sweep->metric_count];
+        Metric *metric = &sweep->metrics[sweep->metric_count];
+        size_t name = strcspn(text, "=");
+        *metric = (Metric){memory_strndup(text, name), text + name + 1};
+        if (is_column(sweep, metric->name, sweep->metric_count)) {
+            message("--metric %s: the table already has a column with this name", metric->name);
+            sweep->metric_count++;
+            return false;
+        }
+    }
+    if (sweep->metric_count == 0 && !sweep->options->until) {
+        message("nothing to measure; add --metric NAME='EXPR', such as --metric speed='hypot($(:cells;0;:velocity))'");
+        return false;
+    }
+    return true;
+}
+
+// Parses --shard, such as `2/4`. Without --shard, each process of mpirun executes one shard if petri was built
+// without MPI.
+static bool read_shard(Sweep *sweep) {
+    const char *text = sweep->options->shard;
+    int shard = 1, shards = 1, rank = 0, count = 0;
+    char trailing = '\0';
+    if (text) {
+        if (sscanf(text, "%d/%d%c", &shard, &shards, &trailing) != 2 || shard < 1 || shard > shards) {
+            message("option '--shard' expects I/N, such as 2/4 for the second of four, not '%s'", text);
+            return false;
+        }
+    }
+    if (!text && !sweep->host->channel && mpirun_rank(&rank, &count)) {
+        shard = rank + 1;
+        shards = count;
+    }
+    sweep->shard = (size_t)shard - 1;
+    sweep->shards = (size_t)shards;
+    if (shards > 1 && !sweep->options->output) {
+        message("option '--shard' needs a file for the table; add -o FILE.csv");
+        return false;
+    }
+    return true;
+}
+
+// Collects the options that apply to individual runs and can change their results.
+static void read_shared_options(Sweep *sweep, const Command *command) {
+    static const char *const free_ones[] = {"color", "quiet", "threads", "neighbours", NULL};
+    Options again = *sweep->options;
+    Args args = {.command = command, .options = &again, .argc = again.argc, .argv = again.argv};
+    for (int id = args_next(&args); id != ARG_END; id = args_next(&args)) {
+        if (id != ARG_OPTION || !(args.option->commands & FOR_RUN))
+            continue;
+        bool counts = true;
+        for (size_t i = 0; free_ones[i]; i++)
+            counts = counts && strcmp(args.option->name, free_ones[i]) != 0;
+        if (counts) {
+            SCOPED_TEXT word = {0};
+            text_add_format(&word, !args.option->value ? "--%s" : "--%s=%s", args.option->name, args.value);
+            text_add_format(&sweep->shared, " ");
+            shell_add_word(&sweep->shared, word.bytes);
+        }
+    }
+    text_add_c(&sweep->shared, "");
+}
+
+static bool check_plot(const Sweep *sweep) {
+    const char *plot = sweep->options->plot;
+    if (!plot || sweep->host->plot_support->plot_fits(plot))
+        return true;
+    message("option '--plot' expects a file name that ends in .svg, .png or .pdf, not '%s'", plot);
+    return false;
+}
+
+static bool check_output(const Sweep *sweep) {
+    const char *output = sweep->options->output;
+    if (!output || script_suffix(output, ".nc .nc4 .cdf") < 0)
+        return true;
+    message("option '--output' expects a file name that ends in .csv or .h5, not '%s'; NetCDF is not supported",
+            output);
+    return false;
+}
+
+bool sweep_read_options(Sweep *sweep, const Command *command) {
+    if (!design_make(&sweep->design, sweep->options, sweep->host) || !read_metrics(sweep) || !read_shard(sweep) ||
+        !check_plot(sweep) || !check_output(sweep))
+        return false;
+    read_shared_options(sweep, command);
+    return true;
+}
