@@ -49,6 +49,25 @@ bool file_version(Arena *arena, const FileAccess *file_access, const char *path,
     return found;
 }
 
+ssize_t file_read_some(int file, void *bytes, size_t len) {
+    ssize_t got;
+    do
+        got = read(file, bytes, len);
+    while (got < 0 && errno == EINTR);
+    return got;
+}
+
+bool file_read_bytes(int file, void *bytes, size_t len) {
+    for (char *at = bytes; len > 0;) {
+        ssize_t got = file_read_some(file, at, len);
+        if (got <= 0)
+            return false;
+        at += got;
+        len -= (size_t)got;
+    }
+    return true;
+}
+
 bool text_read(Text *text, int file, size_t max_len) {
     enum { BLOCK = 1 << 16 };
     ssize_t got = 1;
@@ -56,10 +75,10 @@ bool text_read(Text *text, int file, size_t max_len) {
     while (got != 0 && text->len <= max_len) {
         if (text->capacity - text->len < 2)
             text_reserve(text, text->len > BLOCK ? text->len : BLOCK);
-        got = read(file, text->bytes + text->len, text->capacity - text->len - 1);
-        if (got < 0 && errno != EINTR)
+        got = file_read_some(file, text->bytes + text->len, text->capacity - text->len - 1);
+        if (got < 0)
             return false;
-        text->len += got > 0 ? (size_t)got : 0;
+        text->len += (size_t)got;
         text->bytes[text->len] = 0;
     }
     return true;

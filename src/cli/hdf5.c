@@ -2,6 +2,7 @@
 #include "cli/hdf5.h"
 
 #include "base/clock.h"
+#include "base/file.h"
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
 #include "cli/memory.h"
@@ -107,13 +108,7 @@ static void exec_writer(int stream, char **words) {
 // petri-hdf5 has exited instead.
 static bool wait_for_ready(Hdf5 *writer, double patience) {
     char word;
-    ssize_t length;
-    if (!wait_for_event(writer, POLLIN, patience))
-        return false;
-    do {
-        length = read(writer->stream, &word, 1);
-    } while (length < 0 && errno == EINTR);
-    return length == 1;
+    return wait_for_event(writer, POLLIN, patience) && file_read_bytes(writer->stream, &word, 1);
 }
 
 static bool fork_writer(Hdf5 *writer, char **words) {

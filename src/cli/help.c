@@ -92,7 +92,8 @@ int help_print(const Text *text) {
     return help_end(output);
 }
 
-void help_prose(Text *text, const char *prose) {
+// Adds paragraphs and a newline. Joins the lines of a paragraph, but not empty lines or lines that begin with a space.
+static void help_prose(Text *text, const char *prose) {
     for (const char *at = prose; *at != '\0'; at++) {
         bool joins = at[0] == '\n' && at > prose && at[-1] != '\n' && at[1] != '\n' && at[1] != ' ' && at[1] != '\0';
         text_add(text, (Str){joins ? " " : at, 1});

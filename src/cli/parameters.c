@@ -24,7 +24,8 @@ static void add_number(Text *out, double x) {
         text_add_format(out, "%.12g", x);
 }
 
-void parameter_range(Text *out, const PetriParameter *parameter) {
+// Adds the range, such as `1..500`. Adds nothing if the parameter has no range.
+static void parameter_range(Text *out, const PetriParameter *parameter) {
     if (isinf(parameter->min) && isinf(parameter->max))
         return;
     add_number(out, parameter->min);

@@ -10,8 +10,6 @@
 size_t parameters_list(PetriSession *session, Output *output);
 // Finds a parameter of the script itself, not of its modules. Returns false if no parameter has this name.
 bool parameter_find(PetriSession *session, const char *name, PetriParameter *parameter);
-// Adds the range, such as `1..500`. Adds nothing if the parameter has no range.
-void parameter_range(Text *out, const PetriParameter *parameter);
 // Adds a description such as `NAME = VALUE  (1..500, default 200)`.
 void parameter_describe(Text *out, const PetriParameter *parameter);
 // Returns true if the diagnostic reports that the script does not accept a definition (-D).

@@ -9,9 +9,9 @@
 #include "base/file.h"
 #include "cli/cli.h"
 #include "cli/memory.h"
+#include "cli/subprocess.h"
 #include "petri-draw.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -104,7 +104,7 @@ static void describe_failure(const ShaderTester *tester, int status, PetriShader
 // A PetriShaderTest. If no process can be started, the shader is not compiled.
 static bool test_shader(void *user_data, const char *vertex, const char *fragment, PetriShaderProblem *problem) {
     const ShaderTester *tester = user_data;
-    int input[2], output[2], status = 0;
+    int input[2], output[2];
     snprintf(problem->text, sizeof problem->text, "cannot start a process that compiles the shader");
     problem->failed = true;
     if (pipe2(input, O_CLOEXEC) != 0)
@@ -128,10 +128,8 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
     if (pid > 0)
         text_read(&text, output[0], sizeof problem->text - 1);
     close(output[0]);
-    while (pid > 0 && waitpid(pid, &status, 0) < 0)
-        if (errno != EINTR)
-            return false;
-    if (pid < 0)
+    int status = pid > 0 ? subprocess_wait_for(pid) : -1;
+    if (status < 0)
         return false;
     int code = WIFEXITED(status) && sent ? WEXITSTATUS(status) : -1;
     if (code == SHADER_REJECTED || code == SHADER_REJECTED_VERTEX) {

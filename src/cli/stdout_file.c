@@ -1,6 +1,7 @@
 // stdout_file.c: see stdout_file.h.
 #include "cli/stdout_file.h"
 
+#include "base/file.h"
 #include "cli/cli.h"
 #include "cli/memory.h"
 #include "cli/output.h"
@@ -59,8 +60,8 @@ bool stdout_file_send(const StdoutFile *piped) {
     ssize_t got = 1;
     output_start(output, STDOUT_FILENO);
     while (got != 0 && output->error == 0) {
-        got = read(fd, block, sizeof output->buffer);
-        if (got < 0 && errno != EINTR) {
+        got = file_read_some(fd, block, sizeof output->buffer);
+        if (got < 0) {
             message("cannot read '%s': %s", piped->file, strerror(errno));
             break;
         }

@@ -59,6 +59,13 @@ pid_t subprocess_wait(int *status) {
     }
 }
 
+int subprocess_wait_for(pid_t pid) {
+    int status = -1;
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
 static void read_output(int fd, Text *text) {
     text_add_c(text, "");
     if (lseek(fd, 0, SEEK_SET) == 0 && !text_read(text, fd, SIZE_MAX))

@@ -20,6 +20,8 @@ int subprocess_temporary_file(void);
 // Starts a program with `folder` as its working directory. `argv` is as for execv. Returns false and sets errno on
 // failure. The program is killed after SUBPROCESS_MAX_SECONDS.
 bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv);
+// Waits until a child ends. Returns its status as waitpid does, or -1 if there is no such child.
+int subprocess_wait_for(pid_t pid);
 // Waits until any child ends. Returns its process id, or -1 if there is no child. Sets *status like waitpid.
 pid_t subprocess_wait(int *status);
 // Reads the output of a child that has ended and closes its files.

@@ -2,13 +2,13 @@
 //
 // Usage: `petri-hdf5 trajectory|table FILE [NUMBERS]`, with a socket as standard input. NUMBERS is the argument
 // `after` of hdf5_start.
+#include "base/file.h"
 #include "cli/cli.h"
 #include "cli/hdf5.h"
 #include "hdf5/spool.h"
 #include "hdf5/table.h"
 #include "hdf5/trajectory.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,24 +16,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-// Reads `length` bytes. Returns false if the stream ends earlier.
-static bool read_stream(void *bytes, size_t length) {
-    char *at = bytes;
-    while (length > 0) {
-        ssize_t count = read(STDIN_FILENO, at, length);
-        if (count <= 0 && !(count < 0 && errno == EINTR))
-            return false;
-        at += count < 0 ? 0 : count;
-        length -= count < 0 ? 0 : (size_t)count;
-    }
-    return true;
-}
-
 static bool receive_block(char **block, Hdf5Head *head) {
-    if (!read_stream(head, sizeof *head))
+    if (!file_read_bytes(STDIN_FILENO, head, sizeof *head))
         return false;
     *block = memory_realloc(*block, head->bytes + 1);
-    return read_stream(*block, head->bytes);
+    return file_read_bytes(STDIN_FILENO, *block, head->bytes);
 }
 
 // Sends a byte to petri. MSG_NOSIGNAL prevents SIGPIPE if petri has already exited.

@@ -63,16 +63,7 @@ static bool open_locked(Spool *spool) {
 }
 
 static bool read_at(const Spool *spool, uint64_t at, void *bytes, size_t length) {
-    char *to = bytes;
-    while (length > 0) {
-        ssize_t count = pread(spool->file, to, length, (off_t)at);
-        if (count <= 0 && !(count < 0 && errno == EINTR))
-            return false;
-        to += count < 0 ? 0 : count;
-        at += count < 0 ? 0 : (uint64_t)count;
-        length -= count < 0 ? 0 : (size_t)count;
-    }
-    return true;
+    return lseek(spool->file, (off_t)at, SEEK_SET) >= 0 && file_read_bytes(spool->file, bytes, length);
 }
 
 static bool reset_spool(Spool *spool, bool whole) {

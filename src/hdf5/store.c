@@ -42,16 +42,13 @@ static bool report_error(const Store *store, const char *why) {
 // Copies the existing file, if there is one, to the new file. Returns false and sets errno on failure.
 static bool copy_existing(Store *store) {
     enum { COPY_BYTES = 1 << 20 };
-    int old;
-    do {
-        old = openat(store->replacement.folder, store->replacement.name, O_RDONLY | O_CLOEXEC);
-    } while (old < 0 && errno == EINTR);
+    int old = file_open_at(store->replacement.folder, store->replacement.name, O_RDONLY, 0);
     if (old < 0)
         return errno == ENOENT;
     SCOPED_STRING bytes = memory_calloc(COPY_BYTES);
     ssize_t count;
-    while ((count = read(old, bytes, COPY_BYTES)) > 0 || (count < 0 && errno == EINTR))
-        if (count > 0 && !file_write(store->replacement.file, bytes, (size_t)count))
+    while ((count = file_read_some(old, bytes, COPY_BYTES)) > 0)
+        if (!file_write(store->replacement.file, bytes, (size_t)count))
             break;
     int cause = errno;
     close(old);

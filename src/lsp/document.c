@@ -43,7 +43,7 @@ static void text_changed(Document *document) {
     count_lines(document);
 }
 
-void document_set_text(Document *document, Str text) {
+static void document_set_text(Document *document, Str text) {
     document->text.len = 0;
     text_add_c(&document->text, "");
     add_valid_utf8(&document->text, text);

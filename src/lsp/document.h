@@ -54,7 +54,6 @@ typedef struct Document {
 
 Document *document_new(const char *uri, Str text, int64_t version);
 void document_free(Document *document);
-void document_set_text(Document *document, Str text);
 // Applies one change of textDocument/didChange.
 void document_change(Document *document, const Json *change, bool utf8);
 // Updates tokens and names if they are outdated.

@@ -12,7 +12,9 @@ static bool text_equals(Str text, const char *name) {
     return str_equal(text, str_from(name));
 }
 
-bool hover_kind(Str name, size_t *number, PetriNodeKind *kind) {
+// Finds the first kind with this name at or after index *number, and sets *number to its index. Several areas may have
+// kinds with the same name.
+static bool hover_kind(Str name, size_t *number, PetriNodeKind *kind) {
     for (size_t i = *number; petri_node_kind(i, kind); i++) {
         if (text_equals(name, kind->name)) {
             *number = i;

@@ -71,7 +71,7 @@ static bool should_interrupt(void *user_data) {
     return server->checking && rpc_has_input(&server->input);
 }
 
-bool server_open_session(Server *server) {
+static bool server_open_session(Server *server) {
     static const uint64_t quick_work = 1 << 24; // about 0.2 s
     petri_close(&server->session);
     petri_close(&server->quick);

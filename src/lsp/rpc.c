@@ -3,7 +3,6 @@
 
 #include "base/file.h"
 
-#include <errno.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,10 +15,7 @@ static const size_t MAX_BYTES = (size_t)64 << 20;
 // Reads more input. Returns false at the end of the input.
 static bool read_more(Text *input) {
     char part[1 << 16];
-    ssize_t count;
-    do {
-        count = read(STDIN_FILENO, part, sizeof part);
-    } while (count < 0 && errno == EINTR);
+    ssize_t count = file_read_some(STDIN_FILENO, part, sizeof part);
     if (count > 0)
         text_add(input, (Str){part, (size_t)count});
     return count > 0;

@@ -38,7 +38,6 @@ Document *server_file(Server *server, const char *path, const Document *main, bo
 const char *server_unsaved(void *server, const char *path, size_t *length);
 // Updates tokens and names of a document.
 void server_read(Server *server, Document *document);
-bool server_open_session(Server *server);
 
 // Diagnostics (publish.c).
 // Checks a document and sends the diagnostics to the editor. The first check has a small work limit. If the script
@@ -72,9 +71,6 @@ Json *tokens_legend(void);
 // Returns the index of the node kind to which an attribute at `token` belongs, or SIZE_MAX if there is none. Sets *name
 // to the name of the kind, or to NULL if it is unknown.
 size_t hover_node_of(const Document *document, size_t token, const char **name);
-// Finds the first kind with this name at or after index *number, and sets *number to its index. Several areas may have
-// kinds with the same name.
-bool hover_kind(Str name, size_t *number, PetriNodeKind *kind);
 bool hover_builtin(Str name, PetriBuiltin *builtin);
 void hover_attribute(Text *out, const PetriNodeAttribute *attribute);
 // Appends the definition of a name as a code block, its value if it is constant, and its comment.

@@ -122,20 +122,13 @@ static void reset_video(Video *video) {
     video->cleanup_id = video->frames = video->errors = -1;
 }
 
-static int wait_for(pid_t pid) {
-    int status = 0;
-    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-    }
-    return status;
-}
-
 // Kills ffmpeg and discards the video. Called when a signal terminates this process.
 static void abort_on_signal(void *context) {
     Video *video = context;
     pid_t pid = atomic_exchange(&video->pid, 0);
     if (pid > 0) {
         kill(pid, SIGKILL);
-        wait_for(pid);
+        subprocess_wait_for(pid);
     }
     replace_abort(&video->film);
 }
@@ -198,7 +191,7 @@ static void report_failure(Video *video, int status) {
 static bool finish_ffmpeg(Video *video) {
     close(video->frames);
     video->frames = -1;
-    int status = wait_for(video->pid);
+    int status = subprocess_wait_for(video->pid);
     video->pid = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return true;

@@ -80,7 +80,8 @@ bool repl_status(Repl *repl, PetriStatus status) {
     return status == PETRI_OK;
 }
 
-bool repl_write(void *host, const char *text, size_t length) {
+// Writes to the output; a PetriWriteCallback.
+static bool repl_write(void *host, const char *text, size_t length) {
     Repl *repl = host;
     return output_write(&repl->output, text, length);
 }
@@ -123,7 +124,8 @@ static void execute_text(Repl *repl, const char *text, size_t length) {
         repl_note(repl, "%s", remark.bytes);
 }
 
-void repl_execute(Repl *repl, const char *text, size_t length) {
+// Executes one input, which must not be blank: a command, or a statement or expression of the language.
+static void repl_execute(Repl *repl, const char *text, size_t length) {
     repl->failed = false;
     execute_text(repl, text, length);
     repl->any_failed = repl->any_failed || repl->failed;

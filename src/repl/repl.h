@@ -37,10 +37,6 @@ __attribute__((format(printf, 2, 3))) bool repl_fail(Repl *repl, const char *for
 // Returns true for PETRI_OK. For other statuses, marks the current input as failed and writes a message unless a
 // diagnostic was already written.
 bool repl_status(Repl *repl, PetriStatus status);
-// Executes one input, which must not be blank: a command, or a statement or expression of the language.
-void repl_execute(Repl *repl, const char *text, size_t length);
-// Writes to the output; a PetriWriteCallback.
-bool repl_write(void *repl, const char *text, size_t length);
 
 // Between repl_busy and repl_idle, Ctrl-C interrupts the session. repl_idle returns true if Ctrl-C was typed since
 // repl_busy.
@@ -117,8 +113,6 @@ size_t argument_lines(const Repl *repl, char *text, size_t around);
 // Writes a note that the script still uses its own binding of a name that was just bound at the prompt
 // (set_commands.c).
 void repl_warn_shadowed(Repl *repl, const char *name);
-// Writes the current frame's `@` line, its log and the watched expressions (step_commands.c).
-void repl_show_frame(Repl *repl);
 // If Ctrl-C interrupted the current frame, computes it again, because an interrupted frame has no systems and no nodes.
 void repl_complete_frame(Repl *repl);
 

@@ -35,7 +35,8 @@ static bool format_frame(Repl *repl, Text *text) {
     return memchr(text->bytes, '\n', text->len) != text->bytes + text->len - 1;
 }
 
-void repl_show_frame(Repl *repl) {
+// Writes the current frame's `@` line, its log and the watched expressions.
+static void repl_show_frame(Repl *repl) {
     SCOPED_TEXT text = {0};
     if (petri_frame(repl->session).number < 0) {
         repl_note(repl, "this is before the first frame");

@@ -21,7 +21,8 @@ bool row_next(const char **at, Row *row) {
     return true;
 }
 
-Str row_cell(const Row *row, size_t number) {
+// Returns the cell of a metric, or the error if `number` is metric_count. The cell can be empty.
+static Str row_cell(const Row *row, size_t number) {
     Str cells = row->cells;
     if (cells.len == 0)
         return cells; // a damaged journal can contain rows without cells

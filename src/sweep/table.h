@@ -10,8 +10,6 @@ typedef struct Row {
 } Row;
 // Reads the row at *at and advances *at; start with *at = Result.rows. Returns false after the last row.
 bool row_next(const char **at, Row *row);
-// Returns the cell of a metric, or the error if `number` is metric_count. The cell can be empty.
-Str row_cell(const Row *row, size_t number);
 // Returns the value of a metric, or the frame if `number` is metric_count. Returns NaN if the value is not one finite
 // number.
 double row_number(const Sweep *sweep, const Row *row, size_t number);

@@ -21,6 +21,7 @@
 #include "base/file.h"
 #include "cli/mpi_channel.h"
 #include "cli/progress.h"
+#include "cli/subprocess.h"
 #include "sweep/measure.h"
 
 // RUNS_PER_WORKER: maximum number of runs assigned to a worker. REDRAW: milliseconds between progress updates.
@@ -66,18 +67,6 @@ static void on_signal(int number) {
     stopped = number;
 }
 
-// Reads exactly `length` bytes. Returns false if the pipe ends earlier.
-static bool read_all(int fd, void *data, size_t length) {
-    for (char *at = data; length > 0;) {
-        ssize_t count = read(fd, at, length);
-        if (count == 0 || (count < 0 && errno != EINTR))
-            return false;
-        at += count < 0 ? 0 : count;
-        length -= count < 0 ? 0 : (size_t)count;
-    }
-    return true;
-}
-
 // --- in a worker process
 
 // Stores a diagnostic for the parent: a letter for the level, the text, NUL. Ignores diagnostics after 64 KiB.
@@ -96,7 +85,7 @@ static int worker_loop(const Sweep *sweep, int requests, int results) {
     if (!measure_open(&measure, sweep, add_diagnostic, &diagnostics))
         return STATUS_FAILED;
     int64_t run = 0;
-    while (read_all(requests, &run, sizeof run)) {
+    while (file_read_bytes(requests, &run, sizeof run)) {
         diagnostics.len = 0;
         measure_run(&measure, (size_t)run);
         ResultHeader head = {run, measure.frames, measure.rows.len, diagnostics.len};
@@ -206,12 +195,12 @@ static bool store_result(WorkerPool *pool, const ResultHeader *head, const char 
 
 static bool read_result(WorkerPool *pool, PoolWorker *worker, bool *gone) {
     ResultHeader head;
-    *gone = !read_all(worker->result_pipe, &head, sizeof head);
+    *gone = !file_read_bytes(worker->result_pipe, &head, sizeof head);
     if (*gone)
         return true;
     size_t length = (size_t)(head.rows + head.diagnostics);
     SCOPED_STRING bytes = memory_calloc(length + 1);
-    *gone = !read_all(worker->result_pipe, bytes, length);
+    *gone = !file_read_bytes(worker->result_pipe, bytes, length);
     if (*gone)
         return true;
     memmove(worker->assigned, worker->assigned + 1, sizeof worker->assigned - sizeof worker->assigned[0]);
@@ -245,9 +234,7 @@ static bool receive_messages(WorkerPool *pool) {
 // Handles the end of a worker. Its current run gets a row with the cause as its error. After the first SIGKILL, which
 // the kernel sends if the machine is out of memory, the run is repeated instead. Returns false after a message.
 static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
-    int status = 0;
-    while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR) {
-    }
+    int status = subprocess_wait_for(worker->pid);
     close(worker->run_pipe);
     close(worker->result_pipe);
     worker->pid = -1;

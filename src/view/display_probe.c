@@ -1,7 +1,8 @@
 // display_probe.c: implementation of display_probe.h.
 #include "view/display_probe.h"
 
-#include <errno.h>
+#include "cli/subprocess.h"
+
 #include <netdb.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -9,7 +10,6 @@
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/un.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 enum { MAX_SECONDS = 3, X11_PORT = 6000, MAX_NAME_LENGTH = 256, REQUEST_BYTES = 12 };
@@ -108,8 +108,5 @@ bool display_probe_answers(const DisplayProbe *screen) {
         alarm(MAX_SECONDS);
         _exit(send_probe(screen) ? 0 : 1);
     }
-    int status = 1;
-    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0); // if petri cannot fork, let SDL try
+    return child < 0 || subprocess_wait_for(child) == 0; // if petri cannot fork, let SDL try
 }
