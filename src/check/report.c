@@ -27,21 +27,23 @@ static void add_json(Report *report, const PetriDiagnostic *diagnostic) {
 
 static void add_sarif(Report *report, const PetriDiagnostic *diagnostic, const char *message_text) {
     Text *out = &report->text;
-    text_add_format(out, "%s\n      {\"level\": \"%s\"", report->count == 0 ? "" : ",", level_word(diagnostic->level));
+    text_add_format(out, "%s\n      {", report->count == 0 ? "" : ",");
+    JSON_ADD(out, "level", level_word(diagnostic->level));
     if (diagnostic->code) {
-        text_add_format(out, ", \"ruleId\": \"%s\"", diagnostic->code);
+        JSON_ADD(out, "ruleId", diagnostic->code);
         if (!texts_contain(&report->codes, diagnostic->code))
             texts_add(&report->codes, diagnostic->code);
     }
-    text_add_c(out, ", \"message\": {\"text\": ");
-    json_add_text(out, message_text);
+    text_add_c(out, ", \"message\": {");
+    JSON_ADD(out, "text", message_text);
     text_add_c(out, "}");
     if (diagnostic->file) {
-        text_add_c(out, ", \"locations\": [{\"physicalLocation\": {\"artifactLocation\": {\"uri\": ");
-        text_add_c(out, "\"");
-        text_add_uri(out, diagnostic->file);
+        SCOPED_TEXT uri = {0};
+        text_add_uri(&uri, diagnostic->file);
+        text_add_c(out, ", \"locations\": [{\"physicalLocation\": {\"artifactLocation\": {");
+        JSON_ADD(out, "uri", uri.bytes);
         text_add_format(
-            out, "\"}, \"region\": {\"startLine\": %u, \"startColumn\": %u, \"endLine\": %u, \"endColumn\": %u}}}]",
+            out, "}, \"region\": {\"startLine\": %u, \"startColumn\": %u, \"endLine\": %u, \"endColumn\": %u}}}]",
             diagnostic->line, diagnostic->column, diagnostic->end_line, diagnostic->end_column);
     }
     text_add_c(out, "}");

@@ -31,6 +31,13 @@ typedef struct Topic {
 } Topic;
 extern const Topic TOPICS[]; // all topics, then one with word NULL
 
+// Find a name in petri's tables. topic_find_kind finds the first kind with this name at or after index *number, and
+// sets *number to its index, because several areas may have kinds with the same name. topic_find returns NULL if there
+// is no such word.
+bool topic_find_builtin(Str name, PetriBuiltin *builtin);
+bool topic_find_kind(Str name, size_t *number, PetriNodeKind *kind);
+const Topic *topic_find(Str word);
+
 // Adds the formulas of a force, one per line, indented. Adds nothing for other nodes.
 void help_formula(Text *text, const PetriNodeKind *kind);
 extern const char FORMULA_LETTERS[]; // explains the symbols in formulas

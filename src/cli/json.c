@@ -30,21 +30,17 @@ const char *level_word(PetriLevel level) {
     return words[level];
 }
 
-void json_add_diagnostic(Text *out, const PetriDiagnostic *diagnostic) {
-    const struct {
-        const char *name;
-        const char *text;
-    } fields[] = {{"file", diagnostic->file},
-                  {"level", level_word(diagnostic->level)},
-                  {"code", diagnostic->code},
-                  {"text", diagnostic->text},
-                  {"hint", diagnostic->hint[0] != '\0' ? diagnostic->hint : NULL}};
-    text_add_c(out, "{");
-    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
-        text_add_format(out, "\"%s\": ", fields[i].name);
-        json_add_text(out, fields[i].text);
-        text_add_c(out, ", ");
+void json_add_members(Text *out, const char *const members[]) {
+    for (; members[0]; members += 2) {
+        text_add_format(out, "%s\"%s\": ", out->bytes[out->len - 1] == '{' ? "" : ", ", members[0]);
+        json_add_text(out, members[1]);
     }
-    text_add_format(out, "\"line\": %u, \"column\": %u, \"endLine\": %u, \"endColumn\": %u}", diagnostic->line,
+}
+
+void json_add_diagnostic(Text *out, const PetriDiagnostic *diagnostic) {
+    text_add_c(out, "{");
+    JSON_ADD(out, "file", diagnostic->file, "level", level_word(diagnostic->level), "code", diagnostic->code, "text",
+             diagnostic->text, "hint", diagnostic->hint[0] != '\0' ? diagnostic->hint : NULL);
+    text_add_format(out, ", \"line\": %u, \"column\": %u, \"endLine\": %u, \"endColumn\": %u}", diagnostic->line,
                     diagnostic->column, diagnostic->end_line, diagnostic->end_column);
 }

@@ -14,25 +14,40 @@ const Topic TOPICS[] = {
     {0},
 };
 
-static bool print_word(Text *text, const char *word) {
-    for (size_t i = 0; TOPICS[i].word; i++) {
-        if (strcmp(TOPICS[i].word, word) == 0) {
-            text_add_format(text, "%s\n    %s\n", TOPICS[i].form, TOPICS[i].help);
+bool topic_find_builtin(Str name, PetriBuiltin *builtin) {
+    for (size_t i = 0; petri_builtin(i, builtin); i++)
+        if (str_equal(name, str_from(builtin->name)))
             return true;
-        }
-    }
     return false;
+}
+
+bool topic_find_kind(Str name, size_t *number, PetriNodeKind *kind) {
+    for (; petri_node_kind(*number, kind); ++*number)
+        if (str_equal(name, str_from(kind->name)))
+            return true;
+    return false;
+}
+
+const Topic *topic_find(Str word) {
+    for (const Topic *topic = TOPICS; topic->word; topic++)
+        if (str_equal(word, str_from(topic->word)))
+            return topic;
+    return NULL;
+}
+
+static bool print_word(Text *text, const char *word) {
+    const Topic *topic = topic_find(str_from(word));
+    if (topic)
+        text_add_format(text, "%s\n    %s\n", topic->form, topic->help);
+    return topic;
 }
 
 static bool print_builtin(Text *text, const char *name) {
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
-        if (strcmp(builtin.name, name) == 0) {
-            text_add_format(text, "%s(%s)\n    %s\n", builtin.name, builtin.parameters, builtin.help);
-            return true;
-        }
-    }
-    return false;
+    bool found = topic_find_builtin(str_from(name), &builtin);
+    if (found)
+        text_add_format(text, "%s(%s)\n    %s\n", builtin.name, builtin.parameters, builtin.help);
+    return found;
 }
 
 // Adds a cell with the type and unit of an attribute.
@@ -76,15 +91,13 @@ static bool print_node(Text *text, const char *name) {
     PetriNodeKind kind;
     bool found = false;
     name += name[0] == '!';
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        if (strcmp(kind.name, name) == 0) {
-            text_add_format(text, "!%s (%s): %s\n", kind.name, kind.area, kind.help);
-            help_formula(text, &kind);
-            if (kind.formula[0] != '\0')
-                text_add_format(text, "    (%s)\n", FORMULA_LETTERS);
-            print_attributes(text, i);
-            found = true;
-        }
+    for (size_t i = 0; topic_find_kind(str_from(name), &i, &kind); i++) {
+        text_add_format(text, "!%s (%s): %s\n", kind.name, kind.area, kind.help);
+        help_formula(text, &kind);
+        if (kind.formula[0] != '\0')
+            text_add_format(text, "    (%s)\n", FORMULA_LETTERS);
+        print_attributes(text, i);
+        found = true;
     }
     return found;
 }

@@ -233,7 +233,7 @@ static bool parameters_of(const RequestContext *request, size_t token, Text *out
             text_add(out, (Str){open + 1, length - 1});
             hover_binding(help, request->server, owner, bound);
         }
-    } else if (hover_builtin(document_token(request->document, token), &builtin)) {
+    } else if (topic_find_builtin(document_token(request->document, token), &builtin)) {
         text_add_c(out, builtin.parameters);
         text_add_c(help, builtin.help);
     }

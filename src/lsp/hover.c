@@ -12,25 +12,6 @@ static bool text_equals(Str text, const char *name) {
     return str_equal(text, str_from(name));
 }
 
-// Finds the first kind with this name at or after index *number, and sets *number to its index. Several areas may have
-// kinds with the same name.
-static bool hover_kind(Str name, size_t *number, PetriNodeKind *kind) {
-    for (size_t i = *number; petri_node_kind(i, kind); i++) {
-        if (text_equals(name, kind->name)) {
-            *number = i;
-            return true;
-        }
-    }
-    return false;
-}
-
-bool hover_builtin(Str name, PetriBuiltin *builtin) {
-    for (size_t i = 0; petri_builtin(i, builtin); i++)
-        if (text_equals(name, builtin->name))
-            return true;
-    return false;
-}
-
 // Searches backwards for the node within the statement. Skips expressions in brackets.
 size_t hover_node_of(const Document *document, size_t token, const char **name) {
     size_t depth = 0;
@@ -44,7 +25,7 @@ size_t hover_node_of(const Document *document, size_t token, const char **name) 
         } else if (depth == 0 && document->tokens[i - 1].kind == PETRI_TOKEN_NODE) {
             PetriNodeKind kind;
             size_t number = 0;
-            bool found = hover_kind((Str){text.bytes + 1, text.len - 1}, &number, &kind);
+            bool found = topic_find_kind((Str){text.bytes + 1, text.len - 1}, &number, &kind);
             *name = found ? kind.name : NULL;
             return found ? number : SIZE_MAX;
         }
@@ -66,7 +47,7 @@ void hover_attribute(Text *out, const PetriNodeAttribute *attribute) {
 static void hover_kinds(Text *out, Str name) {
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
-    for (size_t i = 0; hover_kind(name, &i, &kind); i++) {
+    for (size_t i = 0; topic_find_kind(name, &i, &kind); i++) {
         text_add_format(out, "%s**!%s** (%s) — %s\n", out->len > 0 ? "\n---\n" : "", kind.name, kind.area, kind.help);
         if (kind.formula[0] != '\0')
             text_add_format(out, "\n```text\n%s\n```\n%s\n", kind.formula, FORMULA_LETTERS);
@@ -78,14 +59,10 @@ static void hover_kinds(Text *out, Str name) {
     }
 }
 
-static bool hover_topic(Text *out, Str word) {
-    for (size_t i = 0; TOPICS[i].word; i++) {
-        if (text_equals(word, TOPICS[i].word)) {
-            text_add_format(out, "```flitter\n%s\n```\n%s", TOPICS[i].form, TOPICS[i].help);
-            return true;
-        }
-    }
-    return false;
+static void hover_topic(Text *out, Str word) {
+    const Topic *topic = topic_find(word);
+    if (topic)
+        text_add_format(out, "```flitter\n%s\n```\n%s", topic->form, topic->help);
 }
 
 // --- values
@@ -104,7 +81,8 @@ static bool is_constant(const Document *document, size_t start, size_t end, unsi
             continue;
         Str text = document_slice(document, name->start, name->end);
         const PetriBinding *bound = document_binding(document, name);
-        if (!bound && !hover_builtin(text, &builtin) && str_word_number(text, "true false null pi tau inf nan") < 0)
+        if (!bound && !topic_find_builtin(text, &builtin) &&
+            str_word_number(text, "true false null pi tau inf nan") < 0)
             return false;
         bool within = bound && bound->start >= start && bound->start < end;
         if (bound && !within &&
@@ -242,7 +220,7 @@ static void hover_name(Text *out, const RequestContext *request, size_t token) {
         }
     }
     PetriBuiltin builtin;
-    if (hover_builtin(text, &builtin))
+    if (topic_find_builtin(text, &builtin))
         text_add_format(out, "```flitter\n%s(%s)\n```\n%s", builtin.name, builtin.parameters, builtin.help);
     else
         hover_topic(out, text);

@@ -1,4 +1,5 @@
 // outline.c: document symbols, folding ranges and semantic tokens.
+#include "cli/help.h"
 #include "lsp/server.h"
 
 #include <stdlib.h>
@@ -138,7 +139,7 @@ static Class class_of_name(const Document *document, size_t token, int *modifier
     PetriBuiltin builtin;
     if (!bound) {
         *modifiers = IS_BUILT_IN;
-        return hover_builtin(document_token(document, token), &builtin) ? CLASS_FUNCTION : CLASS_VARIABLE;
+        return topic_find_builtin(document_token(document, token), &builtin) ? CLASS_FUNCTION : CLASS_VARIABLE;
     }
     *modifiers = bound == name ? IS_DECLARATION : 0;
     return bound->kind == PETRI_NAME_FUNC        ? CLASS_FUNCTION

@@ -71,7 +71,6 @@ Json *tokens_legend(void);
 // Returns the index of the node kind to which an attribute at `token` belongs, or SIZE_MAX if there is none. Sets *name
 // to the name of the kind, or to NULL if it is unknown.
 size_t hover_node_of(const Document *document, size_t token, const char **name);
-bool hover_builtin(Str name, PetriBuiltin *builtin);
 void hover_attribute(Text *out, const PetriNodeAttribute *attribute);
 // Appends the definition of a name as a code block, its value if it is constant, and its comment.
 void hover_binding(Text *out, Server *server, Document *document, const PetriBinding *name);

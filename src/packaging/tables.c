@@ -9,10 +9,7 @@
 // Adds a JSON object without its closing brace. `texts` alternates names and values and ends with NULL.
 static void add_row(Text *out, const char *const texts[]) {
     text_add_c(out, out->bytes[out->len - 1] == '}' ? ",\n{" : "\n{");
-    for (size_t i = 0; texts[i]; i += 2) {
-        text_add_format(out, "%s\"%s\": ", i == 0 ? "" : ", ", texts[i]);
-        json_add_text(out, texts[i + 1]);
-    }
+    json_add_members(out, texts);
 }
 
 #define ROW(out, ...) add_row(out, (const char *const[]){__VA_ARGS__, NULL})

@@ -1,4 +1,5 @@
 // arguments.c: parsing the operands of commands, and commands typed without their dot.
+#include "cli/help.h"
 #include "cli/progress.h"
 #include "repl/repl.h"
 
@@ -154,10 +155,7 @@ static bool is_bound(Repl *repl, const char *word, size_t length) {
     for (size_t i = 0; (name = petri_visible_name(repl->session, i)); i++)
         if (is_word(name, word, length))
             return true;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++)
-        if (is_word(builtin.name, word, length))
-            return true;
-    return false;
+    return topic_find_builtin((Str){word, length}, &builtin);
 }
 
 static size_t word_length(const char *text) {

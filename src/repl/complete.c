@@ -1,4 +1,5 @@
 // complete.c: completion of words at the prompt.
+#include "cli/help.h"
 #include "repl/repl.h"
 
 #include <ctype.h>
@@ -58,11 +59,9 @@ static void offer_names(Search *search) {
 static void offer_attributes(Search *search, const char *kind, size_t length) {
     PetriNodeKind node;
     PetriNodeAttribute attribute;
-    for (size_t i = 0; petri_node_kind(i, &node); i++) {
-        bool same = strlen(node.name) == length && memcmp(node.name, kind, length) == 0;
-        for (size_t k = 0; same && petri_node_attribute(i, k, &attribute); k++)
+    for (size_t i = 0; topic_find_kind((Str){kind, length}, &i, &node); i++)
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++)
             add_candidate_with(search, "", attribute.name, "=");
-    }
 }
 
 // Reads the state's keys from its printed lines, which have the form `KEY = VALUE`.

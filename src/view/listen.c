@@ -90,17 +90,16 @@ static void add_output(const Text *output, Text *out) {
     Str line;
     for (size_t at = 0; output->len > 0 && text_next_line(output, &at, &line);) {
         SCOPED_STRING text = memory_strndup(line.bytes, line.len);
-        text_add_c(out, "{\"text\": ");
-        json_add_text(out, text);
+        text_add_c(out, "{");
+        JSON_ADD(out, "text", text);
         text_add_c(out, "}\n");
     }
 }
 
 static void add_result_line(Text *out, bool done, int64_t frame, const PetriPromptResult *prompted) {
-    text_add_format(
-        out, "{\"done\": %s, \"frame\": %" PRId64 ", \"values\": %u, \"bindings\": %u, \"nodes\": %u, \"shadowed\": ",
-        done ? "true" : "false", frame, prompted->values, prompted->bindings, prompted->nodes);
-    json_add_text(out, prompted->shadowed);
+    text_add_format(out, "{\"done\": %s, \"frame\": %" PRId64 ", \"values\": %u, \"bindings\": %u, \"nodes\": %u",
+                    done ? "true" : "false", frame, prompted->values, prompted->bindings, prompted->nodes);
+    JSON_ADD(out, "shadowed", prompted->shadowed);
     text_add_c(out, "}\n");
 }
 
