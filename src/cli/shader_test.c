@@ -15,7 +15,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
@@ -29,34 +28,8 @@ enum { SHADER_GOOD = 0, SHADER_REJECTED = 10, SHADER_REJECTED_VERTEX = 11 };
 // Limits of a test. Common shaders take less than a second and 300 MB with llvmpipe.
 enum { MAX_SECONDS = 4, MAX_WAIT_SECONDS = 30, MAX_GIBIBYTES = 2, MAX_SOURCE = 1 << 24 };
 
-static atomic_bool interrupted;               // see shader_test_interrupted
-static char command_word[] = "--test-shader"; // not an option for users
-
-// Starts this program again, with pipes as its standard input and output. Returns the process id, or -1.
-static pid_t start_test(int input[2], int output[2]) {
-    static char name[] = "petri";
-    char *const arguments[] = {name, command_word, NULL};
-    extern char **environ;
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    sigset_t none;
-    pid_t pid = -1;
-    sigemptyset(&none);
-    if (posix_spawn_file_actions_init(&actions) != 0)
-        return -1;
-    if (posix_spawnattr_init(&attributes) == 0) {
-        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-        posix_spawnattr_setsigmask(&attributes, &none);
-        if (posix_spawn_file_actions_adddup2(&actions, input[0], STDIN_FILENO) != 0 ||
-            posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO) != 0 ||
-            posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0) != 0 ||
-            posix_spawn(&pid, "/proc/self/exe", &actions, &attributes, arguments, environ) != 0)
-            pid = -1;
-        posix_spawnattr_destroy(&attributes);
-    }
-    posix_spawn_file_actions_destroy(&actions);
-    return pid;
-}
+static atomic_bool interrupted;                     // see shader_test_interrupted
+static const char command_word[] = "--test-shader"; // not an option for users
 
 static bool has_signal(const ShaderTester *tester) {
     return tester->pending_signal && tester->pending_signal() != 0;
@@ -114,7 +87,8 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
         close(input[1]);
         return false;
     }
-    pid_t pid = start_test(input, output);
+    pid_t pid = subprocess_spawn("/proc/self/exe", (const char *const[]){"petri", command_word, NULL},
+                                 (const int[]){input[0], output[1], -1}, 3, false);
     close(input[0]);
     close(output[1]);
     // The process reads all of its input before it writes. If it ends early, writing fails, because SIGPIPE is ignored.

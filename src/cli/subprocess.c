@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,6 +50,34 @@ bool subprocess_start(Subprocess *child, const char *program, const char *folder
         errno = error;
     }
     return child->pid > 0;
+}
+
+pid_t subprocess_spawn(const char *program, const char *const *words, const int *files, int count, bool own_group) {
+    extern char **environ;
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    sigset_t none, usual;
+    pid_t pid = -1;
+    sigemptyset(&none);
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGPIPE);
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes,
+                             POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | (own_group ? POSIX_SPAWN_SETPGROUP : 0));
+    int error = 0;
+    for (int i = 0; i < count && error == 0; i++)
+        error = files[i] >= 0 ? posix_spawn_file_actions_adddup2(&actions, files[i], i)
+                              : posix_spawn_file_actions_addopen(&actions, i, "/dev/null", O_RDWR, 0);
+    if (error == 0)
+        error = posix_spawnp(&pid, program, &actions, &attributes, (char **)(void *)words, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    errno = error;
+    return error == 0 ? pid : -1;
 }
 
 pid_t subprocess_wait(int *status) {

@@ -20,6 +20,10 @@ int subprocess_temporary_file(void);
 // Starts a program with `folder` as its working directory. `argv` is as for execv. Returns false and sets errno on
 // failure. The program is killed after SUBPROCESS_MAX_SECONDS.
 bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv);
+// Starts a program, which is searched in PATH, with the default signal mask and action for SIGPIPE. files[i] becomes
+// its descriptor i; -1 means /dev/null. If `own_group` is true, Ctrl-C in the terminal does not reach it. `words` are
+// as for execv. Returns the process id, or -1 with errno set.
+pid_t subprocess_spawn(const char *program, const char *const *words, const int *files, int count, bool own_group);
 // Waits until a child ends. Returns its status as waitpid does, or -1 if there is no such child.
 int subprocess_wait_for(pid_t pid);
 // Waits until any child ends. Returns its process id, or -1 if there is no child. Sets *status like waitpid.

@@ -9,7 +9,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -18,9 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char **environ;
-
-enum { MAX_WORDS = 64, PIPE_BYTES = 1 << 20, FILM = 3 };
+enum { MAX_WORDS = 64, PIPE_BYTES = 1 << 20 };
 
 // Arguments for ffmpeg, for each file suffix. Screen colours are those of BT.709.
 #define COLOURS "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
@@ -81,27 +78,8 @@ static pid_t spawn_ffmpeg(Video *video, int input, double fps) {
         words[count++] = format[i];
     words[count] = "file:/dev/fd/3"; // the video is still an unnamed file, open as descriptor 3
 
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    sigset_t usual;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&files, video->errors, STDERR_FILENO);
-    posix_spawn_file_actions_adddup2(&files, video->film.file, FILM);
-    // A separate process group, so that Ctrl-C does not reach ffmpeg.
-    posix_spawnattr_init(&attributes);
-    sigemptyset(&usual);
-    sigaddset(&usual, SIGPIPE);
-    posix_spawnattr_setsigdefault(&attributes, &usual);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-    pid_t pid = 0;
-    int error = posix_spawnp(&pid, "ffmpeg", &files, &attributes, (char **)(void *)words, environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    errno = error;
-    return error == 0 ? pid : -1;
+    const int files[] = {input, -1, video->errors, video->film.file};
+    return subprocess_spawn("ffmpeg", words, files, sizeof files / sizeof *files, true);
 }
 
 __attribute__((format(printf, 2, 3))) static void set_error_text(Video *video, const char *format, ...) {
