@@ -7,6 +7,7 @@
 #pragma once
 
 #include "canvas/drawing.h"
+#include "petri-draw.h"
 
 #define DISPLAY_NONE UINT32_MAX
 
@@ -72,16 +73,10 @@ typedef struct DisplaySource {
     uint32_t image;      // for a pattern: index of the image
 } DisplaySource;
 
+// FILTER_BLUR and so on. The values are those of PETRI_FILTER_BLUR and so on in petri-draw.h.
 typedef enum DisplayFilterKind {
-    FILTER_BLUR,
-    FILTER_SHADOW,
-    FILTER_OFFSET,
-    FILTER_DILATE,
-    FILTER_ERODE,
-    FILTER_COLOUR_MATRIX,
-    FILTER_PAINT,
-    FILTER_BLEND,
-    FILTER_SOURCE // the unfiltered drawing
+#define FILTER(id, name, reader, children, inputs, help) FILTER_##id = PETRI_FILTER_##id,
+#include "schema/schema_list.h"
 } DisplayFilterKind;
 
 typedef struct DisplayFilter {
@@ -98,17 +93,14 @@ typedef struct DisplayFilter {
 } DisplayFilter;
 
 typedef enum DisplayEffectKind {
-    EFFECT_DASH,
-    EFFECT_ROUND,
-    EFFECT_JITTER,
-    EFFECT_MATRIX,
-    EFFECT_SUM
+#define EFFECT(id, name, help) EFFECT_##id,
+#include "schema/schema_list.h"
 } DisplayEffectKind;
 
 // A path effect, which changes a path before it is filled or stroked.
 typedef struct DisplayEffect {
     DisplayEffectKind kind;
-    uint32_t inner;    // index of the effect that is applied before this one; DISPLAY_NONE: none; not used by sums
+    uint32_t inner;    // index of the effect that is applied before this one; DISPLAY_NONE: none, as in sums
     uint32_t numbers;  // index in DisplayList.numbers of the dashes, of a row-major 3 x 3 matrix, or of a sum's effects
     uint32_t count;    // number of dashes or of effects in a sum
     double amounts[2]; // for dashes: offset; for round corners: radius; for jitter: segment length and deviation

@@ -222,18 +222,37 @@ static void add_path_command(DisplayListBuild *build, Level *level, const DrawNo
 
 // If the node sets fill or stroke, draws the shape and leaves the current path unchanged. Otherwise, adds the shape to
 // the current path.
-static void add_shape(DisplayListBuild *build, Level *level, const DrawNode *node) {
-    bool fill = draw_flag(node, ATTR_FILL), stroke = draw_flag(node, ATTR_STROKE);
+static void add_shape(Walk *walk, Level *level, const DrawNode *node) {
+    bool alone = schema_row((NodeKind)node->kind, ATTR_FILL); // false: the shape has neither attribute
+    bool fill = alone && draw_flag(node, ATTR_FILL), stroke = alone && draw_flag(node, ATTR_STROKE);
     if (!fill && !stroke) {
-        display_list_build_element(build, &level->path, node);
+        display_list_build_shape(&walk->build, &level->path, node);
         return;
     }
     DisplayPath path = display_list_build_no_path;
-    display_list_build_element(build, &path, node);
-    add_path_command(build, level, node, path, fill, stroke);
+    display_list_build_shape(&walk->build, &path, node);
+    add_path_command(&walk->build, level, node, path, fill, stroke);
 }
 
-static void add_text(DisplayListBuild *build, Level *level, const DrawNode *node) {
+static void add_fill(Walk *walk, Level *level, const DrawNode *node) {
+    add_path_command(&walk->build, level, node, level->path, true, false);
+}
+
+static void add_stroke(Walk *walk, Level *level, const DrawNode *node) {
+    add_path_command(&walk->build, level, node, level->path, false, true);
+}
+
+static void add_clip(Walk *walk, Level *level, const DrawNode *node) {
+    save_clip(walk);
+    add_command(&walk->build, level, node->kind == KIND_CLIP ? DISPLAY_CLIP : DISPLAY_MASK, NULL);
+}
+
+static void add_mask(Walk *walk, Level *level, const DrawNode *node) {
+    add_clip(walk, level, node);
+}
+
+static void add_text(Walk *walk, Level *level, const DrawNode *node) {
+    DisplayListBuild *build = &walk->build;
     const AttrValue *text = draw_attr(node, ATTR_TEXT);
     if (!text || text->as.text.len == 0)
         return;
@@ -256,53 +275,44 @@ static void add_text(DisplayListBuild *build, Level *level, const DrawNode *node
     command->stroke = stroke || !fill;
 }
 
-static void add_leaf(Walk *walk, Level *level, const DrawNode *node) {
-    DisplayListBuild *build = &walk->build;
-    switch ((NodeKind)node->kind) {
-    case KIND_FILL:
-    case KIND_STROKE:
-        add_path_command(build, level, node, level->path, node->kind == KIND_FILL, node->kind == KIND_STROKE);
-        break;
-    case KIND_CLIP:
-    case KIND_MASK:
-        save_clip(walk);
-        add_command(build, level, node->kind == KIND_CLIP ? DISPLAY_CLIP : DISPLAY_MASK, NULL);
-        break;
-    case KIND_TEXT:
-        add_text(build, level, node);
-        break;
-    case KIND_IMAGE: {
-        uint32_t image = display_list_build_image(build, node);
-        if (image != DISPLAY_NONE)
-            add_command(build, level, DISPLAY_IMAGE, NULL)->item = image;
-        break;
-    }
-    default:
-        display_list_build_paint_node(build, &level->state, node);
-        level->paint_at = DISPLAY_NONE;
-    }
+static void add_image(Walk *walk, Level *level, const DrawNode *node) {
+    uint32_t image = display_list_build_image(&walk->build, node);
+    if (image != DISPLAY_NONE)
+        add_command(&walk->build, level, DISPLAY_IMAGE, NULL)->item = image;
 }
 
+static void set_source(Walk *walk, Level *level, const DrawNode *node) {
+    walk->build.state = &level->state;
+    level->state.source = display_list_build_source(&walk->build, node);
+    level->paint_at = DISPLAY_NONE;
+}
+
+static void set_filter(Walk *walk, Level *level, const DrawNode *node) {
+    walk->build.state = &level->state;
+    level->state.filter = display_list_build_filter(&walk->build, node);
+    level->paint_at = DISPLAY_NONE;
+}
+
+static void set_effect(Walk *walk, Level *level, const DrawNode *node) {
+    level->state.effect = display_list_build_effect(&walk->build, node);
+    level->paint_at = DISPLAY_NONE;
+}
+
+// The functions that add nodes without drawing nodes as children. NULL: enter_node handles the node.
+static void (*const leaves[KIND_COUNT])(Walk *walk, Level *level, const DrawNode *node) = {
+#define SHAPE(id, name, help) [KIND_##id] = add_shape,
+#define COMMAND(id, name, help) [KIND_##id] = add_##name,
+#define SOURCE(id, name, children, help) [KIND_##id] = set_source,
+#define FILTER(id, name, reader, children, inputs, help) [KIND_FILTER_##id] = set_filter,
+#define EFFECT(id, name, help) [KIND_##id] = set_effect,
+#include "schema/schema_list.h"
+};
+
 static void add_node(Walk *walk, const DrawNode *node) {
-    Level *level = &walk->levels[walk->depth - 1];
-    switch ((NodeKind)node->kind) {
-    case KIND_CANVAS_GROUP:
-    case KIND_TRANSFORM:
-    case KIND_PAINT:
-    case KIND_FONT:
-    case KIND_LAYER:
-    case KIND_PATH:
+    if (leaves[node->kind])
+        leaves[node->kind](walk, &walk->levels[walk->depth - 1], node);
+    else
         enter_node(walk, node);
-        break;
-    case KIND_RECT:
-    case KIND_ELLIPSE:
-    case KIND_LINE:
-        add_shape(&walk->build, level, node);
-        break;
-    default:
-        if (!display_list_build_element(&walk->build, &level->path, node))
-            add_leaf(walk, level, node);
-    }
 }
 
 static void reserve_arrays(Arena *arena, DisplayList *list, const DisplayListSizes *sizes) {

@@ -6,23 +6,25 @@
 typedef struct DisplayListBuild {
     Arena *arena;
     DisplayList *list;
-    int depth; // current nesting depth within sources, filters and effects
+    int depth;                  // current nesting depth within sources, filters and effects
+    const GraphicsState *state; // graphics state for the source or filter that is being translated
 } DisplayListBuild;
 
 // display_list_shapes.c
 extern const DisplayPath display_list_build_no_path;
-// Adds the elements of a node to a path. Returns false if nodes of this kind do not add to paths.
-bool display_list_build_element(DisplayListBuild *build, DisplayPath *path, const DrawNode *node);
+// Adds the elements of a SHAPE (schema_list.h) to a path.
+void display_list_build_shape(DisplayListBuild *build, DisplayPath *path, const DrawNode *node);
 void display_list_build_rectangle(DisplayListBuild *build, DisplayPath *path, const double point[2],
                                   const double size[2]);
 
 // display_list_filters.c
-// Translates a paint node (source, filter or effect) and stores it in the graphics state of the siblings after it.
-void display_list_build_paint_node(DisplayListBuild *build, GraphicsState *state, const DrawNode *node);
+// Add a filter or path effect, with those inside it, and return its index. Return DISPLAY_NONE if it is not complete.
+uint32_t display_list_build_filter(DisplayListBuild *build, const DrawNode *node);
+uint32_t display_list_build_effect(DisplayListBuild *build, const DrawNode *node);
 
 // display_list_paints.c
 // Adds a paint source and returns its index. Returns DISPLAY_NONE if a required attribute is missing.
-uint32_t display_list_build_source(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node);
+uint32_t display_list_build_source(DisplayListBuild *build, const DrawNode *node);
 // Rounds the sRGB colour of a gradient stop or shadow to 8 bits. In a linear canvas, also converts it to linear light.
 void display_list_build_stop_color(const DisplayListBuild *build, const double color[4], double out[4]);
 uint32_t display_list_build_image(DisplayListBuild *build, const DrawNode *node);

@@ -15,10 +15,6 @@ static uint32_t add_numbers(DisplayListBuild *build, uint32_t count, const doubl
     return build->list->numbers.count - count;
 }
 
-static bool has_attr(const DrawNode *node, AttrName name) {
-    return draw_attr(node, name);
-}
-
 // Sets a colour matrix from brightness, contrast and saturation.
 static void set_adjustment(const DrawNode *node, double m[4][5]) {
     static const double luminance[3] = {0.2126, 0.7152, 0.0722};
@@ -42,7 +38,7 @@ static bool set_rows(const DrawNode *node, double m[4][5]) {
     return any;
 }
 
-static uint32_t make_matrix(DisplayListBuild *build, const DrawNode *node) {
+static bool read_matrix(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
     double m[4][5] = {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, 0, 1, 0, 0}, {0, 0, 0, 1, 0}};
     const AttrValue *all = draw_attr(node, ATTR_MATRIX), *scale = draw_attr(node, ATTR_SCALE),
                     *offset = draw_attr(node, ATTR_OFFSET);
@@ -57,86 +53,74 @@ static uint32_t make_matrix(DisplayListBuild *build, const DrawNode *node) {
         if (!plain)
             set_adjustment(node, m);
     }
-    return add_numbers(build, 20, m[0]);
+    filter->numbers = add_numbers(build, 20, m[0]);
+    return true;
 }
 
-static uint32_t make_coefficients(DisplayListBuild *build, const DrawNode *node) {
+static bool read_blend(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
     const AttrValue *all = draw_attr(node, ATTR_COEFFICIENTS), *ratio = draw_attr(node, ATTR_RATIO);
     double r = ratio ? fmin(fmax(ratio->as.numbers[0], 0), 1) : 0;
-    return all     ? add_numbers(build, 4, all->as.numbers)
-           : ratio ? add_numbers(build, 4, (const double[]){0, 1 - r, r, 0})
-                   : DISPLAY_NONE;
+    if (all || ratio)
+        filter->numbers = add_numbers(build, 4, all ? all->as.numbers : (const double[]){0, 1 - r, r, 0});
+    filter->mode = draw_word(node, ATTR_MODE);
+    return true;
 }
 
-static DisplayFilterKind filter_kind(NodeKind kind) {
-    switch (kind) {
-    case KIND_CANVAS_BLUR:
-        return FILTER_BLUR;
-    case KIND_SHADOW:
-        return FILTER_SHADOW;
-    case KIND_CANVAS_OFFSET:
-        return FILTER_OFFSET;
-    case KIND_DILATE:
-        return FILTER_DILATE;
-    case KIND_ERODE:
-        return FILTER_ERODE;
-    case KIND_FILTER_MATRIX:
-        return FILTER_COLOUR_MATRIX;
-    case KIND_FILTER_PAINT:
-        return FILTER_PAINT;
-    case KIND_FILTER_BLEND:
-        return FILTER_BLEND;
-    default:
-        return FILTER_SOURCE;
-    }
+static bool read_nothing(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
+    (void)build, (void)node, (void)filter;
+    return true;
 }
 
-// Reads the attributes of a filter, without its inputs. Returns false if a required attribute is missing.
-static bool read_filter(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node,
-                        DisplayFilter *filter) {
-    const AttrValue *color;
-    switch (filter->kind) {
-    case FILTER_OFFSET:
-        return draw_pair(node, ATTR_OFFSET, filter->offset);
-    case FILTER_SHADOW:
-        color = draw_attr(node, ATTR_COLOR);
-        draw_pair(node, ATTR_OFFSET, filter->offset);
-        filter->only = draw_flag(node, ATTR_SHADOW_ONLY);
-        display_list_build_stop_color(build, color ? color->as.numbers : filter->color, filter->color);
-        return draw_pair(node, ATTR_RADIUS, filter->radius);
-    case FILTER_COLOUR_MATRIX:
-        filter->numbers = make_matrix(build, node);
-        return true;
-    case FILTER_PAINT: {
-        GraphicsState own = *state;
-        display_list_build_read_state(&own, node);
-        filter->paint = display_list_build_paint(build, &own);
-        return true;
-    }
-    case FILTER_BLEND:
-        filter->numbers = make_coefficients(build, node);
-        filter->mode = draw_word(node, ATTR_MODE);
-        return true;
-    case FILTER_SOURCE:
-        return true;
-    default:
-        return draw_pair(node, ATTR_RADIUS, filter->radius);
-    }
+static bool read_radius(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
+    (void)build;
+    return draw_pair(node, ATTR_RADIUS, filter->radius);
 }
 
-static uint32_t make_filter(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
-    DisplayFilter filter = {.kind = filter_kind((NodeKind)node->kind),
+static bool read_offset(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
+    (void)build;
+    return draw_pair(node, ATTR_OFFSET, filter->offset);
+}
+
+static bool read_shadow(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
+    const AttrValue *color = draw_attr(node, ATTR_COLOR);
+    read_offset(build, node, filter);
+    filter->only = draw_flag(node, ATTR_SHADOW_ONLY);
+    display_list_build_stop_color(build, color ? color->as.numbers : filter->color, filter->color);
+    return read_radius(build, node, filter);
+}
+
+static bool read_paint(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
+    GraphicsState own = *build->state;
+    display_list_build_read_state(&own, node);
+    filter->paint = display_list_build_paint(build, &own);
+    return true;
+}
+
+// A filter and the function that reads its attributes, which returns false if a required attribute is missing.
+typedef struct FilterRow {
+    DisplayFilterKind kind;
+    uint32_t inputs; // number of filters inside it: at most 1, or exactly 2
+    bool (*read)(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter);
+} FilterRow;
+
+static const FilterRow filter_rows[KIND_COUNT] = {
+#define FILTER(id, name, reader, children, inputs, help) [KIND_FILTER_##id] = {FILTER_##id, inputs, read_##reader},
+#include "schema/schema_list.h"
+};
+
+uint32_t display_list_build_filter(DisplayListBuild *build, const DrawNode *node) {
+    const FilterRow *row = &filter_rows[node->kind];
+    DisplayFilter filter = {.kind = row->kind,
                             .color = {0, 0, 0, 1},
                             .numbers = DISPLAY_NONE,
                             .inputs = {DISPLAY_NONE, DISPLAY_NONE},
                             .place = node->origin};
-    uint32_t min = filter.kind == FILTER_BLEND ? 2 : 0, max = filter.kind == FILTER_BLEND ? 2 : 1;
-    if (node->child_count < min || node->child_count > max || build->depth >= MAX_DEPTH ||
-        !read_filter(build, state, node, &filter))
+    if (node->child_count > row->inputs || (row->inputs == 2 && node->child_count < 2) || build->depth >= MAX_DEPTH ||
+        !row->read(build, node, &filter))
         return DISPLAY_NONE;
     build->depth++;
     for (uint32_t i = 0; i < node->child_count; i++) {
-        filter.inputs[i] = make_filter(build, state, node->children[i]);
+        filter.inputs[i] = display_list_build_filter(build, node->children[i]);
         if (filter.inputs[i] == DISPLAY_NONE) {
             build->depth--;
             return DISPLAY_NONE;
@@ -163,9 +147,23 @@ static bool read_dash(DisplayListBuild *build, const DrawNode *node, DisplayEffe
     return sum > 0 && isfinite(sum);
 }
 
+static bool read_round_corners(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
+    (void)build;
+    effect->amounts[0] = draw_number(node, ATTR_RADIUS);
+    return effect->amounts[0] > 0;
+}
+
+static bool read_jitter(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
+    (void)build;
+    effect->amounts[0] = draw_number(node, ATTR_LENGTH);
+    effect->amounts[1] = draw_number(node, ATTR_DEVIATION);
+    effect->seed = draw_number(node, ATTR_SEED);
+    return effect->amounts[0] > 0 && draw_attr(node, ATTR_DEVIATION);
+}
+
 // Reads the row-major matrix of a path effect. If the node has no matrix, creates one that scales, then rotates, then
 // translates points.
-static void read_path_matrix(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
+static bool read_path_matrix(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
     const AttrValue *all = draw_attr(node, ATTR_MATRIX);
     double scale[2], move[2], angle = draw_number(node, ATTR_ROTATE);
     angle = (angle - floor(angle)) * 6.283185307179586;
@@ -175,44 +173,37 @@ static void read_path_matrix(DisplayListBuild *build, const DrawNode *node, Disp
     draw_pair(node, ATTR_TRANSLATE, move);
     const double own[9] = {c * scale[0], -s * scale[1], move[0], s * scale[0], c * scale[1], move[1], 0, 0, 1};
     effect->numbers = add_numbers(build, 9, all ? all->as.list : own);
+    return true;
 }
 
-static bool read_effect(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
-    switch ((NodeKind)node->kind) {
-    case KIND_DASH:
-        effect->kind = EFFECT_DASH;
-        return read_dash(build, node, effect);
-    case KIND_ROUND_CORNERS:
-        effect->kind = EFFECT_ROUND;
-        effect->amounts[0] = draw_number(node, ATTR_RADIUS);
-        return effect->amounts[0] > 0;
-    case KIND_JITTER:
-        effect->kind = EFFECT_JITTER;
-        effect->amounts[0] = draw_number(node, ATTR_LENGTH);
-        effect->amounts[1] = draw_number(node, ATTR_DEVIATION);
-        effect->seed = draw_number(node, ATTR_SEED);
-        return effect->amounts[0] > 0 && has_attr(node, ATTR_DEVIATION);
-    case KIND_PATH_MATRIX:
-        effect->kind = EFFECT_MATRIX;
-        read_path_matrix(build, node, effect);
-        return true;
-    default:
-        effect->kind = EFFECT_SUM;
-        return true;
-    }
+static bool read_sum(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
+    (void)build, (void)node, (void)effect;
+    return true;
 }
 
-static uint32_t make_effect(DisplayListBuild *build, const DrawNode *node) {
-    DisplayEffect effect = {.inner = DISPLAY_NONE, .place = node->origin};
+// A path effect and the function that reads its attributes, which returns false if a required attribute is missing.
+typedef struct EffectRow {
+    DisplayEffectKind kind;
+    bool (*read)(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect);
+} EffectRow;
+
+static const EffectRow effect_rows[KIND_COUNT] = {
+#define EFFECT(id, name, help) [KIND_##id] = {EFFECT_##id, read_##name},
+#include "schema/schema_list.h"
+};
+
+uint32_t display_list_build_effect(DisplayListBuild *build, const DrawNode *node) {
+    const EffectRow *row = &effect_rows[node->kind];
+    DisplayEffect effect = {.kind = row->kind, .inner = DISPLAY_NONE, .place = node->origin};
     uint32_t count = node->child_count;
-    bool sum = node->kind == KIND_SUM;
-    if ((sum ? count < 2 : count > 1) || build->depth >= MAX_DEPTH || !read_effect(build, node, &effect))
+    bool sum = row->kind == EFFECT_SUM;
+    if ((sum ? count < 2 : count > 1) || build->depth >= MAX_DEPTH || !row->read(build, node, &effect))
         return DISPLAY_NONE;
     double *inner = arena_alloc_array(build->arena, count, sizeof *inner);
     bool good = true;
     build->depth++;
     for (uint32_t i = 0; i < count && good; i++) {
-        effect.inner = make_effect(build, node->children[i]);
+        effect.inner = display_list_build_effect(build, node->children[i]);
         inner[i] = effect.inner;
         good = effect.inner != DISPLAY_NONE;
     }
@@ -220,22 +211,10 @@ static uint32_t make_effect(DisplayListBuild *build, const DrawNode *node) {
     if (!good)
         return DISPLAY_NONE;
     if (sum) {
+        effect.inner = DISPLAY_NONE;
         effect.numbers = add_numbers(build, count, inner);
         effect.count = count;
     }
     *DISPLAY_ADD(build->arena, build->list->effects, 1) = effect;
     return build->list->effects.count - 1;
-}
-
-void display_list_build_paint_node(DisplayListBuild *build, GraphicsState *state, const DrawNode *node) {
-    switch (schema_kinds[node->kind].place) {
-    case PLACE_FILTER:
-        state->filter = make_filter(build, state, node);
-        break;
-    case PLACE_EFFECT:
-        state->effect = make_effect(build, node);
-        break;
-    default:
-        state->source = display_list_build_source(build, state, node);
-    }
 }

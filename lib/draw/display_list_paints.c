@@ -13,8 +13,7 @@ void display_list_build_stop_color(const DisplayListBuild *build, const double c
     }
 }
 
-static void add_stops(DisplayListBuild *build, const GraphicsState *state, const DrawNode *gradient,
-                      DisplaySource *source) {
+static void add_stops(DisplayListBuild *build, const DrawNode *gradient, DisplaySource *source) {
     uint32_t count = gradient->child_count;
     double before = -INFINITY;
     source->first_stop = build->list->stops.count;
@@ -23,7 +22,7 @@ static void add_stops(DisplayListBuild *build, const GraphicsState *state, const
         const DrawNode *node = gradient->children[i];
         DisplayStop *stop = DISPLAY_ADD(build->arena, build->list->stops, 1);
         const AttrValue *color = draw_attr(node, ATTR_COLOR);
-        display_list_build_stop_color(build, color ? color->as.numbers : state->color, stop->color);
+        display_list_build_stop_color(build, color ? color->as.numbers : build->state->color, stop->color);
         double offset = draw_number(node, ATTR_OFFSET);
         stop->offset = fmax(isnan(offset) ? (count > 1 ? (double)i / (count - 1) : 0) : offset, before);
         before = stop->offset;
@@ -35,7 +34,7 @@ static uint32_t add_source(DisplayListBuild *build, DisplaySource source) {
     return build->list->sources.count - 1;
 }
 
-static uint32_t make_gradient(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
+static uint32_t make_gradient(DisplayListBuild *build, const DrawNode *node) {
     double start[2], end[2], middle[2], radius[2];
     if (node->child_count == 0)
         return DISPLAY_NONE;
@@ -54,7 +53,14 @@ static uint32_t make_gradient(DisplayListBuild *build, const GraphicsState *stat
     } else {
         return DISPLAY_NONE;
     }
-    add_stops(build, state, node, &source);
+    add_stops(build, node, &source);
+    return add_source(build, source);
+}
+
+static uint32_t make_color(DisplayListBuild *build, const DrawNode *node) {
+    DisplaySource source = {.kind = SOURCE_COLOR};
+    const AttrValue *color = draw_attr(node, ATTR_COLOR);
+    memcpy(source.color, color ? color->as.numbers : build->state->color, sizeof source.color);
     return add_source(build, source);
 }
 
@@ -66,14 +72,14 @@ static uint32_t make_pattern(DisplayListBuild *build, const DrawNode *node) {
                                                                                         : DISPLAY_NONE;
 }
 
-static uint32_t make_blend(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
+static uint32_t make_blend(DisplayListBuild *build, const DrawNode *node) {
     if (node->child_count == 1)
-        return display_list_build_source(build, state, node->children[0]);
+        return display_list_build_source(build, node->children[0]);
     if (node->child_count != 2)
         return DISPLAY_NONE;
     DisplaySource source = {.kind = SOURCE_BLEND,
-                            .first_stop = display_list_build_source(build, state, node->children[0]),
-                            .stop_count = display_list_build_source(build, state, node->children[1]),
+                            .first_stop = display_list_build_source(build, node->children[0]),
+                            .stop_count = display_list_build_source(build, node->children[1]),
                             .ratio = draw_number(node, ATTR_RATIO),
                             .mode = draw_word(node, ATTR_MODE)};
     if (source.first_stop == DISPLAY_NONE || source.stop_count == DISPLAY_NONE)
@@ -97,28 +103,19 @@ static uint32_t make_noise(DisplayListBuild *build, const DrawNode *node) {
     return add_source(build, source);
 }
 
+static uint32_t (*const sources[KIND_COUNT])(DisplayListBuild *build, const DrawNode *node) = {
+#define SOURCE(id, name, children, help) [KIND_##id] = make_##name,
+#include "schema/schema_list.h"
+};
+
 // The depth of nested sources is limited to less than NODE_MAX_HEIGHT, because the function is recursive and the stack
 // can be small.
-uint32_t display_list_build_source(DisplayListBuild *build, const GraphicsState *state, const DrawNode *node) {
+uint32_t display_list_build_source(DisplayListBuild *build, const DrawNode *node) {
     enum { MAX_DEPTH = 100 };
-    uint32_t made = DISPLAY_NONE;
     if (build->depth >= MAX_DEPTH)
         return DISPLAY_NONE;
     build->depth++;
-    if (node->kind == KIND_GRADIENT) {
-        made = make_gradient(build, state, node);
-    } else if (node->kind == KIND_COLOR) {
-        DisplaySource source = {.kind = SOURCE_COLOR};
-        const AttrValue *color = draw_attr(node, ATTR_COLOR);
-        memcpy(source.color, color ? color->as.numbers : state->color, sizeof source.color);
-        made = add_source(build, source);
-    } else if (node->kind == KIND_PATTERN) {
-        made = make_pattern(build, node);
-    } else if (node->kind == KIND_BLEND) {
-        made = make_blend(build, state, node);
-    } else if (node->kind == KIND_CANVAS_NOISE) {
-        made = make_noise(build, node);
-    }
+    uint32_t made = sources[node->kind](build, node);
     build->depth--;
     return made;
 }

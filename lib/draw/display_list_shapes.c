@@ -51,13 +51,32 @@ static void close_path(DisplayListBuild *build, DisplayPath *path) {
         add_element(build, path, PATH_CLOSE, 0, (const double[]){0});
 }
 
+static void add_close(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
+    (void)node;
+    close_path(build, path);
+}
+
+static void add_move_to(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
+    double p[2];
+    if (draw_pair(node, ATTR_POINT, p))
+        move_to(build, path, p[0], p[1]);
+}
+
+static void add_line_to(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
+    double p[2];
+    if (!draw_pair(node, ATTR_POINT, p))
+        return;
+    begin_path(build, path);
+    line_to(build, path, p[0], p[1]);
+}
+
 static void add_arc_element(DisplayListBuild *build, DisplayPath *path, double x, double y, double rx, double ry,
                             double start, double sweep, bool on) {
     bool joined = on && path->first != DISPLAY_NONE;
     add_element(build, path, joined ? PATH_ARC_JOINED : PATH_ARC, 6, (const double[]){x, y, rx, ry, start, sweep});
 }
 
-static void add_curve(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
+static void add_curve_to(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
     double p[2], c1[2], c2[2];
     if (!draw_pair(node, ATTR_POINT, p) || !draw_pair(node, ATTR_C1, c1))
         return;
@@ -178,41 +197,11 @@ static void add_line(DisplayListBuild *build, DisplayPath *path, const DrawNode 
         close_path(build, path);
 }
 
-bool display_list_build_element(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
-    double p[2];
-    switch ((NodeKind)node->kind) {
-    case KIND_MOVE_TO:
-        if (draw_pair(node, ATTR_POINT, p))
-            move_to(build, path, p[0], p[1]);
-        return true;
-    case KIND_LINE_TO:
-        if (draw_pair(node, ATTR_POINT, p)) {
-            begin_path(build, path);
-            line_to(build, path, p[0], p[1]);
-        }
-        return true;
-    case KIND_CURVE_TO:
-        add_curve(build, path, node);
-        return true;
-    case KIND_ARC:
-        add_arc(build, path, node);
-        return true;
-    case KIND_ARC_TO:
-        add_arc_to(build, path, node);
-        return true;
-    case KIND_RECT:
-        add_rect(build, path, node);
-        return true;
-    case KIND_ELLIPSE:
-        add_ellipse(build, path, node);
-        return true;
-    case KIND_LINE:
-        add_line(build, path, node);
-        return true;
-    case KIND_CLOSE:
-        close_path(build, path);
-        return true;
-    default:
-        return false;
-    }
+static void (*const shapes[KIND_COUNT])(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) = {
+#define SHAPE(id, name, help) [KIND_##id] = add_##name,
+#include "schema/schema_list.h"
+};
+
+void display_list_build_shape(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
+    shapes[node->kind](build, path, node);
 }

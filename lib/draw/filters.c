@@ -30,83 +30,106 @@ static void report_blur_limit(Canvas *canvas, const DisplayFilter *filter, const
 
 static FloatImage apply_filter(const FilterContext *context, uint32_t number);
 
-// Returns a new image that is filled with the paint.
-static FloatImage paint_all(const FilterContext *context, const DisplayPaint *paint) {
+// A filter to apply. Its lengths are in pixels.
+typedef struct FilterTask {
+    const FilterContext *context;
+    const DisplayFilter *filter;
+    const double *numbers; // NULL: none
+    double radius[2];
+    double dx, dy; // offset
+} FilterTask;
+
+// These functions change the image of the filter's input to that of its result.
+static void apply_blur(const FilterTask *task, FloatImage *image) {
+    report_blur_limit(task->context->canvas, task->filter, task->radius);
+    float_image_blur(task->context->canvas, image, task->radius);
+}
+
+static void apply_offset(const FilterTask *task, FloatImage *image) {
+    float_image_move(task->context->canvas, image, task->dx, task->dy);
+}
+
+static void apply_shadow(const FilterTask *task, FloatImage *image) {
+    Canvas *canvas = task->context->canvas;
+    FloatImage drawn = *image;
+    *image = float_image_copy(canvas, &drawn);
+    float_image_tint(image, task->filter->color);
+    apply_blur(task, image);
+    apply_offset(task, image);
+    if (!task->filter->only)
+        float_image_composite_over(image, &drawn);
+    float_image_free(canvas, &drawn);
+}
+
+static void apply_dilate(const FilterTask *task, FloatImage *image) {
+    float_image_morphology(task->context->canvas, image, task->radius, false);
+}
+
+static void apply_erode(const FilterTask *task, FloatImage *image) {
+    float_image_morphology(task->context->canvas, image, task->radius, true);
+}
+
+static void apply_color_matrix(const FilterTask *task, FloatImage *image) {
+    float_image_recolor(image, task->numbers);
+}
+
+static void apply_blend(const FilterTask *task, FloatImage *image) {
+    Canvas *canvas = task->context->canvas;
+    FloatImage other = apply_filter(task->context, task->filter->inputs[1]);
+    float_image_combine(image, &other, task->numbers, (CompositeMode)task->filter->mode);
+    if (!other.pixels)
+        float_image_free(canvas, image);
+    float_image_free(canvas, &other);
+}
+
+// Creates an image that is filled with the paint.
+static void apply_paint(const FilterTask *task, FloatImage *image) {
+    const FilterContext *context = task->context;
     Canvas *canvas = context->canvas;
+    const DisplayPaint *paint = &canvas->list->paints.at[task->filter->paint];
     if (canvas->hdr_target.pixels && paint->source == DISPLAY_NONE) {
-        FloatImage plain = float_image_new(canvas, context->drawn->width, context->drawn->height);
-        float_image_fill(&plain, paint->color);
-        return plain;
+        *image = float_image_new(canvas, context->drawn->width, context->drawn->height);
+        float_image_fill(image, paint->color);
+        return;
     }
     cairo_surface_t *surface =
         draw_push_offscreen(canvas, context->drawn->width, context->drawn->height, context->x, context->y);
-    FloatImage image = {0};
     if (!surface)
-        return image;
+        return;
     cairo_set_matrix(canvas->cr, &context->matrix);
     draw_set_source(canvas, paint);
     cairo_paint(canvas->cr);
-    image = float_image_read(canvas, surface);
+    *image = float_image_read(canvas, surface);
     draw_pop_offscreen(canvas);
-    return image;
 }
 
-static FloatImage cast_shadow(const FilterContext *context, const DisplayFilter *filter, FloatImage drawn,
-                              const double sigma[2], double dx, double dy) {
-    Canvas *canvas = context->canvas;
-    FloatImage shadow = float_image_copy(canvas, &drawn);
-    float_image_tint(&shadow, filter->color);
-    float_image_blur(canvas, &shadow, sigma);
-    float_image_move(canvas, &shadow, dx, dy);
-    if (!filter->only)
-        float_image_composite_over(&shadow, &drawn);
-    float_image_free(canvas, &drawn);
-    return shadow;
+static void apply_source(const FilterTask *task, FloatImage *image) {
+    (void)task, (void)image;
 }
+
+static void (*const filters[])(const FilterTask *task, FloatImage *image) = {
+#define FILTER(id, name, reader, children, inputs, help) [FILTER_##id] = apply_##name,
+#include "schema/schema_list.h"
+};
 
 // Returns the result of a filter as a new image.
 static FloatImage apply_filter(const FilterContext *context, uint32_t number) {
-    Canvas *canvas = context->canvas;
+    const DisplayList *list = context->canvas->list;
     if (number == DISPLAY_NONE)
-        return float_image_copy(canvas, context->drawn);
-    const DisplayList *list = canvas->list;
+        return float_image_copy(context->canvas, context->drawn);
     const DisplayFilter *filter = &list->filters.at[number];
-    const double *numbers = filter->numbers == DISPLAY_NONE ? NULL : list->numbers.at + filter->numbers;
-    double dx = filter->offset[0], dy = filter->offset[1];
-    double radius[2] = {filter->radius[0] * scale_in(&context->matrix, 0),
-                        filter->radius[1] * scale_in(&context->matrix, 1)};
-    cairo_matrix_transform_distance(&context->matrix, &dx, &dy);
-    if (filter->kind == FILTER_PAINT)
-        return paint_all(context, &list->paints.at[filter->paint]);
-    FloatImage image = apply_filter(context, filter->inputs[0]), other;
-    switch (filter->kind) {
-    case FILTER_BLUR:
-        report_blur_limit(canvas, filter, radius);
-        float_image_blur(canvas, &image, radius);
-        break;
-    case FILTER_SHADOW:
-        report_blur_limit(canvas, filter, radius);
-        return cast_shadow(context, filter, image, radius, dx, dy);
-    case FILTER_OFFSET:
-        float_image_move(canvas, &image, dx, dy);
-        break;
-    case FILTER_DILATE:
-    case FILTER_ERODE:
-        float_image_morphology(canvas, &image, radius, filter->kind == FILTER_ERODE);
-        break;
-    case FILTER_COLOUR_MATRIX:
-        float_image_recolor(&image, numbers);
-        break;
-    case FILTER_BLEND:
-        other = apply_filter(context, filter->inputs[1]);
-        float_image_combine(&image, &other, numbers, (CompositeMode)filter->mode);
-        if (!other.pixels)
-            float_image_free(canvas, &image);
-        float_image_free(canvas, &other);
-        break;
-    default:
-        break;
-    }
+    FilterTask task = {.context = context,
+                       .filter = filter,
+                       .numbers = filter->numbers == DISPLAY_NONE ? NULL : list->numbers.at + filter->numbers,
+                       .radius = {filter->radius[0] * scale_in(&context->matrix, 0),
+                                  filter->radius[1] * scale_in(&context->matrix, 1)},
+                       .dx = filter->offset[0],
+                       .dy = filter->offset[1]};
+    cairo_matrix_transform_distance(&context->matrix, &task.dx, &task.dy);
+    FloatImage image = {0};
+    if (filter->kind != FILTER_PAINT) // has no input
+        image = apply_filter(context, filter->inputs[0]);
+    filters[filter->kind](&task, &image);
     return image;
 }
 

@@ -103,7 +103,16 @@ static void copy_flat(Outline *out, const Flat *flat) {
         add_element(out, PATH_CLOSE, flat->points.at[0]);
 }
 
-static void jitter_outline(const DisplayEffect *effect, Outline *from, Outline *out) {
+// An effect to apply: the arguments of outline_apply, and the numbers of the effect.
+typedef struct EffectTask {
+    const DisplayList *list;
+    const DisplayEffect *effect;
+    const double *numbers;
+    bool lines;
+} EffectTask;
+
+static void apply_jitter(const EffectTask *task, Outline *from, Outline *out) {
+    const DisplayEffect *effect = task->effect;
     uint64_t key = random_hash_step(RANDOM_HASH_START, random_hash_number(effect->seed)), item = 0;
     for (uint32_t at = 0; at < from->elements.count;) {
         Flat flat = flatten_subpath(from, &at);
@@ -160,8 +169,14 @@ static void dash_subpath(const DisplayEffect *effect, const double *intervals, c
     }
 }
 
-static void dash_outline(const DisplayEffect *effect, const double *intervals, Outline *from, Outline *out) {
+static void apply_dash(const EffectTask *task, Outline *from, Outline *out) {
+    const DisplayEffect *effect = task->effect;
+    const double *intervals = task->numbers;
     double sum = 0;
+    if (!task->lines) {
+        *out = *from;
+        return;
+    }
     for (uint32_t i = 0; i < effect->count; i++)
         sum += intervals[i];
     for (uint32_t at = 0; at < from->elements.count;) {
@@ -219,20 +234,21 @@ static void round_subpath(const OutlineElement *elements, uint32_t first, uint32
         add_element(out, PATH_CLOSE, start);
 }
 
-static void round_all(const DisplayEffect *effect, const Outline *from, Outline *out) {
+static void apply_round_corners(const EffectTask *task, Outline *from, Outline *out) {
     const OutlineElement *elements = from->elements.at;
     for (uint32_t first = 0, end; first < from->elements.count; first = end) {
         for (end = first + 1; end < from->elements.count && elements[end].kind != PATH_MOVE; end++)
             ;
         if (end - first > 1 && elements[first].kind == PATH_MOVE && elements[first + 1].kind != PATH_CLOSE)
-            round_subpath(elements, first, end, effect->amounts[0], out);
+            round_subpath(elements, first, end, task->effect->amounts[0], out);
         else
             for (uint32_t i = first; i < end; i++)
                 *DISPLAY_ADD(out->arena, out->elements, 1) = elements[i];
     }
 }
 
-static void transform_outline(const double *m, const Outline *from, Outline *out) {
+static void apply_path_matrix(const EffectTask *task, Outline *from, Outline *out) {
+    const double *m = task->numbers;
     for (uint32_t i = 0; i < from->elements.count; i++) {
         OutlineElement *element = DISPLAY_ADD(out->arena, out->elements, 1);
         *element = from->elements.at[i];
@@ -245,37 +261,27 @@ static void transform_outline(const double *m, const Outline *from, Outline *out
     }
 }
 
+static void apply_sum(const EffectTask *task, Outline *from, Outline *out) {
+    for (uint32_t i = 0; i < task->effect->count; i++) {
+        Outline part = outline_apply(task->list, (uint32_t)task->numbers[i], *from, task->lines);
+        if (part.elements.count > 0)
+            memcpy(DISPLAY_ADD(out->arena, out->elements, part.elements.count), part.elements.at,
+                   part.elements.count * sizeof *part.elements.at);
+    }
+}
+
+static void (*const effects[])(const EffectTask *task, Outline *from, Outline *out) = {
+#define EFFECT(id, name, help) [EFFECT_##id] = apply_##name,
+#include "schema/schema_list.h"
+};
+
 Outline outline_apply(const DisplayList *list, uint32_t number, Outline from, bool lines) {
     Outline out = {.arena = from.arena, .fine = from.fine};
     if (number == DISPLAY_NONE)
         return from;
     const DisplayEffect *effect = &list->effects.at[number];
-    const double *numbers = list->numbers.at + effect->numbers;
-    if (effect->kind == EFFECT_SUM) {
-        for (uint32_t i = 0; i < effect->count; i++) {
-            Outline part = outline_apply(list, (uint32_t)numbers[i], from, lines);
-            if (part.elements.count > 0)
-                memcpy(DISPLAY_ADD(out.arena, out.elements, part.elements.count), part.elements.at,
-                       part.elements.count * sizeof *part.elements.at);
-        }
-        return out;
-    }
     from = outline_apply(list, effect->inner, from, lines);
-    switch (effect->kind) {
-    case EFFECT_DASH:
-        if (!lines)
-            return from;
-        dash_outline(effect, numbers, &from, &out);
-        break;
-    case EFFECT_ROUND:
-        round_all(effect, &from, &out);
-        break;
-    case EFFECT_JITTER:
-        jitter_outline(effect, &from, &out);
-        break;
-    default:
-        transform_outline(numbers, &from, &out);
-    }
+    effects[effect->kind](&(EffectTask){list, effect, list->numbers.at + effect->numbers, lines}, &from, &out);
     return out;
 }
 
@@ -283,7 +289,7 @@ bool outline_has_dashes(const DisplayList *list, uint32_t number) {
     if (number == DISPLAY_NONE)
         return false;
     const DisplayEffect *effect = &list->effects.at[number];
-    bool any = effect->kind == EFFECT_DASH || (effect->kind != EFFECT_SUM && outline_has_dashes(list, effect->inner));
+    bool any = effect->kind == EFFECT_DASH || outline_has_dashes(list, effect->inner);
     for (uint32_t i = 0; effect->kind == EFFECT_SUM && i < effect->count; i++)
         any = any || outline_has_dashes(list, (uint32_t)list->numbers.at[effect->numbers + i]);
     return any;

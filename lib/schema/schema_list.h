@@ -8,6 +8,12 @@
 //     which nodes are allowed in it (PlaceKind).
 // FORCE(ID, "kind", "help", "formula"): a NODE for the force with the same ID in force_list.h. The formula has the same
 //     lines as in lib/physics/README.md; tests/docs/formulas.sh compares them.
+// SHAPE(ID, name, "help"): a NODE for a drawing that adds to a path. lib/draw has a function add_NAME.
+// COMMAND(ID, name, "help"): a NODE for another drawing without children. lib/draw has a function add_NAME.
+// SOURCE(ID, name, CHILDREN, "help"): a NODE for a paint source. lib/draw has a function make_NAME.
+// FILTER(ID, name, reader, CHILDREN, inputs, "help"): a NODE FILTER_ID for a filter. Its children are at most 1 filter,
+//     or exactly 2. lib/draw has functions apply_NAME and read_READER. petri-draw.h has a row PETRI_FILTER_ID.
+// EFFECT(ID, name, "help"): a NODE for a path effect. lib/draw has functions read_NAME and apply_NAME.
 // ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). In scripts, NAME is written in lower case: attr_names.awk
 //     derives the names from these rows. The value is stored in the field (records.h). If the field is NOWHERE, the
 //     value is ignored or, in drawings, looked up by name. The default is IS(x), DESCRIBED(x, "in words"),
@@ -24,6 +30,21 @@
 #endif
 #ifndef FORCE
 #define FORCE(id, text, help, formula) NODE(id, text, PHYSICS, NOTHING, help)
+#endif
+#ifndef SHAPE
+#define SHAPE(id, name, help) NODE(id, #name, DRAWING, NOTHING, help)
+#endif
+#ifndef COMMAND
+#define COMMAND(id, name, help) NODE(id, #name, DRAWING, NOTHING, help)
+#endif
+#ifndef SOURCE
+#define SOURCE(id, name, children, help) NODE(id, #name, SOURCE, children, help)
+#endif
+#ifndef FILTER
+#define FILTER(id, name, reader, children, inputs, help) NODE(FILTER_##id, #name, FILTER, children, help)
+#endif
+#ifndef EFFECT
+#define EFFECT(id, name, help) NODE(id, #name, EFFECT, EFFECT, help)
 #endif
 #ifndef ATTR
 #define ATTR(kind, name, type, field, fallback, unit, help)
@@ -281,18 +302,18 @@ FONT_ROWS(LAYER)
 NODE(PATH, "path", DRAWING, DRAWING, "begin a new path; the nodes inside add to it and fill or stroke it")
 ATTR(PATH, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "fill rule where the path crosses itself; inverse rules swap inside and outside")
 
-NODE(MOVE_TO, "move_to", DRAWING, NOTHING, "begin another subpath")
+SHAPE(MOVE_TO, move_to, "begin another subpath")
 ATTR(MOVE_TO, POINT, POINT, NOWHERE, NONE, "", "start of the subpath")
 
-NODE(LINE_TO, "line_to", DRAWING, NOTHING, "a straight line from the end of the path, or from 0;0 if the path is empty")
+SHAPE(LINE_TO, line_to, "a straight line from the end of the path, or from 0;0 if the path is empty")
 ATTR(LINE_TO, POINT, POINT, NOWHERE, NONE, "", "end of the line")
 
-NODE(CURVE_TO, "curve_to", DRAWING, NOTHING, "a Bézier curve from the end of the path, or from 0;0 if the path is empty")
+SHAPE(CURVE_TO, curve_to, "a Bézier curve from the end of the path, or from 0;0 if the path is empty")
 ATTR(CURVE_TO, POINT, POINT, NOWHERE, NONE, "", "end of the curve")
 ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "control point, or the first of two if c2 is set; required")
 ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "second control point, for a cubic curve")
 
-NODE(ARC, "arc", DRAWING, NOTHING, "an arc of an ellipse, joined to the path by a line")
+SHAPE(ARC, arc, "an arc of an ellipse, joined to the path by a line")
 ATTR(ARC, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre")
 ATTR(ARC, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y")
 ATTR(ARC, START, FINITE, NOWHERE, IS(0), "turns", "start angle, clockwise from the x axis")
@@ -300,46 +321,46 @@ ATTR(ARC, SWEEP, FINITE, NOWHERE, DESCRIBED(NAN, "end - start"), "turns", "angle
 ATTR(ARC, END, FINITE, NOWHERE, NONE, "turns", "end angle; ignored if sweep is set")
 ATTR(ARC, MOVE_TO, FLAG, NOWHERE, IS(false), "", "begin another subpath instead of drawing a line to the arc")
 
-NODE(ARC_TO, "arc_to", DRAWING, NOTHING, "an arc of an ellipse from the end of the path, or from 0;0 if the path is empty")
+SHAPE(ARC_TO, arc_to, "an arc of an ellipse from the end of the path, or from 0;0 if the path is empty")
 ATTR(ARC_TO, POINT, POINT, NOWHERE, NONE, "", "end of the arc")
 ATTR(ARC_TO, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y; enlarged if the arc cannot reach the point")
 ATTR(ARC_TO, ROTATION, FINITE, NOWHERE, IS(0), "degrees", "rotation of the ellipse, clockwise")
 ATTR(ARC_TO, LARGE, FLAG, NOWHERE, IS(false), "", "take the longer arc")
 ATTR(ARC_TO, CCW, FLAG, NOWHERE, IS(false), "", "draw the arc counter-clockwise")
 
-NODE(RECT, "rect", DRAWING, NOTHING, "a rectangle")
+SHAPE(RECT, rect, "a rectangle")
 ATTR(RECT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "a corner: the top left one unless the size is negative")
 ATTR(RECT, SIZE, SCALE, NOWHERE, NONE, "", "width;height; both can be negative")
 ATTR(RECT, RADIUS, SIZE, NOWHERE, IS(0), "", "radius of the corners; reduced if it does not fit")
 SHAPE_ROWS(RECT)
 PAINT_ROWS(RECT)
 
-NODE(ELLIPSE, "ellipse", DRAWING, NOTHING, "an ellipse or a circle")
+SHAPE(ELLIPSE, ellipse, "an ellipse or a circle")
 ATTR(ELLIPSE, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre")
 ATTR(ELLIPSE, RADIUS, SIZE, NOWHERE, NONE, "", "one radius, or the radii along x and y")
 SHAPE_ROWS(ELLIPSE)
 PAINT_ROWS(ELLIPSE)
 
-NODE(LINE, "line", DRAWING, NOTHING, "a line through points")
+SHAPE(LINE, line, "a line through points")
 ATTR(LINE, POINTS, POINTS, NOWHERE, NONE, "", "")
 ATTR(LINE, CURVE, FINITE, NOWHERE, IS(0), "turns", "corners that turn by at most this angle become curves: with 0 none, with 0.25 or more all")
 ATTR(LINE, CLOSE, FLAG, NOWHERE, IS(false), "", "join the last point to the first")
 SHAPE_ROWS(LINE)
 PAINT_ROWS(LINE)
 
-NODE(CLOSE, "close", DRAWING, NOTHING, "a straight line to the start of the subpath")
+SHAPE(CLOSE, close, "a straight line to the start of the subpath")
 
-NODE(CLIP, "clip", DRAWING, NOTHING, "draw only inside the path until the group, transform or layer ends")
+COMMAND(CLIP, clip, "draw only inside the path until the group, transform or layer ends")
 
-NODE(MASK, "mask", DRAWING, NOTHING, "draw only outside the path until the group, transform or layer ends")
+COMMAND(MASK, mask, "draw only outside the path until the group, transform or layer ends")
 
-NODE(FILL, "fill", DRAWING, NOTHING, "fill the path")
+COMMAND(FILL, fill, "fill the path")
 PAINT_ROWS(FILL)
 
-NODE(STROKE, "stroke", DRAWING, NOTHING, "draw a line along the path")
+COMMAND(STROKE, stroke, "draw a line along the path")
 PAINT_ROWS(STROKE)
 
-NODE(TEXT, "text", DRAWING, NOTHING, "one line of text")
+COMMAND(TEXT, text, "one line of text")
 ATTR(TEXT, TEXT, TEXT, NOWHERE, NONE, "", "")
 ATTR(TEXT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre of the text; if center=false, start of the baseline")
 ATTR(TEXT, CENTER, FLAG, NOWHERE, IS(true), "", "")
@@ -348,7 +369,7 @@ ATTR(TEXT, STROKE, FLAG, NOWHERE, IS(false), "", "draw the outlines of the lette
 PAINT_ROWS(TEXT)
 FONT_ROWS(TEXT)
 
-NODE(IMAGE, "image", DRAWING, NOTHING, "an image from a PNG or JPEG file or from another node")
+COMMAND(IMAGE, image, "an image from a PNG or JPEG file or from another node")
 ATTR(IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
 ATTR(IMAGE, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of another node, whose picture is used")
 ALIAS(IMAGE, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
@@ -357,7 +378,7 @@ ATTR(IMAGE, SIZE, SCALE, NOWHERE, DESCRIBED(0, "the size of the picture"), "", "
 ATTR(IMAGE, FIT, SIZE, NOWHERE, NONE, "", "size of a box into which the image is fitted")
 ATTR(IMAGE, FILL, SIZE, NOWHERE, NONE, "", "size of a box that the image fills; the rest of the image is cut off")
 
-NODE(GRADIENT, "gradient", SOURCE, STOP, "a colour gradient for nodes drawn after it")
+SOURCE(GRADIENT, gradient, STOP, "a colour gradient for nodes drawn after it")
 ATTR(GRADIENT, START, POINT, NOWHERE, NONE, "", "start of a linear gradient")
 ATTR(GRADIENT, END, POINT, NOWHERE, NONE, "", "end of a linear gradient")
 ATTR(GRADIENT, RADIUS, SIZE, NOWHERE, NONE, "", "radius of a radial gradient: one number, or the radii along x and y")
@@ -368,10 +389,10 @@ NODE(STOP, "stop", STOP, NOTHING, "a colour of a gradient")
 ATTR(STOP, OFFSET, FINITE, NOWHERE, DESCRIBED(NAN, "stops are spread evenly"), "", "position in the gradient, from 0 to 1")
 ATTR(STOP, COLOR, COLOR, NOWHERE, DESCRIBED(0, "the current colour"), "", "")
 
-NODE(COLOR, "color", SOURCE, NOTHING, "one colour for nodes drawn after it")
+SOURCE(COLOR, color, NOTHING, "one colour for nodes drawn after it")
 ATTR(COLOR, COLOR, COLOR, NOWHERE, DESCRIBED(0, "the current colour"), "", "")
 
-NODE(PATTERN, "pattern", SOURCE, NOTHING, "an image repeated in both directions, for nodes drawn after it")
+SOURCE(PATTERN, pattern, NOTHING, "an image repeated in both directions, for nodes drawn after it")
 ATTR(PATTERN, FILENAME, TEXT, NOWHERE, NONE, "", "")
 ATTR(PATTERN, IMAGE_ID, TEXT, NOWHERE, NONE, "", "id of another node, whose picture is used")
 ALIAS(PATTERN, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
@@ -379,82 +400,87 @@ ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "displacement;
 ATTR(PATTERN, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "scale factors along x and y")
 ATTR(PATTERN, ROTATE, FINITE, NOWHERE, IS(0), "turns", "rotation, clockwise")
 
-NODE(BLEND, "blend", SOURCE, SOURCE, "a mix of the two sources inside it, for nodes drawn after it")
+SOURCE(BLEND, blend, SOURCE, "a mix of the two sources inside it, for nodes drawn after it")
 ATTR(BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the second source")
 ATTR(BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "how the second source is combined with the first; ignored if ratio is set")
 
-NODE(CANVAS_NOISE, "noise", SOURCE, NOTHING, "noise in all four channels, for nodes drawn after it")
+SOURCE(CANVAS_NOISE, noise, NOTHING, "noise in all four channels, for nodes drawn after it")
 ATTR(CANVAS_NOISE, FREQUENCY, SCALE, NOWHERE, NONE, "", "number of waves per unit of length, along x and y; required")
 ATTR(CANVAS_NOISE, OCTAVES, FINITE_INTEGER, NOWHERE, IS(8), "", "number of layers of noise, each twice as fine as the one before")
 ATTR(CANVAS_NOISE, SEED, FINITE, NOWHERE, IS(0), "", "any number; each seed gives different noise")
 ATTR(CANVAS_NOISE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "no repetition"), "", "size of a tile that repeats without seams, in whole units")
 ATTR(CANVAS_NOISE, TYPE, NOISE_TYPE, NOWHERE, DESCRIBED(TURBULENCE_FRACTAL, ":fractal"), "", ":turbulence takes the absolute value of each wave")
 
-NODE(CANVAS_BLUR, "blur", FILTER, FILTER, "blur nodes drawn after it")
-ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation of the blur, along x and y")
+FILTER(BLUR, blur, radius, FILTER, 1, "blur nodes drawn after it")
+ATTR(FILTER_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation of the blur, along x and y")
 
-NODE(SHADOW, "shadow", FILTER, FILTER, "a shadow behind nodes drawn after it")
-ATTR(SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation of the blur, along x and y")
-ATTR(SHADOW, OFFSET, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "displacement of the shadow from the object")
-ATTR(SHADOW, COLOR, COLOR, NOWHERE, IS(0), "", "")
-ATTR(SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "draw the shadow without the object")
+FILTER(SHADOW, shadow, shadow, FILTER, 1, "a shadow behind nodes drawn after it")
+ATTR(FILTER_SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation of the blur, along x and y")
+ATTR(FILTER_SHADOW, OFFSET, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "displacement of the shadow from the object")
+ATTR(FILTER_SHADOW, COLOR, COLOR, NOWHERE, IS(0), "", "")
+ATTR(FILTER_SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "draw the shadow without the object")
 
-NODE(CANVAS_OFFSET, "offset", FILTER, FILTER, "move nodes drawn after it")
-ATTR(CANVAS_OFFSET, OFFSET, POINT, NOWHERE, NONE, "", "displacement along x and y")
+FILTER(OFFSET, offset, offset, FILTER, 1, "move nodes drawn after it")
+ATTR(FILTER_OFFSET, OFFSET, POINT, NOWHERE, NONE, "", "displacement along x and y")
 
-NODE(DILATE, "dilate", FILTER, FILTER, "thicken the shapes drawn after it (dilation)")
-ATTR(DILATE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the largest value within this distance along x and y")
+FILTER(DILATE, dilate, radius, FILTER, 1, "thicken the shapes drawn after it (dilation)")
+ATTR(FILTER_DILATE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the largest value within this distance along x and y")
 
-NODE(ERODE, "erode", FILTER, FILTER, "thin the shapes drawn after it (erosion)")
-ATTR(ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the smallest value within this distance along x and y")
+FILTER(ERODE, erode, radius, FILTER, 1, "thin the shapes drawn after it (erosion)")
+ATTR(FILTER_ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "each channel becomes the smallest value within this distance along x and y")
 
-NODE(FILTER_MATRIX, "color_matrix", FILTER, FILTER, "change the colours of nodes drawn after it")
-ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "four rows, for red, green, blue and alpha; each has five factors, for r;g;b;a;1; if set, all other attributes are ignored")
-ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "row of the matrix for red; if a row is set, scale, offset, brightness, contrast and saturation are ignored")
-ATTR(FILTER_MATRIX, GREEN, FIVE, NOWHERE, DESCRIBED(0, "0;1;0;0;0"), "", "row of the matrix for green")
-ATTR(FILTER_MATRIX, BLUE, FIVE, NOWHERE, DESCRIBED(0, "0;0;1;0;0"), "", "row of the matrix for blue")
-ATTR(FILTER_MATRIX, ALPHA, FIVE, NOWHERE, DESCRIBED(0, "0;0;0;1;0"), "", "row of the matrix for alpha")
-ATTR(FILTER_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors for red, green and blue; if scale or offset is set, brightness, contrast and saturation are ignored")
-ATTR(FILTER_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "added to red, green and blue after scale")
-ATTR(FILTER_MATRIX, BRIGHTNESS, FINITE, NOWHERE, IS(0), "", "added to red, green and blue")
-ATTR(FILTER_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "factor for the difference of red, green and blue from 0.5")
-ATTR(FILTER_MATRIX, SATURATION, FINITE, NOWHERE, IS(1), "", "factor for the saturation; 0 is grey")
+FILTER(COLOUR_MATRIX, color_matrix, matrix, FILTER, 1, "change the colours of nodes drawn after it")
+ATTR(FILTER_COLOUR_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "four rows, for red, green, blue and alpha; each has five factors, for r;g;b;a;1; if set, all other attributes are ignored")
+ATTR(FILTER_COLOUR_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "row of the matrix for red; if a row is set, scale, offset, brightness, contrast and saturation are ignored")
+ATTR(FILTER_COLOUR_MATRIX, GREEN, FIVE, NOWHERE, DESCRIBED(0, "0;1;0;0;0"), "", "row of the matrix for green")
+ATTR(FILTER_COLOUR_MATRIX, BLUE, FIVE, NOWHERE, DESCRIBED(0, "0;0;1;0;0"), "", "row of the matrix for blue")
+ATTR(FILTER_COLOUR_MATRIX, ALPHA, FIVE, NOWHERE, DESCRIBED(0, "0;0;0;1;0"), "", "row of the matrix for alpha")
+ATTR(FILTER_COLOUR_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors for red, green and blue; if scale or offset is set, brightness, contrast and saturation are ignored")
+ATTR(FILTER_COLOUR_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "added to red, green and blue after scale")
+ATTR(FILTER_COLOUR_MATRIX, BRIGHTNESS, FINITE, NOWHERE, IS(0), "", "added to red, green and blue")
+ATTR(FILTER_COLOUR_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "factor for the difference of red, green and blue from 0.5")
+ATTR(FILTER_COLOUR_MATRIX, SATURATION, FINITE, NOWHERE, IS(1), "", "factor for the saturation; 0 is grey")
 
-NODE(DRAWN, "source", FILTER, NOTHING, "the unfiltered drawing, as input to another filter")
+FILTER(SOURCE, source, nothing, NOTHING, 0, "the unfiltered drawing, as input to another filter")
 
-NODE(FILTER_PAINT, "paint", FILTER, NOTHING, "an area filled with a colour or the current source, as input to another filter")
+FILTER(PAINT, paint, paint, NOTHING, 0, "an area filled with a colour or the current source, as input to another filter")
 PAINT_ROWS(FILTER_PAINT)
 
-NODE(FILTER_BLEND, "blend", FILTER, FILTER, "blend the results of the two filters inside it; applied to nodes drawn after it")
+FILTER(BLEND, blend, blend, FILTER, 2, "blend the results of the two filters inside it; applied to nodes drawn after it")
 ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "k1;k2;k3;k4: the result is k1*first*second + k2*second + k3*first + k4")
 ATTR(FILTER_BLEND, RATIO, FINITE, NOWHERE, NONE, "", "fraction of the first filter; ignored if coefficients is set")
 ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "how the second filter is combined with the first; ignored if coefficients or ratio is set")
 
-NODE(DASH, "dash", EFFECT, EFFECT, "lines of nodes drawn after it become dashed")
+EFFECT(DASH, dash, "lines of nodes drawn after it become dashed")
 ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "lengths dash;gap;dash;gap…; there must be as many gaps as dashes")
 ATTR(DASH, OFFSET, FINITE, NOWHERE, IS(0), "", "position in the intervals at which each line begins")
 
-NODE(ROUND_CORNERS, "round_corners", EFFECT, EFFECT, "round the corners of nodes drawn after it")
+EFFECT(ROUND_CORNERS, round_corners, "round the corners of nodes drawn after it")
 ATTR(ROUND_CORNERS, RADIUS, WIDTH, NOWHERE, NONE, "", "distance from a corner at which its curve begins")
 
-NODE(JITTER, "jitter", EFFECT, EFFECT, "roughen nodes drawn after it")
+EFFECT(JITTER, jitter, "roughen nodes drawn after it")
 ATTR(JITTER, LENGTH, WIDTH, NOWHERE, NONE, "", "length of the segments into which lines are cut")
 ATTR(JITTER, DEVIATION, FINITE, NOWHERE, NONE, "", "maximum sideways displacement of the ends of segments")
 ATTR(JITTER, SEED, FINITE, NOWHERE, IS(0), "", "any number; each seed gives different displacements")
 
-NODE(PATH_MATRIX, "path_matrix", EFFECT, EFFECT, "transform paths drawn after it, but not their line width")
+EFFECT(PATH_MATRIX, path_matrix, "transform paths drawn after it, but not their line width")
 ATTR(PATH_MATRIX, MATRIX, NINE, NOWHERE, NONE, "", "three rows of three numbers; if set, all other attributes are ignored")
 ATTR(PATH_MATRIX, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "applied first")
 ATTR(PATH_MATRIX, ROTATE, FINITE, NOWHERE, IS(0), "turns", "applied second, clockwise")
 ATTR(PATH_MATRIX, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "applied last")
 
-NODE(SUM, "sum", EFFECT, EFFECT, "apply each effect inside to the paths drawn after it, and draw all results")
+EFFECT(SUM, sum, "apply each effect inside to the paths drawn after it, and draw all results")
 #include "schema/canvas3d_list.h"
 // clang-format on
 
 #undef TYPE
 #undef NODE
 #undef FORCE
+#undef SHAPE
+#undef COMMAND
+#undef SOURCE
+#undef FILTER
+#undef EFFECT
 #undef ATTR
 #undef ALIAS
 #undef STRENGTH_ROW
