@@ -45,31 +45,18 @@ const DrawNode *render_graph_direct_canvas(const DrawNode *node, int width, int 
     return node && draw_flag(node, ATTR_LINEAR) ? NULL : node;
 }
 
+static const bool scalable_kinds[KIND_COUNT] = {
+#define PICTURE_EFFECT(id, name, scalable, help) [KIND_##id] = scalable,
+#include "schema/schema_list.h"
+    [KIND_CANVAS] = true,    [KIND_CANVAS3D] = true,  [KIND_PICTURE_IMAGE] = true,
+    [KIND_REFERENCE] = true, [KIND_POINTER] = true,   [KIND_KEY] = true,
+    [KIND_WINDOW] = true,    [KIND_OFFSCREEN] = true, [KIND_SHADER] = true,
+};
+
 bool render_graph_scalable(const DrawNode *node) {
-    switch ((NodeKind)node->kind) {
-    case KIND_CANVAS:
-    case KIND_CANVAS3D:
-    case KIND_PICTURE_IMAGE:
-    case KIND_REFERENCE:
-    case KIND_POINTER:
-    case KIND_KEY:
-        return true;
-    case KIND_WINDOW:
-    case KIND_OFFSCREEN:
-    case KIND_SHADER:
-    case KIND_ADJUST:
-    case KIND_BLUR:
-    case KIND_BLOOM:
-    case KIND_EDGES:
-    case KIND_FLARE:
-    case KIND_KALEID:
-    case KIND_CHROMAKEY:
-    case KIND_PICTURE_TRANSFORM:
-    case KIND_VIGNETTE:
-        break;
-    default:
-        return false;
-    }
+    PlaceKind children = schema_kinds[node->kind].children;
+    if (!scalable_kinds[node->kind] || (children != PLACE_PICTURES && children != PLACE_WINDOW))
+        return scalable_kinds[node->kind];
     bool own = draw_attr(node, ATTR_FRAGMENT) || draw_attr(node, ATTR_VERTEX);
     for (uint32_t i = 0; i < node->child_count && !own; i++)
         own = !render_graph_scalable(node->children[i]);

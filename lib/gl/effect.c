@@ -13,39 +13,37 @@
 
 enum { MAX_PASSES = 8 };
 
+// An effect. The costs are in nanoseconds per pixel, as measured with llvmpipe on two processors. A GPU is faster, but
+// the work limit must not depend on the machine.
 typedef struct Effect {
     const char *text;
     GlEdge edge;
     bool merges; // true if several inputs are composited in an additional first pass
+    double cost;
+    double radius_cost; // cost of each pixel of the attribute `radius`
+    double octave_cost; // cost of each unit of the attribute `octaves`
 } Effect;
 
-static Effect find_effect(NodeKind kind) {
-    switch (kind) {
-    case KIND_ADJUST:
-        return (Effect){gl_source_adjust, GL_EDGE_BORDER, false};
-    case KIND_BLUR:
-        return (Effect){gl_source_blur, GL_EDGE_CLAMP, true};
-    case KIND_BLOOM:
-        return (Effect){gl_source_bloom, GL_EDGE_CLAMP, true};
-    case KIND_EDGES:
-        return (Effect){gl_source_edges, GL_EDGE_CLAMP, true};
-    case KIND_CHROMAKEY:
-        return (Effect){gl_source_chromakey, GL_EDGE_CLAMP, true};
-    case KIND_FEEDBACK:
-        return (Effect){gl_source_feedback, GL_EDGE_CLAMP, false};
-    case KIND_PICTURE_TRANSFORM:
-        return (Effect){gl_source_transform, GL_EDGE_BORDER, false};
-    case KIND_VIGNETTE:
-        return (Effect){gl_source_vignette, GL_EDGE_BORDER, false};
-    case KIND_NOISE:
-        return (Effect){gl_source_noise, GL_EDGE_BORDER, false};
-    case KIND_FLARE:
-        return (Effect){gl_source_flare, GL_EDGE_BORDER, true};
-    case KIND_KALEID:
-        return (Effect){gl_source_kaleid, GL_EDGE_BORDER, false};
-    default:
-        return (Effect){gl_source_plain, GL_EDGE_BORDER, false};
-    }
+static const Effect effect_plain = {gl_source_plain, GL_EDGE_BORDER, false, 25, 0, 0},
+                    effect_adjust = {gl_source_adjust, GL_EDGE_BORDER, false, 25, 0, 0},
+                    effect_blur = {gl_source_blur, GL_EDGE_CLAMP, true, 50, 7, 0},
+                    effect_bloom = {gl_source_bloom, GL_EDGE_CLAMP, true, 50, 1, 0},
+                    effect_edges = {gl_source_edges, GL_EDGE_CLAMP, true, 50, 1, 0},
+                    effect_chromakey = {gl_source_chromakey, GL_EDGE_CLAMP, true, 50, 1, 0},
+                    effect_feedback = {gl_source_feedback, GL_EDGE_CLAMP, false, 25, 0, 0},
+                    effect_transform = {gl_source_transform, GL_EDGE_BORDER, false, 25, 0, 0},
+                    effect_vignette = {gl_source_vignette, GL_EDGE_BORDER, false, 25, 0, 0},
+                    effect_noise = {gl_source_noise, GL_EDGE_BORDER, false, 150, 0, 20},
+                    effect_flare = {gl_source_flare, GL_EDGE_BORDER, true, 1500, 0, 0},
+                    effect_kaleid = {gl_source_kaleid, GL_EDGE_BORDER, false, 25, 0, 0};
+
+static const Effect *const effects[KIND_COUNT] = {
+#define PICTURE_EFFECT(id, name, scalable, help) [KIND_##id] = &effect_##name,
+#include "schema/schema_list.h"
+};
+
+static const Effect *find_effect(const DrawNode *node) {
+    return effects[node->kind] ? effects[node->kind] : &effect_plain;
 }
 
 // One pass of an effect.
@@ -77,29 +75,17 @@ void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str pro
     diag_report(faults, &(Diag){DIAG_WARNING, node->origin, text_str(&text), .code = code});
 }
 
-// Returns the cost of an effect in nanoseconds per pixel, as measured with llvmpipe on two processors. A GPU is faster,
-// but the work limit must not depend on the machine.
+// Returns the cost of an effect in nanoseconds per pixel.
 static double pixel_cost(const DrawNode *node, double detail) {
+    const Effect *row = find_effect(node);
     const AttrValue *radius = draw_attr(node, ATTR_RADIUS);
     if (gl_has_shader(node))
         return 50.0 * gl_shader_passes(node);
-    double reach = !radius ? 10 : detail * (fabs(radius->as.numbers[0]) + fabs(radius->as.numbers[1])) / 2;
-    switch (node->kind) {
-    case KIND_BLUR:
-        return 50 + 7 * reach;
-    case KIND_BLOOM:
-    case KIND_EDGES:
-    case KIND_CHROMAKEY:
-        return 50 + reach;
-    case KIND_NOISE:
-        return 150 + 20 * fmax(1, draw_number(node, ATTR_OCTAVES));
-    case KIND_FLARE:
-        return 1500;
-    case KIND_WINDOW:
+    if (node->kind == KIND_WINDOW)
         return 0; // the picture itself is always drawn
-    default:
-        return 25;
-    }
+    double reach = !radius ? 10 : detail * (fabs(radius->as.numbers[0]) + fabs(radius->as.numbers[1])) / 2;
+    double octaves = row->octave_cost > 0 ? fmax(1, draw_number(node, ATTR_OCTAVES)) : 0;
+    return row->cost + row->radius_cost * reach + row->octave_cost * octaves;
 }
 
 double gl_effect_cost(const GlEffect *effect) {
@@ -210,19 +196,17 @@ GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     const Pass merging = {STR("void main() { color = merged_here(); }\n"), false};
     if (gl_has_shader(effect->node))
         return gl_shader(gl, arena, effect, faults);
-    Effect kind = find_effect(node);
+    // Without inputs, effects other than noise result in a transparent picture.
+    const Effect *kind = effect->count == 0 && node != KIND_NOISE ? &effect_plain : find_effect(effect->node);
     Str common;
     Pass passes[MAX_PASSES];
     GlPass programs[MAX_PASSES + 1];
-    uint32_t count = split_passes(kind.text, &common, passes), first = 0;
-    if (effect->count == 0 && node != KIND_NOISE)
-        kind = find_effect(KIND_WINDOW),
-        count = split_passes(kind.text, &common, passes); // results in a transparent picture
-    if (kind.merges && effect->count > 1)
-        programs[first++] = (GlPass){build_pass(gl, arena, effect, &kind, common, merging, faults), false};
+    uint32_t count = split_passes(kind->text, &common, passes), first = 0;
+    if (kind->merges && effect->count > 1)
+        programs[first++] = (GlPass){build_pass(gl, arena, effect, kind, common, merging, faults), false};
     for (uint32_t i = 0; i < count; i++)
         programs[first + i] =
-            (GlPass){build_pass(gl, arena, effect, &kind, common, passes[i], faults), passes[i].reduced};
+            (GlPass){build_pass(gl, arena, effect, kind, common, passes[i], faults), passes[i].reduced};
     for (uint32_t i = 0; i < first + count; i++)
         if (!programs[i].program)
             return none;
