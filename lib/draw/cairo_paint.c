@@ -6,7 +6,7 @@
 
 cairo_operator_t draw_operator(int composite) {
     static const cairo_operator_t operators[] = {
-#define COMPOSITE(id, operator, text) operator,
+#define COMPOSITE(id, operator, text, formula) operator,
 #include "schema/composite_list.h"
     };
     return operators[composite];

@@ -5,33 +5,25 @@
 
 #include <math.h>
 
-// Composites a source s onto the destination d.
-static void combine_colors(int how, const float s[4], float d[4]) {
-    const float sa = s[3], da = d[3];
-    for (int k = 0; k < 4; k++)
-        switch (how) {
-        case MIX_DEST_OVER:
-            d[k] = s[k] * (1 - da) + d[k];
-            break;
-        case MIX_LIGHTEN:
-            d[k] = fmaxf(s[k], d[k]);
-            break;
-        case MIX_DARKEN:
-            d[k] = fminf(s[k], d[k]);
-            break;
-        case MIX_ADD:
-            d[k] = k < 3 ? s[k] + d[k] : fminf(sa + da, 1);
-            break;
-        case MIX_DIFFERENCE:
-            d[k] = k < 3 ? fabsf(d[k] - s[k]) : fmaxf(sa, da);
-            break;
-        case MIX_MULTIPLY:
-            d[k] *= s[k];
-            break;
-        default:
-            d[k] = s[k] + d[k] * (1 - sa);
-            break;
-        }
+// GLSL's names for functions in the formulas of mix_list.h
+#define min fminf
+#define max fmaxf
+#define abs fabsf
+
+// Composites a source onto the destination `onto`.
+static void combine_colors(int how, const float source[4], float onto[4]) {
+    const float sa = source[3], da = onto[3];
+    switch (how) {
+#define MIX(id, text, colour, alpha)                                                                                   \
+    case MIX_##id:                                                                                                     \
+        for (int k = 0; k < 3; k++) {                                                                                  \
+            const float s = source[k], d = onto[k];                                                                    \
+            onto[k] = colour;                                                                                          \
+        }                                                                                                              \
+        onto[3] = alpha;                                                                                               \
+        break;
+#include "schema/mix_list.h"
+    }
 }
 
 static float clamp_unit(float x) {

@@ -40,14 +40,9 @@ static const char nearest_sampling[] = "vec4 take(sampler2D t, vec2 uv) {\n"
 static const char filtered_sampling[] = "vec4 take(sampler2D t, vec2 uv) { return texture(t, uv); }\n";
 
 static const char *const combining[] = {
-    [MIX_OVER] = "s + d * (1.0 - s.a)",
-    [MIX_DEST_OVER] = "s * (1.0 - d.a) + d",
-    [MIX_LIGHTEN] = "max(s, d)",
-    [MIX_DARKEN] = "min(s, d)",
-    [MIX_ADD] = "vec4(s.rgb + d.rgb, min(s.a + d.a, 1.0))",
-    [MIX_DIFFERENCE] = "vec4(abs(d.rgb - s.rgb), max(s.a, d.a))",
-    [MIX_MULTIPLY] = "s * d",
-    [MIX_UNKNOWN] = "d",
+#define MIX(id, text, colour, alpha) [MIX_##id] = "vec4(" #colour ", " #alpha ")",
+#include "schema/mix_list.h"
+    [MIX_UNKNOWN] = "onto",
 };
 
 static void add_sampling(Text *out, const DrawNode *node, GlEdge edge) {
@@ -89,7 +84,9 @@ bool gl_add_input_composite(Text *out, const GlEffect *effect, GlEdge edge) {
     for (uint32_t i = 0; i < effect->count; i++)
         text_add_format(out, "uniform sampler2D texture%u;\n", i);
     add_sampling(out, effect->node, edge);
-    text_add_format(out, "vec4 combined(vec4 s, vec4 d) { return %s; }\n", combining[how]);
+    text_add_c(out, "vec4 combined(vec4 source, vec4 onto) {\n"
+                    "    vec3 s = source.rgb, d = onto.rgb;\n    float sa = source.a, da = onto.a;\n");
+    text_add_format(out, "    return %s;\n}\n", combining[how]);
     add_merged(out, effect, false);
     add_merged(out, effect, true);
     return true;

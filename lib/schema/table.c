@@ -53,8 +53,10 @@ const SchemaRow schema_rows[ROW_COUNT] = {
 const WordRow schema_words[WORD_COUNT] = {
 #define WORD(type, text, value) {TYPE_##type, value, {text, sizeof text - 1}},
 #include "schema/word_list.h"
-#define COMPOSITE(id, operator, text) {TYPE_COMPOSITE, COMPOSITE_##id, {text, sizeof text - 1}},
+#define COMPOSITE(id, operator, text, formula) {TYPE_COMPOSITE, COMPOSITE_##id, {text, sizeof text - 1}},
 #include "schema/composite_list.h"
+#define MIX(id, text, colour, alpha) {TYPE_MIX, MIX_##id, {text, sizeof text - 1}},
+#include "schema/mix_list.h"
 };
 
 const SchemaRow *schema_row(NodeKind kind, AttrName name) {

@@ -87,21 +87,24 @@ enum { FADE_LINEAR, FADE_QUAD, FADE_CUBIC };
 enum { FLIP_NOT, FLIP_HORIZONTAL, FLIP_VERTICAL, FLIP_BOTH };
 enum { TURBULENCE_FRACTAL, TURBULENCE_FOLDED, TURBULENCE_IMPROVED };
 enum { NOISE_PLANE, NOISE_CYLINDER, NOISE_SPHERE };
-// How pictures are combined, in linear light. MIX_UNKNOWN: the script gives an unknown word.
-enum { MIX_OVER, MIX_DEST_OVER, MIX_LIGHTEN, MIX_DARKEN, MIX_ADD, MIX_DIFFERENCE, MIX_MULTIPLY, MIX_UNKNOWN };
+enum {
+#define MIX(id, text, colour, alpha) MIX_##id,
+#include "schema/mix_list.h"
+    MIX_UNKNOWN // the script gives an unknown word
+};
 enum { FACE_BACK, FACE_FRONT };
 enum { MIX3D_OVER, MIX3D_SOURCE, MIX3D_DEST, MIX3D_DEST_OVER, MIX3D_ADD, MIX3D_SUBTRACT, MIX3D_LIGHTEN, MIX3D_DARKEN };
 enum { FOV_HORIZONTAL, FOV_VERTICAL, FOV_DIAGONAL, FOV_WIDE, FOV_NARROW };
 enum { UV_STANDARD, UV_REPEAT };
 enum { REMAP_NONE, REMAP_SPHERE, REMAP_PLANE, REMAP_BOOK };
 typedef enum CompositeMode {
-#define COMPOSITE(id, operator, text) COMPOSITE_##id,
+#define COMPOSITE(id, operator, text, formula) COMPOSITE_##id,
 #include "schema/composite_list.h"
     COMPOSITE_COUNT
 } CompositeMode;
 
 enum {
-    WORD_COUNT = COMPOSITE_COUNT
+    WORD_COUNT = COMPOSITE_COUNT + MIX_UNKNOWN
 #define WORD(type, text, value) +1
 #include "schema/word_list.h"
 };

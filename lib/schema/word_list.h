@@ -1,5 +1,6 @@
 // word_list.h: words for attributes of drawing nodes: WORD(TYPE, "word", value). If several words have the same
-// meaning, the first is preferred; the preferred words of COMPOSITE are in composite_list.h.
+// meaning, the first is preferred; the preferred words of COMPOSITE are in composite_list.h. The words of MIX are in
+// mix_list.h.
 // clang-format off
 #ifndef WORD
 #define WORD(type, text, value)
@@ -67,14 +68,6 @@ WORD(COMPOSITE, "plus", COMPOSITE_ADD)
 WORD(COMPOSITE, "lighter", COMPOSITE_ADD)
 WORD(COMPOSITE, "dodge", COMPOSITE_COLOR_DODGE)
 WORD(COMPOSITE, "burn", COMPOSITE_COLOR_BURN)
-
-WORD(MIX, "over", MIX_OVER)
-WORD(MIX, "dest_over", MIX_DEST_OVER)
-WORD(MIX, "lighten", MIX_LIGHTEN)
-WORD(MIX, "darken", MIX_DARKEN)
-WORD(MIX, "add", MIX_ADD)
-WORD(MIX, "difference", MIX_DIFFERENCE)
-WORD(MIX, "multiply", MIX_MULTIPLY)
 
 WORD(TONEMAP, "reinhard", TONEMAP_REINHARD)
 WORD(TONEMAP, "aces", TONEMAP_ACES)
