@@ -1,6 +1,7 @@
 // display_list_filters.c: translates filter and path effect nodes, which apply to the siblings after them (spec
 // canvas.md 6, 7).
 #include "draw/display_list_build.h"
+#include "gl/colour_formulas.h"
 #include "maths/maths.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@ static uint32_t add_numbers(DisplayListBuild *build, uint32_t count, const doubl
 
 // Sets a colour matrix from brightness, contrast and saturation.
 static void set_adjustment(const DrawNode *node, double m[4][5]) {
-    static const double luminance[3] = {0.2126, 0.7152, 0.0722};
+    static const double luminance[3] = {LUMINANCE_WEIGHTS};
     double contrast = draw_number(node, ATTR_CONTRAST), saturation = draw_number(node, ATTR_SATURATION);
     for (int row = 0; row < 3; row++) {
         for (int k = 0; k < 3; k++)

@@ -2,6 +2,7 @@
 #include "draw/texture.h"
 
 #include "base/heap.h"
+#include "gl/colour_formulas.h"
 #include "maths/maths.h"
 
 #include <math.h>
@@ -97,14 +98,10 @@ static float float_of(uint32_t bits) {
     return x;
 }
 
-static double srgb_to_linear(double e) {
-    return e <= 0.04045 ? e / 12.92 : maths_pow((e + 0.055) / 1.055, 2.4);
-}
-
 static void make_tables(void) {
     for (int i = 0; i < 256; i++) {
-        decoded[i] = (float)srgb_to_linear(i / 255.0);
-        thresholds[i] = (float)srgb_to_linear((i + 0.5) / 255.0);
+        decoded[i] = (float)SRGB_DECODE(i / 255.0, maths_pow);
+        thresholds[i] = (float)SRGB_DECODE((i + 0.5) / 255.0, maths_pow);
     }
     for (uint32_t half = 0, count = 0; half <= ONE; half++) {
         while (count < 255 && float_of(half << 16) >= thresholds[count])

@@ -28,7 +28,8 @@ layout(std140) uniform Lights { vec4 lights[LIGHTS_MAX * 4]; };
 #define LIGHT(i, k) lights[4 * (i) + (k)]
 #endif
 
-float lum(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+#include "gl/colour_formulas.h"
+float lum(vec3 c) { return dot(c, vec3(LUMINANCE_WEIGHTS)); }
 
 vec3 N, V, albedo, F0, diffuse_share, diffuse, specular;
 #ifdef BACK

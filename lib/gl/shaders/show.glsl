@@ -1,5 +1,6 @@
 // show.glsl: draws a picture on a window: encoded as in files, scaled as in Cairo, with black around it (spec
 // pictures.md 4.1).
+#include "gl/colour_formulas.h"
 uniform sampler2D picture, curve;
 uniform vec4 box; // left, bottom, width, height
 uniform bool opaque;
@@ -12,8 +13,7 @@ float byte_of(float c) {
         return 0.0;
     if (c >= 1.0)
         return 255.0;
-    float e = c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055;
-    int n = clamp(int(255.0 * e + 0.5), 0, 255);
+    int n = clamp(int(255.0 * SRGB_ENCODE(c, pow) + 0.5), 0, 255);
     if (c >= limit(n))
         n++;
     else if (n > 0 && c < limit(n - 1))
