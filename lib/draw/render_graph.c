@@ -4,8 +4,7 @@
 #include "base/heap.h"
 #include "draw/layer_composite.h"
 #include "draw/painter.h"
-#include "gl/effect.h"
-#include "gl/scene.h"
+#include "gl/functions.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -84,11 +83,11 @@ static void clear_frame(Frame *frame) {
 
 void render_graph_clear(PetriPainter *painter) {
     const char *problem;
-    bool gpu = painter->gl && gl_enter(painter->gl, &problem);
+    bool gpu = painter->gl && gl_call.enter(painter->gl, &problem);
     for (int i = 0; painter->render_graph && i < 2; i++)
         clear_frame(&painter->render_graph->frames[i]);
     if (gpu)
-        gl_leave(painter->gl);
+        gl_call.leave(painter->gl);
 }
 
 void render_graph_free(PetriPainter *painter) {
@@ -218,10 +217,10 @@ static Gl *open_gpu(Walk *walk) {
             draw_test_shaders(painter);
     }
     if (painter->gl)
-        gl_charge(painter->gl, &painter->budget);
+        gl_call.charge(painter->gl, &painter->budget);
     if (!painter->gl && !problem)
         arena_exhausted(&walk->frame->arena);
-    if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
+    if (painter->gl && (walk->gpu || gl_call.enter(painter->gl, &problem))) {
         walk->gpu = true;
         return painter->gl;
     }
@@ -240,7 +239,7 @@ static bool needs_gpu(const DrawNode *node, Texture *const *inputs, uint32_t cou
 // Charges the work of an effect. If that would exceed the limit, reports it and returns false.
 static bool charge_effect(Walk *walk, const GlEffect *effect) {
     Budget *budget = &walk->painter->budget;
-    double cost = gl_effect_cost(effect);
+    double cost = gl_call.effect_cost(effect);
     if (budget_charge_time(budget, cost))
         return true;
     draw_report(walk->faults, &effect->node->origin, DIAG_WARNING, "drawing-limit",
@@ -274,11 +273,12 @@ static Texture *run_effect(Walk *walk, const DrawNode *node, const GraphNode *pa
                        .width = render_graph_pixels(width, picture->detail),
                        .height = render_graph_pixels(height, picture->detail),
                        .detail = picture->detail,
-                       .format = node->kind == KIND_RECORD ? GL_FORMAT_SRGB8 : gl_format(gl, bits_of(node, walk->bits)),
+                       .format =
+                           node->kind == KIND_RECORD ? GL_FORMAT_SRGB8 : gl_call.format(gl, bits_of(node, walk->bits)),
                        .frame = &frame};
     if (!charge_effect(walk, &effect))
         return NULL;
-    GlImage image = gl_effect(gl, &walk->frame->arena, &effect, walk->faults);
+    GlImage image = gl_call.effect(gl, &walk->frame->arena, &effect, walk->faults);
     if (!image.texture && walk->painter->budget.memory_refused)
         return report_no_memory(walk, node, width, height);
     Texture *texture = image.texture ? texture_from_image(&walk->painter->budget, gl, image) : NULL;
@@ -320,9 +320,9 @@ static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *cam
     Gl *gl = walk->painter->gl;
     if (!is_good_size(walk, (NodeKind)camera->node->kind, camera->node->origin, camera->width, camera->height))
         return NULL;
-    GlImage image = gl_scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
+    GlImage image = gl_call.scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
     if (walk->painter->budget.memory_refused) {
-        gl_image_free(gl, image);
+        gl_call.image_free(gl, image);
         return report_no_memory(walk, camera->node, camera->width, camera->height);
     }
     Texture *texture = image.texture ? texture_from_image(&walk->painter->budget, gl, image) : NULL;
@@ -470,7 +470,7 @@ static void make_windows(void *context) {
 static void clear_old_frame(Walk *walk) {
     const char *problem;
     if (walk->painter->gl)
-        walk->gpu = gl_enter(walk->painter->gl, &problem);
+        walk->gpu = gl_call.enter(walk->painter->gl, &problem);
     clear_frame(walk->frame);
 }
 
@@ -490,7 +490,7 @@ PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture
     Arena *arenas[] = {&walk.frame->arena, &painter->arena, faults->arena};
     ArenaOutcome end = arena_protect(arenas, 3, make_windows, &walk);
     if (walk.gpu)
-        gl_leave(painter->gl);
+        gl_call.leave(painter->gl);
     *shown = end == ARENA_OK ? walk.shown : NULL;
     draw_report_needed(painter, picture, faults);
     return end == ARENA_OK ? PETRI_OK : end == ARENA_MEMORY_LIMIT ? draw_report_limit(faults) : PETRI_OUT_OF_MEMORY;

@@ -2,6 +2,7 @@
 #include "base/heap.h"
 #include "draw/painter.h"
 #include "draw/resize.h"
+#include "gl/functions.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,7 +31,8 @@ void petri_painter_close(PetriPainter **handle) {
         return;
     draw_tools_close(painter);
     render_graph_free(painter);
-    gl_close(painter->gl);
+    if (painter->gl)
+        gl_call.close(painter->gl);
     heap_free(painter->window);
     arena_free(&painter->arena);
     heap_free(painter);
@@ -58,7 +60,7 @@ void petri_painter_test_shaders(PetriPainter *painter, PetriShaderTest *test, vo
 }
 
 void draw_test_shaders(PetriPainter *painter) {
-    gl_test_shaders(painter->gl, painter->shader_test ? test_shader : NULL, painter);
+    gl_call.test_shaders(painter->gl, painter->shader_test ? test_shader : NULL, painter);
 }
 
 bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem) {
@@ -159,7 +161,7 @@ static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *pic
     painter->shown = NULL;
     PetriStatus result = render_graph_run(painter, picture, faults, &painter->shown);
     painter->made = result == PETRI_OK ? picture->serial : 0;
-    painter->total_work += painter->budget.work + (painter->gl ? gl_shader_work(painter->gl) : 0);
+    painter->total_work += painter->budget.work + (painter->gl ? gl_call.shader_work(painter->gl) : 0);
     return result;
 }
 
@@ -191,10 +193,10 @@ static void download_shown(void *context) {
     PetriPainter *painter = fetching->painter;
     Texture *shown = painter->shown;
     const char *problem;
-    bool good = gl_enter(painter->gl, &problem);
+    bool good = gl_call.enter(painter->gl, &problem);
     if (good) {
         good = texture_download(painter->gl, shown);
-        gl_leave(painter->gl);
+        gl_call.leave(painter->gl);
     }
     if (good)
         return;

@@ -3,6 +3,7 @@
 
 #include "base/heap.h"
 #include "gl/colour_formulas.h"
+#include "gl/functions.h"
 #include "maths/maths.h"
 
 #include <math.h>
@@ -35,7 +36,7 @@ Texture *texture_new(Budget *budget, int width, int height, bool linear) {
 Texture *texture_from_image(Budget *budget, Gl *gl, GlImage image) {
     Texture *texture = heap_calloc(1, sizeof *texture);
     if (!texture)
-        gl_image_free(gl, image);
+        gl_call.image_free(gl, image);
     else
         *texture = (Texture){
             .references = 1, .width = image.width, .height = image.height, .image = image, .gl = gl, .budget = budget};
@@ -45,15 +46,15 @@ Texture *texture_from_image(Budget *budget, Gl *gl, GlImage image) {
 bool texture_upload(Gl *gl, Texture *texture) {
     if (texture->gl)
         return true;
-    GlFormat format = texture->bytes ? GL_FORMAT_SRGB8 : gl_format(gl, 16);
-    texture->image = gl_image_new(gl, texture->width, texture->height, format);
+    GlFormat format = texture->bytes ? GL_FORMAT_SRGB8 : gl_call.format(gl, 16);
+    texture->image = gl_call.image_new(gl, texture->width, texture->height, format);
     if (!texture->image.texture)
         return false;
     texture->gl = gl;
     if (texture->bytes)
-        gl_upload_bytes(gl, texture->image, texture->bytes);
+        gl_call.upload_bytes(gl, texture->image, texture->bytes);
     else
-        gl_upload_linear(gl, texture->image, texture->linear);
+        gl_call.upload_linear(gl, texture->image, texture->linear);
     return true;
 }
 
@@ -62,10 +63,10 @@ bool texture_download(Gl *gl, Texture *texture) {
         return true;
     if (texture->image.format == GL_FORMAT_SRGB8) {
         texture->bytes = alloc_pixels(texture, sizeof *texture->bytes, false);
-        return texture->bytes && gl_read_bytes(gl, texture->image, texture->bytes);
+        return texture->bytes && gl_call.read_bytes(gl, texture->image, texture->bytes);
     }
     texture->linear = alloc_pixels(texture, 4 * sizeof *texture->linear, false);
-    return texture->linear && gl_read_linear(gl, texture->image, texture->linear);
+    return texture->linear && gl_call.read_linear(gl, texture->image, texture->linear);
 }
 
 Texture *texture_retain(Texture *texture) {
@@ -77,7 +78,7 @@ void texture_free(Texture *texture) {
     if (!texture || --texture->references > 0)
         return;
     if (texture->gl)
-        gl_image_free(texture->gl, texture->image);
+        gl_call.image_free(texture->gl, texture->image);
     heap_free(texture->bytes);
     heap_free(texture->linear);
     budget_release(texture->budget, texture->charged);

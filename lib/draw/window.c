@@ -2,6 +2,7 @@
 #include "base/heap.h"
 #include "draw/painter.h"
 #include "draw/picture.h"
+#include "gl/functions.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,14 +14,14 @@ PetriStatus petri_painter_use_gl(PetriPainter *painter) {
     painter->gl = gl_adopt(&problem);
     painter->on_window = painter->gl;
     if (painter->gl) {
-        gl_charge(painter->gl, &painter->budget);
+        gl_call.charge(painter->gl, &painter->budget);
         draw_test_shaders(painter);
     }
     return painter->gl ? PETRI_OK : problem ? PETRI_UNSUPPORTED : PETRI_OUT_OF_MEMORY;
 }
 
 uint64_t petri_painter_readback_count(const PetriPainter *painter) {
-    return painter && painter->gl ? gl_readback_count(painter->gl) : 0;
+    return painter && painter->gl ? gl_call.readback_count(painter->gl) : 0;
 }
 
 // The content of a window.
@@ -66,8 +67,8 @@ static bool present_label(const Presentation *presentation, const PetriLabel *la
     moved.y -= top / scale;
     return petri_painter_draw_labels(painter, &moved, 1, scale, pixels, width, height,
                                      (size_t)width * sizeof *pixels) == PETRI_OK &&
-           gl_present_pixels(painter->gl, &painter->arena, pixels, (int)left, presentation->height - (int)bottom, width,
-                             height, true);
+           gl_call.present_pixels(painter->gl, &painter->arena, pixels, (int)left, presentation->height - (int)bottom,
+                                  width, height, true);
 }
 
 static void present_protected(void *context) {
@@ -81,11 +82,11 @@ static void present_protected(void *context) {
         box.width = picture->width * scale;
         box.height = picture->height * scale;
         presentation->done =
-            gl_present_image(painter->gl, &painter->arena, presentation->texture->image, &box, presentation->width,
-                             presentation->height, texture_thresholds(), picture->opaque);
+            gl_call.present_image(painter->gl, &painter->arena, presentation->texture->image, &box, presentation->width,
+                                  presentation->height, texture_thresholds(), picture->opaque);
     } else {
-        presentation->done = gl_present_pixels(painter->gl, &painter->arena, painter->window, 0, 0, presentation->width,
-                                               presentation->height, false);
+        presentation->done = gl_call.present_pixels(painter->gl, &painter->arena, painter->window, 0, 0,
+                                                    presentation->width, presentation->height, false);
     }
     for (size_t i = 0; i < presentation->count; i++)
         presentation->done = presentation->done && present_label(presentation, &presentation->labels[i]);
@@ -127,12 +128,12 @@ PetriStatus petri_painter_present(PetriPainter *painter, PetriPicture *picture, 
     PetriStatus status = prepare_picture(&presentation);
     if (!painter->window && !presentation.texture)
         return status;
-    if (!gl_enter(painter->gl, &problem))
+    if (!gl_call.enter(painter->gl, &problem))
         return PETRI_INVALID;
     Arena *arenas[] = {&painter->arena};
     ArenaMark mark = arena_mark(&painter->arena);
     bool done = arena_protect(arenas, 1, present_protected, &presentation) == ARENA_OK && presentation.done;
     arena_rewind(&painter->arena, mark);
-    gl_leave(painter->gl);
+    gl_call.leave(painter->gl);
     return done ? status : PETRI_OUT_OF_MEMORY;
 }

@@ -1,11 +1,18 @@
 // gl.c: opening and closing of a Gl; see gl.h.
 #include "base/heap.h"
+#include "gl/functions.h"
 #include "gl/internal.h"
 
 #include <math.h>
 
 // By default, samplers have low precision and can return 16-bit floats, so the header ends with a precision for them.
 const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
+
+const GlFunctions gl_call = {
+#define MEMBER(name) .name = gl_##name,
+    GL_FUNCTIONS(MEMBER)
+#undef MEMBER
+};
 
 static void read_limits(Gl *gl) {
     GLint max_size = 0;
