@@ -2,6 +2,23 @@
 //
 // Files are renamed to their final names in the order of their frames. An interrupted series thus has no gaps. If
 // several frames write the same file, the last of them remains.
+//
+// States of a writer, which only set_failed and stop change:
+//
+//      WRITING ── a job fails ──▶ FAILED
+//       │   │                      │  │      frame_writer_finish abandons; a file cannot be renamed;
+//       │   └──────────────────────┼──┴───▶ STOPPED      a signal, if there is no video
+//       │ a signal, if there       │           │
+//       │ is a video               │ a signal  │ a signal
+//       ▼                          ▼           │
+//      CUT ──── a job fails ───▶ DROPPED ◀─────┘
+//
+//   WRITING  Jobs run, and written files are renamed.
+//   FAILED   No more jobs start. Files of jobs before the failed one are still renamed.
+//   STOPPED  No more jobs start, and no more files are renamed.
+//   CUT      A video is written, and the frame that was being drawn is abandoned: the worker sleeps until the process
+//            ends. The video ends with the frame before it.
+//   DROPPED  Like CUT, but the video is discarded.
 #include "render/frame_writer.h"
 
 #include "base/clock.h"
@@ -40,9 +57,12 @@ struct Job {
     uint64_t number; // from 0, in the order of frame_writer_add
 };
 
+typedef enum WriterState { WRITER_WRITING, WRITER_FAILED, WRITER_STOPPED, WRITER_CUT, WRITER_DROPPED } WriterState;
+
 struct FrameWriter {
     pthread_mutex_t lock; // protects the fields up to `seconds`
     pthread_cond_t changed;
+    WriterState state;
     Job *waiting; // queue, oldest first
     Job **last;   // points to the pointer to which the next job is assigned
     int waiting_count;
@@ -52,16 +72,13 @@ struct FrameWriter {
     uint64_t added;
     uint64_t next_committed; // number of the first job that is not committed: its file is not renamed yet
     Job *done;               // jobs to be reported and freed
-    bool begun;              // true if the first worker has started
+    int started;             // number of workers that have started
     bool ending;             // true if no more jobs will be added
-    bool failed;
-    bool abandoned;      // true if no more files are renamed
-    bool drawing;        // true while a frame of the video is drawn; such a frame can be abandoned
-    bool film_abandoned; // true if the video ends without the frame that is being drawn
-    bool has_frame;      // true if the video has a frame
-    int unfinished;      // number of abandoned jobs
-    double seconds;      // time that all threads together spent on jobs
-    const char *film;    // `film` to `recording` are used by the first worker only
+    bool drawing;            // true while a frame of the video is drawn; such a frame can be abandoned
+    uint64_t film_frames;    // number of frames in the video
+    int unfinished;          // number of abandoned jobs
+    double seconds;          // time that all threads together spent on jobs
+    const char *film;        // `film` to `recording` are used by the first worker only
     double fps;
     Video video;
     uint32_t *pixels; // buffer for a frame of the video
@@ -70,6 +87,23 @@ struct FrameWriter {
     int worker_count;
     char error_text[600];
 };
+
+static bool has_failed(const FrameWriter *writer) {
+    return writer->state != WRITER_WRITING && writer->state != WRITER_CUT;
+}
+
+static void set_failed(FrameWriter *writer) {
+    if (!has_failed(writer))
+        writer->state = writer->state == WRITER_CUT ? WRITER_DROPPED : WRITER_FAILED;
+}
+
+// Lets no more files be renamed. If `cut`, also abandons the frame of the video that is being drawn.
+static void stop(FrameWriter *writer, bool cut) {
+    if (cut)
+        writer->state = has_failed(writer) ? WRITER_DROPPED : WRITER_CUT;
+    else if (writer->state == WRITER_WRITING || writer->state == WRITER_FAILED)
+        writer->state = WRITER_STOPPED;
+}
 
 static void set_error_text(FrameWriter *writer, const char *text) {
     pthread_mutex_lock(&writer->lock);
@@ -88,7 +122,7 @@ static bool draw_for_film(FrameWriter *writer, PetriPicture *picture, PetriPaint
     PetriStatus status = petri_picture_draw(picture, painter, writer->pixels, video->width, video->height,
                                             (size_t)video->width * sizeof(uint32_t));
     pthread_mutex_lock(&writer->lock);
-    while (writer->film_abandoned)
+    while (writer->state == WRITER_CUT || writer->state == WRITER_DROPPED)
         pthread_cond_wait(&writer->changed, &writer->lock); // sleeps until the process ends
     writer->drawing = false;
     pthread_mutex_unlock(&writer->lock);
@@ -118,7 +152,7 @@ static bool add_to_film(FrameWriter *writer, PetriPicture *picture, PetriPainter
         set_error_text(writer, video->error_text);
         return false;
     }
-    writer->has_frame = true;
+    writer->film_frames++;
     return true;
 }
 
@@ -142,9 +176,9 @@ static bool write_bytes(FrameWriter *writer, Job *job, const Text *bytes) {
 // Waits until all earlier jobs are committed. Returns false after a failure.
 static bool wait_for_turn(FrameWriter *writer, const Job *job) {
     pthread_mutex_lock(&writer->lock);
-    while (writer->next_committed < job->number && !writer->failed)
+    while (writer->next_committed < job->number && !has_failed(writer))
         pthread_cond_wait(&writer->changed, &writer->lock);
-    bool good = !writer->failed;
+    bool good = !has_failed(writer);
     pthread_mutex_unlock(&writer->lock);
     return good;
 }
@@ -190,10 +224,10 @@ static Job *pop_ready_job(FrameWriter *writer) {
 // which the caller passes to finish_jobs.
 static Job *commit_ready_jobs(FrameWriter *writer) {
     Job *named = NULL, *job;
-    while (!writer->abandoned && (job = pop_ready_job(writer))) {
+    while ((writer->state == WRITER_WRITING || writer->state == WRITER_FAILED) && (job = pop_ready_job(writer))) {
         job->error = job->target_open && !replace_rename(&job->target) ? errno : 0;
-        writer->failed = writer->failed || job->error != 0;
-        writer->abandoned = writer->abandoned || job->error != 0;
+        if (job->error != 0)
+            stop(writer, false);
         writer->next_committed++;
         job->next = named;
         named = job;
@@ -225,7 +259,7 @@ static void add_done(FrameWriter *writer, Job *jobs) {
 // history.
 static Job *pop_job(FrameWriter *writer, bool first) {
     while (writer->waiting
-               ? (writer->waiting->needs_history && !first) || (writer->ready_count >= MAX_READY && !writer->failed)
+               ? (writer->waiting->needs_history && !first) || (writer->ready_count >= MAX_READY && !has_failed(writer))
                : !writer->ending)
         pthread_cond_wait(&writer->changed, &writer->lock);
     Job *job = writer->waiting;
@@ -248,10 +282,9 @@ static void *run_worker(void *context) {
     if (!painter)
         set_error_text(writer, "out of memory");
     pthread_mutex_lock(&writer->lock);
-    bool first = !writer->begun;
-    writer->begun = true;
+    bool first = writer->started++ == 0;
     for (Job *job = pop_job(writer, first); job; job = pop_job(writer, first)) {
-        bool good = painter && !writer->failed;
+        bool good = painter && !has_failed(writer);
         pthread_mutex_unlock(&writer->lock);
         double start = clock_seconds();
         good = good && run_job(writer, job, painter);
@@ -259,7 +292,8 @@ static void *run_worker(void *context) {
         pthread_mutex_lock(&writer->lock);
         writer->seconds += seconds;
         job->failed = !good;
-        writer->failed = writer->failed || !good;
+        if (!good)
+            set_failed(writer);
         job->next = writer->ready;
         writer->ready = job;
         writer->ready_count++;
@@ -267,7 +301,8 @@ static void *run_worker(void *context) {
         pthread_mutex_unlock(&writer->lock);
         good = finish_jobs(writer, named);
         pthread_mutex_lock(&writer->lock);
-        writer->failed = writer->failed || !good;
+        if (!good)
+            set_failed(writer);
         writer->running--;
         add_done(writer, named);
         pthread_cond_broadcast(&writer->changed);
@@ -320,12 +355,12 @@ bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film,
     job->file = !file ? NULL : memory_strdup(file);
     pthread_mutex_lock(&writer->lock);
     job->number = writer->added++;
-    while (writer->waiting_count >= QUEUE && !writer->failed && frames_signal() == 0)
+    while (writer->waiting_count >= QUEUE && !has_failed(writer) && frames_signal() == 0)
         wait_briefly(writer);
     *writer->last = job;
     writer->last = &job->next;
     writer->waiting_count++;
-    bool good = !writer->failed;
+    bool good = !has_failed(writer);
     pthread_cond_broadcast(&writer->changed);
     pthread_mutex_unlock(&writer->lock);
     return good;
@@ -357,9 +392,7 @@ static int wait_for_end(FrameWriter *writer) {
             signalled = signalled == 0 ? clock_seconds() : signalled;
             bool patient = clock_seconds() - signalled <= GRACE_SECONDS;
             if (!patient && (!writer->film || writer->drawing || shader_test_interrupted())) {
-                writer->failed = writer->failed || !writer->film; // so that queued jobs are not started
-                writer->abandoned = true;
-                writer->film_abandoned = writer->film;
+                stop(writer, writer->film);
                 return (int)(writer->added - writer->next_committed);
             }
         }
@@ -370,8 +403,8 @@ static int wait_for_end(FrameWriter *writer) {
 bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abandon, const char **error_text) {
     pthread_mutex_lock(&writer->lock);
     writer->ending = true;
-    writer->failed = writer->failed || abandon;
-    writer->abandoned = abandon;
+    if (abandon)
+        stop(writer, false);
     pthread_cond_broadcast(&writer->changed);
     writer->unfinished = wait_for_end(writer);
     pthread_mutex_unlock(&writer->lock);
@@ -385,22 +418,22 @@ bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abando
         writer->ready = NULL;
     }
     frame_writer_report(writer, session);
-    if (writer->failed || (writer->film_abandoned && !writer->has_frame)) {
+    if (has_failed(writer) || (writer->state == WRITER_CUT && writer->film_frames == 0)) {
         video_abandon(&writer->video);
     } else if (writer->video.open) {
         double start = clock_seconds();
         if (!video_close(&writer->video)) {
-            writer->failed = true;
+            set_failed(writer);
             set_error_text(writer, writer->video.error_text);
         }
         writer->seconds += clock_seconds() - start;
     }
     if (!recording_end(&writer->recording, abandon)) {
-        writer->failed = true;
+        set_failed(writer);
         set_error_text(writer, writer->recording.error_text ? writer->recording.error_text : "out of memory");
     }
     *error_text = writer->error_text[0] == '\0' ? NULL : writer->error_text;
-    return !writer->failed;
+    return !has_failed(writer);
 }
 
 int frame_writer_unfinished_count(const FrameWriter *writer) {
