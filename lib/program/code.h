@@ -20,11 +20,22 @@
 #include "value/node.h"
 
 typedef enum Opcode {
-#define OPCODE(id, name, operands) OP_##id,
+#define OPCODE(id, name, operands, batch) OP_##id,
 #include "program/opcode_list.h"
-#undef OPCODE
     OP_COUNT
 } Opcode;
+
+// How the VM executes an instruction for a batch of a loop's iterations (BatchPlan).
+typedef enum BatchKind {
+    BATCH_NEVER,    // not at all: if the body contains the instruction, iterations are executed one by one
+    BATCH_JUMP,     // selects the iterations that execute the next instructions; only for jumps ahead within the body
+    BATCH_YIELD,    // collects the values that the iterations yield
+    BATCH_LAST,     // after all other instructions; only for the last instruction of the body
+    BATCH_MOVE,     // copies a column
+    BATCH_UNPACK,   // writes several columns
+    BATCH_PURE,     // calls a function for each iteration, or only once if the operands are equal in all iterations
+    BATCH_DISTINCT, // calls a function for each iteration, because results must differ in identity or depend on order
+} BatchKind;
 
 #define CODE_NO_OPERAND INT32_MAX
 
@@ -96,9 +107,9 @@ typedef struct Instr {
         int32_t a;
         uint32_t list; // index of the first operand in Code.operands
     };
-    int32_t b;
+    int32_t b; // NOT, NEG, POS: the same as `a`
     union {
-        int32_t c;      // third operand; LT, GT, LE, GE: 1 if both operands are the same name
+        int32_t c;      // third operand
         uint32_t count; // number of operands in the list, or of registers bound
     };
     // Depends on the instruction: index of the instruction to jump to, or number of a capture, engine name or lookup.
@@ -132,6 +143,8 @@ struct Code {
     uint32_t constant_count;
     const uint32_t *lines; // source line of each instruction, from 1; NULL: not recorded
 };
+
+extern const BatchKind program_batch_kinds[OP_COUNT];
 
 // Stores in `reads` the operands that `instr` reads, and returns their number. An instruction in the body of a loop
 // with a BatchPlan has at most CODE_MAX_READ operands. `operands` is Code.operands of the code that contains `instr`.

@@ -106,8 +106,11 @@ static void emit_move(Lowering *lowering, int32_t d, int32_t a, const Expr *at) 
 // Emits the instruction `op`, whose operands are the values of the one or two children of `expr`.
 static void emit_operator(Lowering *lowering, uint16_t op, const Expr *expr, int32_t d) {
     int32_t a = lower_operand(lowering, expr->children[0]);
-    int32_t b = expr->count > 1 ? lower_operand(lowering, expr->children[1]) : 0;
-    lower_emit(lowering, expr, (Instr){.op = op, .d = d, .a = a, .b = b, .c = (int32_t)expr->slot});
+    int32_t b = expr->count > 1 ? lower_operand(lowering, expr->children[1]) : a;
+    if (expr->slot) // <, >, <= or >= with the same object on both sides (L5.5)
+        emit_move(lowering, d, lower_constant(lowering, value_number(op == OP_LE || op == OP_GE)), expr);
+    else
+        lower_emit(lowering, expr, (Instr){.op = op, .d = d, .a = a, .b = b});
 }
 
 static void lower_load(Lowering *lowering, const Expr *expr, int32_t d) {

@@ -4,9 +4,13 @@
 #include <string.h>
 
 static const char *const operand_formats[OP_COUNT] = {
-#define OPCODE(id, name, operands) operands,
+#define OPCODE(id, name, operands, batch) operands,
 #include "program/opcode_list.h"
-#undef OPCODE
+};
+
+const BatchKind program_batch_kinds[OP_COUNT] = {
+#define OPCODE(id, name, operands, batch) BATCH_##batch,
+#include "program/opcode_list.h"
 };
 
 uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int32_t *reads) {
@@ -39,13 +43,10 @@ static bool calls_pure(const Lowering *lowering, const Instr *instr) {
 // Returns true if instruction i of a loop's body can be executed for a batch of iterations. It must not make iterations
 // depend on each other, and its only effects must be values and errors. `end` is the end of the body.
 static bool can_batch_instr(const Lowering *lowering, uint32_t i, uint32_t end) {
-    static const bool never[OP_COUNT] = {
-        [OP_UNBOUND] = true,    [OP_CLOSURE] = true, [OP_IMPORT] = true,    [OP_FOR] = true,
-        [OP_RANGE_INIT] = true, [OP_NEXT] = true,    [OP_FOR_RANGE] = true, [OP_RETURN] = true};
     const Instr *instr = &lowering->instrs[i];
-    bool jumps = instr->op == OP_JUMP || instr->op == OP_JUMP_TRUE || instr->op == OP_JUMP_FALSE;
-    return !never[instr->op] && (!jumps || (instr->target > i && instr->target <= end)) &&
-           calls_pure(lowering, instr) && (instr->op != OP_YIELD_NODE || i + 1 == end) &&
+    BatchKind kind = program_batch_kinds[instr->op];
+    return kind != BATCH_NEVER && (kind != BATCH_JUMP || (instr->target > i && instr->target <= end)) &&
+           (kind != BATCH_LAST || i + 1 == end) && calls_pure(lowering, instr) &&
            (!strchr(operand_formats[instr->op], 'l') || instr->count <= CODE_MAX_READ - 2);
 }
 

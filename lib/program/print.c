@@ -6,9 +6,8 @@ static const struct {
     const char *name;
     const char *operands;
 } opcodes[OP_COUNT] = {
-#define OPCODE(id, name, operands) {name, operands},
+#define OPCODE(id, name, operands, batch) {name, operands},
 #include "program/opcode_list.h"
-#undef OPCODE
 };
 
 enum { MAX_CONSTANT_LENGTH = 60 }; // longer constants are truncated

@@ -3,30 +3,6 @@
 
 #include "base/cpu.h"
 #include "maths/arrays.h"
-#include "maths/maths.h"
-
-#include <math.h>
-#include <stdbool.h>
-
-double op_number(ArithOp op, double x, double y) {
-    switch (op) {
-    case ARITH_ADD:
-        return x + y;
-    case ARITH_SUB:
-        return x - y;
-    case ARITH_MUL:
-        return x * y;
-    case ARITH_DIV:
-        return x / y;
-    case ARITH_FLOORDIV:
-        return floor(x / y);
-    case ARITH_MOD:
-        return x - floor(x / y) * y;
-    case ARITH_POW:
-        return maths_pow(x, y);
-    }
-    return NAN;
-}
 
 // Computes result = x op y for a vector and a number, a number and a vector, or two vectors of equal length.
 #define EACH_ELEMENT(operator)                                                                                         \

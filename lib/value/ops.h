@@ -1,12 +1,34 @@
 // ops.h: the operators of spec language.md L5.1 to L5.3, used by constant folding and by the virtual machine.
 #pragma once
 
+#include "maths/maths.h"
 #include "value/value.h"
+
+#include <math.h>
 
 typedef enum ArithOp { ARITH_ADD, ARITH_SUB, ARITH_MUL, ARITH_DIV, ARITH_FLOORDIV, ARITH_MOD, ARITH_POW } ArithOp;
 
-// Returns x op y. ARITH_POW calls maths_pow.
-double op_number(ArithOp op, double x, double y);
+// Returns x op y.
+static inline double op_number(ArithOp op, double x, double y) {
+    switch (op) {
+    case ARITH_ADD:
+        return x + y;
+    case ARITH_SUB:
+        return x - y;
+    case ARITH_MUL:
+        return x * y;
+    case ARITH_DIV:
+        return x / y;
+    case ARITH_FLOORDIV:
+        return floor(x / y);
+    case ARITH_MOD:
+        return x - floor(x / y) * y;
+    case ARITH_POW:
+        return maths_pow(x, y);
+    }
+    return NAN;
+}
+
 // Applies the operator element by element and repeats the shorter vector (L5.1). Returns null unless both are numeric.
 Value op_arith(Arena *arena, ArithOp op, Value a, Value b);
 // Returns -v, or null if v is not numeric.

@@ -78,7 +78,7 @@ static void store_yields(LoopBatch *batch, const Instr *instr) {
 // Executes YIELD_NODE, the last instruction of the body, for all iterations.
 static void yield_nodes(LoopBatch *batch, const Instr *instr, Loop *loop) {
     int32_t reads[CODE_MAX_READ];
-    uint32_t count = program_operands_read(batch->code->operands, instr, reads);
+    uint32_t count = program_operands_read(batch->frame->operands, instr, reads);
     Value *slots = batch->frame->slots;
     Instr row = *instr;
     row.d = 0; // do not free temporary data before all iterations have been added
@@ -88,7 +88,7 @@ static void yield_nodes(LoopBatch *batch, const Instr *instr, Loop *loop) {
         for (uint32_t i = 0; i < count; i++)
             if (column_of(batch, reads[i]))
                 slots[reads[i]] = column_read(batch, reads[i], iteration);
-        vm_yield_node(batch->vm, batch->code->operands + instr->list, slots, &row, loop);
+        vm_yield_node(batch->vm, batch->frame, &row);
     }
     if (instr->d && nodes && nodes == loop->batch && batch->vm->reported_count == loop->reported)
         arena_rewind(batch->vm->arena, before);
@@ -112,12 +112,27 @@ static void run_body(LoopBatch *batch, uint32_t at) {
         const Instr *instr = &batch->code->instrs[at];
         if (batch->selected_count == 0)
             continue;
-        if (instr->op == OP_JUMP || instr->op == OP_JUMP_TRUE || instr->op == OP_JUMP_FALSE)
+        switch (program_batch_kinds[instr->op]) {
+        case BATCH_JUMP:
             run_jump(batch, instr);
-        else if (instr->op == OP_YIELD)
+            break;
+        case BATCH_YIELD:
             store_yields(batch, instr);
-        else if (instr->op != OP_YIELD_NODE)
-            vm_batch_run_instr(batch, instr);
+            break;
+        case BATCH_MOVE:
+            vm_batch_move(batch, instr);
+            break;
+        case BATCH_UNPACK:
+            vm_batch_unpack(batch, instr);
+            break;
+        case BATCH_PURE:
+        case BATCH_DISTINCT:
+            vm_batch_call(batch, instr);
+            break;
+        case BATCH_NEVER:
+        case BATCH_LAST: // executed by append_yields
+            break;
+        }
     }
 }
 
@@ -150,7 +165,7 @@ static bool run_batch(LoopBatch *batch, const Instr *start, Loop *loop) {
 void vm_run_batches(Vm *vm, Frame *frame, const Code *code, const Instr *start, Loop *loop) {
     const BatchPlan *plan = start->as.batch_plan;
     uint32_t iterations = loop->source.kind == VALUE_STREAM ? 0 : (loop->source.len - loop->at) / start->count;
-    if (iterations < MIN_BATCH)
+    if (iterations < MIN_BATCH || vm->no_batches || vm->profile) // the profile counts each iteration
         return;
     ArenaMark mark = arena_mark(&vm->slots);
     LoopBatch *batch = arena_alloc(&vm->slots, sizeof *batch);

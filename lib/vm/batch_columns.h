@@ -4,7 +4,7 @@
 // instruction is executed for all selected iterations before the next instruction. At first, all iterations are
 // selected. When iterations take different branches, those that skip the next instructions are removed from the
 // selection. They are selected again at the instruction at which they continue. Arithmetic and other frequent
-// instructions process arrays. Other instructions are executed as in vm_eval, once per selected iteration.
+// instructions process arrays. Others are executed by the functions that vm_eval uses, once per selected iteration.
 #pragma once
 
 #include "vm/machine.h"
@@ -67,13 +67,14 @@ static inline Value column_read(const LoopBatch *batch, int32_t operand, uint32_
 void vm_batch_store(LoopBatch *batch, int32_t d, const Value *values);
 // Like vm_batch_store, for numbers.
 void vm_batch_store_numbers(LoopBatch *batch, int32_t d, const double *numbers);
+// Sets register d of all selected iterations to the same value.
+void vm_batch_store_uniform(LoopBatch *batch, int32_t d, Value value);
 // Returns an array with the operand's number in each selected iteration, or NULL if its values are not stored as single
 // numbers. The array is `buffer` if the numbers are not already stored in this form.
 const double *vm_batch_numbers(const LoopBatch *batch, int32_t operand, double buffer[BATCH_SIZE]);
-// Executes an operator on numbers for all selected iterations at once. Returns false if that is not possible.
-bool vm_batch_try_operator(LoopBatch *batch, const Instr *instr);
-// Like vm_batch_try_operator, but also accepts calls of built-ins, compositions, lookups, slices and nodes
-// (batch_ops.c).
-bool vm_batch_try_op(LoopBatch *batch, const Instr *instr);
-// Executes any instruction except jumps and yields for all selected iterations, one by one if necessary.
-void vm_batch_run_instr(LoopBatch *batch, const Instr *instr);
+
+// batch_ops.c: these functions execute an instruction for all selected iterations. vm_batch_call is for instructions
+// that have a function in opcode_list.h.
+void vm_batch_move(LoopBatch *batch, const Instr *instr);
+void vm_batch_unpack(LoopBatch *batch, const Instr *instr);
+void vm_batch_call(LoopBatch *batch, const Instr *instr);

@@ -21,14 +21,15 @@ static bool choose_column(const Loop *loop, const Instr *instr, int32_t operand,
 
 // Starts a batch whose first node is the node of the current iteration. Returns NULL if this node should be created
 // alone.
-static NodeBatch *begin_batch(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Loop *loop) {
+static NodeBatch *begin_batch(Vm *vm, const Frame *frame, const Instr *instr, const Loop *loop) {
+    const int32_t *list = frame->operands + instr->list;
     uint32_t iterations = loop->source.len - loop->at, numbers[NODE_BATCH_MAX_ATTRS] = {0}, count = 0;
     int32_t from[NODE_BATCH_MAX_ATTRS];
     Attr attrs[NODE_BATCH_MAX_ATTRS] = {{0}};
-    if (iterations < MIN_BATCH || loop->short_batches >= MAX_SHORT_BATCHES)
+    if (iterations < MIN_BATCH || loop->short_batches >= MAX_SHORT_BATCHES || vm->no_batches)
         return NULL;
     for (uint32_t i = 0; i < instr->count; i++) {
-        const Value *value = &slots[list[i]];
+        const Value *value = &frame->slots[list[i]];
         if (list[i] < 0 && value->len == 0)
             continue; // null and streams are omitted (L7.2)
         if (!choose_column(loop, instr, list[i], value, &numbers[count]))
@@ -55,10 +56,11 @@ static void end_batch(Loop *loop) {
         loop->short_batches += batch->count < MIN_ROWS;
 }
 
-void vm_yield_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Loop *loop) {
+void vm_yield_node(Vm *vm, const Frame *frame, const Instr *instr) {
+    Loop *loop = &frame->loops[instr->loop];
     if (loop->batch && loop->batch->count < loop->batch->capacity) {
         vm_charge(vm, instr->at, 1 + instr->count / 4);
-        if (node_batch_add(loop->batch, slots)) {
+        if (node_batch_add(loop->batch, frame->slots)) {
             // Free the temporary data of the iteration, unless a reported error may refer to it.
             if (instr->d && vm->reported_count == loop->reported)
                 arena_rewind(vm->arena, loop->mark);
@@ -66,13 +68,13 @@ void vm_yield_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
         }
     }
     end_batch(loop);
-    loop->batch = begin_batch(vm, list, slots, instr, loop);
+    loop->batch = begin_batch(vm, frame, instr, loop);
     vector_add(&loop->result,
                loop->batch ? (Value){.len = 1,
                                      .kind = VALUE_MIXED,
                                      .as.items = arena_copy(
                                          vm->arena, &(Item){ITEM_NODE, .as.node = &loop->batch->node}, sizeof(Item))}
-                           : vm_make_node(vm, list, slots, instr));
+                           : vm_node(vm, frame, instr));
     loop->mark = arena_mark(vm->arena);
     loop->reported = vm->reported_count;
 }

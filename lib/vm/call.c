@@ -23,7 +23,16 @@ static Value outer_value(const Frame *frame, const Capture *capture) {
     return frame->closure->self;
 }
 
-Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, const Value *defaults) {
+// Copies the values of an instruction's list of operands to `values`.
+static const Value *gather_operands(const Frame *frame, const Instr *instr, Value *values) {
+    for (uint32_t i = 0; i < instr->count; i++)
+        values[i] = frame->slots[frame->operands[instr->list + i]];
+    return values;
+}
+
+Value vm_closure(Vm *vm, const Frame *frame, const Instr *instr) {
+    const FunctionCode *code = instr->as.function;
+    Value *defaults = arena_alloc_array(vm->arena, instr->count, sizeof *defaults);
     Closure *closure = arena_alloc(vm->arena, sizeof *closure);
     Value *captures = arena_alloc_array(vm->arena, code->capture_count, sizeof *captures);
     for (uint32_t i = 0; i < code->capture_count; i++)
@@ -31,7 +40,7 @@ Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, cons
     *closure = (Closure){.base = {.name = code->name},
                          .code = code,
                          .captures = captures,
-                         .defaults = defaults,
+                         .defaults = gather_operands(frame, instr, defaults),
                          .self = value_function(vm->arena, &closure->base)};
     return closure->self;
 }
@@ -111,8 +120,24 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *a
                         args->named_count);
 }
 
-Value vm_call(Vm *vm, const Instr *instr, Value callee, const Value *values) {
+enum { MAX_STACK_ARGUMENTS = 8 };
+
+// Returns the values of an instruction's list of operands as an array. The array is `buffer` if they fit in it.
+static const Value *gather_arguments(Vm *vm, const Frame *frame, const Instr *instr, Value *buffer) {
+    bool fits = instr->count <= MAX_STACK_ARGUMENTS;
+    return gather_operands(frame, instr, fits ? buffer : arena_alloc_array(vm->arena, instr->count, sizeof *buffer));
+}
+
+Value vm_builtin(Vm *vm, const Frame *frame, const Instr *instr) {
+    Value buffer[MAX_STACK_ARGUMENTS];
+    return vm_call_builtin(vm, instr, gather_arguments(vm, frame, instr, buffer));
+}
+
+Value vm_call(Vm *vm, const Frame *frame, const Instr *instr) {
     const CallCode *code = instr->as.call;
+    const Value callee = frame->slots[instr->b];
+    Value buffer[MAX_STACK_ARGUMENTS];
+    const Value *values = gather_arguments(vm, frame, instr, buffer);
     if (callee.kind != VALUE_MIXED) // calling null, a stream or numbers results in null without an error (L9.3)
         return VALUE_NULL;
     Arguments args = {values, code->arg_count, code->names, values + code->arg_count, code->named_count};

@@ -18,7 +18,9 @@ static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
 }
 
 // If all parts are numbers, composes them in one allocation. Otherwise adds the parts to a Vector.
-Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at) {
+static Value compose(Vm *vm, const Frame *frame, const Instr *instr, const Origin *at) {
+    const Value *slots = frame->slots;
+    const int32_t *list = frame->operands + instr->list;
     vm->at = at;
     uint64_t len = 0;
     bool numeric = true;
@@ -40,13 +42,18 @@ Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *i
     return vm_finish(vm, at, &vector);
 }
 
+Value vm_compose(Vm *vm, const Frame *frame, const Instr *instr) {
+    return compose(vm, frame, instr, instr->at);
+}
+
 // --- nodes
 
-Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children) {
+Value vm_append(Vm *vm, const Frame *frame, const Instr *instr) {
     vm->at = instr->at;
-    NodeList list = instr->as.constant_children ? *instr->as.constant_children : node_list(vm->arena, children);
+    NodeList list =
+        instr->as.constant_children ? *instr->as.constant_children : node_list(vm->arena, frame->slots[instr->b]);
     bool too_high = false;
-    Value result = value_append(vm->arena, parent, &list, &too_high);
+    Value result = value_append(vm->arena, frame->slots[instr->a], &list, &too_high);
     if (too_high)
         vm_fault(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; the node is not appended");
     return result;
@@ -57,13 +64,14 @@ static void attributes_too_deep(Vm *vm, const Origin *at) {
              "nodes in attributes nested too deeply: the limit is 12000 levels; the attribute is not set");
 }
 
-Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
+Value vm_decorate(Vm *vm, const Frame *frame, const Instr *instr) {
     const DecorateCode *decorate = instr->as.decorate;
+    const int32_t *list = frame->operands + instr->list;
     vm->at = instr->at;
-    Value subject = slots[instr->b];
+    Value subject = frame->slots[instr->b];
     Attr *attrs = arena_alloc_array(vm->arena, instr->count, sizeof *attrs);
     for (uint32_t i = 0; i < instr->count; i++)
-        attrs[i] = (Attr){decorate->names[i], slots[list[i]]};
+        attrs[i] = (Attr){decorate->names[i], frame->slots[list[i]]};
     for (uint32_t i = 0; i < decorate->tag_count; i++)
         subject = value_add_tag(vm->arena, subject, decorate->tags[i]);
     bool too_high = false;
@@ -76,8 +84,9 @@ Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *
 
 // Sets the attributes of a new node. All names differ, so no attribute replaces another. Attributes that are null or
 // streams are omitted (L7.2).
-static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
-                           Attr *attrs) {
+static void set_attributes(Vm *vm, const Frame *frame, const Instr *instr, Node *node, Attr *attrs) {
+    const Value *slots = frame->slots;
+    const int32_t *list = frame->operands + instr->list;
     uint32_t count = 0, height = node->height;
     bool has_runs = false;
     for (uint32_t i = 0; i < instr->count; i++) {
@@ -115,9 +124,9 @@ static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList 
 }
 
 // Creates a node, its attributes, its list of children and the vector that contains it, all in one allocation.
-Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
+Value vm_node(Vm *vm, const Frame *frame, const Instr *instr) {
     const NodeCode *plan = instr->as.node;
-    const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &slots[instr->b];
+    const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &frame->slots[instr->b];
     uint32_t room = children && children->kind == VALUE_MIXED ? children->len : 0;
     vm_charge(vm, instr->at, 1 + (instr->count + room) / 4);
     NodeValue *made = arena_alloc(vm->arena, sizeof *made + instr->count * sizeof(Attr) + room * sizeof(const Node *));
@@ -127,7 +136,7 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
     made->node.program_lifetime = made->node.program_lifetime_children = false;
     made->item = (Item){ITEM_NODE, .as.node = &made->node};
     if (instr->count)
-        set_attributes(vm, list, slots, instr, &made->node, attrs);
+        set_attributes(vm, frame, instr, &made->node, attrs);
     if (plan->constant_children) {
         set_children(vm, instr, &made->node, plan->constant_children);
     } else if (room) {
@@ -156,7 +165,7 @@ static Value index_stream(Vm *vm, Value stream, Value index) {
     return value_numbers_view(items, index.len);
 }
 
-Value vm_index(Vm *vm, Value vector, Value index) {
+Value vm_index_value(Vm *vm, Value vector, Value index) {
     return vector.kind == VALUE_STREAM ? index_stream(vm, vector, index) : value_index(vm->arena, vector, index);
 }
 
@@ -164,12 +173,18 @@ static void range_too_long(Vm *vm, const Origin *at) {
     vm_fault(vm, at, "too-long", "range too long: the limit is 134217728 elements");
 }
 
-Value vm_range(Vm *vm, const Origin *at, Value start, Value stop, Value step) {
+static Value make_range(Vm *vm, const Origin *at, Value start, Value stop, Value step) {
+    vm->at = at;
     bool too_long = false;
     Value range = op_range(vm->arena, start, stop, step, &too_long);
     if (too_long)
         range_too_long(vm, at);
     return range;
+}
+
+Value vm_range(Vm *vm, const Frame *frame, const Instr *instr) {
+    const Value *slots = frame->slots;
+    return make_range(vm, instr->at, slots[instr->a], slots[instr->b], slots[instr->c]);
 }
 
 void vm_range_init(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop, Value step) {
@@ -182,20 +197,25 @@ void vm_range_init(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop
 }
 
 // If the bounds are integers within the vector, copies the elements without building a range.
-Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) {
-    if (is_number(&stop) && (is_number(&start) || start.len == 0) && vector.kind == VALUE_NUMBERS) {
-        double from = start.len ? start.as.number : 0, to = stop.as.number;
-        if (from >= 0 && to <= vector.len && to - from >= 2 && (double)(uint32_t)from == from &&
-            (double)(uint32_t)to == to) {
-            uint32_t len = (uint32_t)to - (uint32_t)from;
-            vm->at = at;
-            double *numbers = arena_alloc_array(vm->arena, (size_t)len, sizeof *numbers);
-            memcpy(numbers, vector.as.numbers + (uint32_t)from, len * sizeof *numbers);
-            return (Value){.len = len, .as.numbers = numbers};
-        }
-    }
-    vm->at = at;
-    return vm_index(vm, vector, vm_range(vm, at, start, stop, VALUE_NULL));
+bool vm_slice_numbers(Vm *vm, const Value *vector, double from, double to, Value *slice) {
+    if (vector->kind != VALUE_NUMBERS || !(from >= 0 && to <= vector->len && to - from >= 2) ||
+        (double)(uint32_t)from != from || (double)(uint32_t)to != to)
+        return false;
+    uint32_t len = (uint32_t)to - (uint32_t)from;
+    double *numbers = arena_alloc_array(vm->arena, (size_t)len, sizeof *numbers);
+    memcpy(numbers, vector->as.numbers + (uint32_t)from, len * sizeof *numbers);
+    *slice = (Value){.len = len, .as.numbers = numbers};
+    return true;
+}
+
+Value vm_slice(Vm *vm, const Frame *frame, const Instr *instr) {
+    const Value vector = frame->slots[instr->a], start = frame->slots[instr->b], stop = frame->slots[instr->c];
+    vm->at = instr->as.inner_origin;
+    Value slice;
+    if (is_number(&stop) && (is_number(&start) || start.len == 0) &&
+        vm_slice_numbers(vm, &vector, start.len ? start.as.number : 0, stop.as.number, &slice))
+        return slice;
+    return vm_index_value(vm, vector, make_range(vm, vm->at, start, stop, VALUE_NULL));
 }
 
 // --- the state
@@ -238,6 +258,13 @@ static StateSlot *next_guess(Vm *vm, uint32_t lookup) {
     return &cache->slots[cache->next++];
 }
 
+// Returns a copy of a value of the state, because physics and other systems may overwrite it after the evaluation.
+static Value copy_of(Vm *vm, Value v) {
+    if (v.len >= BUDGET_NUMBERS)
+        arena_charge(vm->arena, v.len / BUDGET_NUMBERS);
+    return value_copy(vm->arena, v);
+}
+
 Value vm_lookup_numbers(Vm *vm, uint32_t lookup, const double *numbers, uint32_t len) {
     StateSlot *guess = next_guess(vm, lookup), slot = guess ? *guess : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT || !state_slot_has_key(vm->state, slot, value_numbers_view(numbers, len))) {
@@ -245,18 +272,13 @@ Value vm_lookup_numbers(Vm *vm, uint32_t lookup, const double *numbers, uint32_t
         if (guess)
             *guess = slot;
     }
-    return slot == STATE_NO_SLOT ? VALUE_NULL : state_slot_get(vm->state, slot);
+    return slot == STATE_NO_SLOT ? VALUE_NULL : copy_of(vm, state_slot_get(vm->state, slot));
 }
 
-static Value copy_of(Vm *vm, Value v) {
-    if (v.len >= BUDGET_NUMBERS)
-        arena_charge(vm->arena, v.len / BUDGET_NUMBERS);
-    return value_copy(vm->arena, v);
-}
-
-// Most keys are a few numbers, for which no key vector needs to be built. The value found is copied, because physics
-// and other systems may overwrite it in the state after the evaluation.
-Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
+// Most keys are a few numbers, for which no key vector needs to be built.
+Value vm_lookup(Vm *vm, const Frame *frame, const Instr *instr) {
+    const Value *slots = frame->slots;
+    const int32_t *list = frame->operands + instr->list;
     vm->met_dynamic = true;
     vm->at = instr->at;
     double buffer[MAX_ON_STACK];
@@ -266,11 +288,11 @@ Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *in
         count++;
     }
     if (count == instr->count && vm->state)
-        return copy_of(vm, vm_lookup_numbers(vm, instr->target, buffer, count));
-    Value key = instr->count == 1 ? slots[list[0]] : vm_compose(vm, list, slots, instr, instr->as.inner_origin);
+        return vm_lookup_numbers(vm, instr->target, buffer, count);
+    Value key = instr->count == 1 ? slots[list[0]] : compose(vm, frame, instr, instr->as.inner_origin);
     if (!vm->state)
         return VALUE_NULL;
     if (key.kind == VALUE_NUMBERS && key.len > 0)
-        return copy_of(vm, vm_lookup_numbers(vm, instr->target, value_numbers(&key), key.len));
+        return vm_lookup_numbers(vm, instr->target, value_numbers(&key), key.len);
     return copy_of(vm, state_get(vm->state, key));
 }

@@ -45,9 +45,10 @@ typedef struct Loop {
 
 // The memory of one execution of a Code.
 typedef struct Frame {
-    Value *slots;     // registers; the constants of the Code are stored directly before them
-    Loop *loops;      // running loops, indexed by nesting depth
-    Closure *closure; // NULL in the main program and in modules
+    Value *slots;            // registers; the constants of the Code are stored directly before them
+    const int32_t *operands; // Code.operands
+    Loop *loops;             // running loops, indexed by nesting depth
+    Closure *closure;        // NULL in the main program and in modules
 } Frame;
 
 // A program that is being evaluated: the main program or a module.
@@ -61,18 +62,22 @@ struct ImportLink {
 Frame vm_frame(Vm *vm, const Code *code, Closure *closure);
 // Executes a code and returns its result.
 Value vm_eval(Vm *vm, Frame *frame, const Code *code);
-// Executes the CALL instruction `instr`. `values` holds the positional arguments, followed by the named ones.
-Value vm_call(Vm *vm, const Instr *instr, Value callee, const Value *values);
-Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, const Value *defaults);
 // Executes the IMPORT instruction `instr`: stores values of the module at path `file` in registers of `frame`, which
 // must be null.
 void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 
-// These functions execute instructions that create or look up values (construct.c, eval.c). `slots` are the registers.
-// `list` is the instruction's list of operands.
-Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
-Value vm_call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
-bool vm_is_true(const Value *v);
+// Each of these functions computes the value that an instruction writes (eval.c, construct.c, call.c). They do not
+// write to registers.
+typedef Value VmFunction(Vm *vm, const Frame *frame, const Instr *instr);
+#define OPCODE(id, name, operands, batch)
+#define FUNCTION(id, name, operands, batch, function) VmFunction vm_##function;
+#include "program/opcode_list.h"
+
+// Returns vector[index].
+Value vm_index_value(Vm *vm, Value vector, Value index);
+// If from..to are whole numbers within a numeric vector, and at least two, sets *slice to these elements and returns
+// true.
+bool vm_slice_numbers(Vm *vm, const Value *vector, double from, double to, Value *slice);
 // If `value` is unpacked to several names, vm_unpack_element returns the value of name i. vm_loop_element returns
 // element i of the loop's source, or null if the source has fewer elements.
 Value vm_unpack_element(Vm *vm, Value value, uint32_t i);
@@ -85,17 +90,10 @@ void vm_run_batches(Vm *vm, Frame *frame, const Code *code, const Instr *start, 
 void vm_range_init(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop, Value step);
 // batch_nodes.c: executes a YIELD_NODE. It adds the node to the loop's result, as a row of a node batch or as a single
 // node.
-void vm_yield_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Loop *loop);
-Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
-Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children);
-Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at);
-Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
-// Returns the value that the state has for the key of `len` numbers. The value is not copied. `lookup` is the number of
-// the LOOKUP instruction (Instr.target).
+void vm_yield_node(Vm *vm, const Frame *frame, const Instr *instr);
+// Returns a copy of the value that the state has for the key of `len` numbers. `lookup` is the number of the LOOKUP
+// instruction (Instr.target).
 Value vm_lookup_numbers(Vm *vm, uint32_t lookup, const double *numbers, uint32_t len);
-Value vm_range(Vm *vm, const Origin *at, Value start, Value stop, Value step);
-Value vm_index(Vm *vm, Value vector, Value index);
-Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop);
 
 // Prepares the inline caches of a program with `count` lookups: adds missing caches and rewinds each to its first
 // entry.
@@ -105,6 +103,10 @@ void vm_inline_cache_free(Vm *vm);
 // Returns true for a single number, the most frequent kind of value.
 static inline bool is_number(const Value *v) {
     return v->len == 1 && v->kind == VALUE_NUMBERS;
+}
+
+static inline bool vm_is_true(const Value *v) {
+    return is_number(v) ? v->as.number != 0 : value_true(*v);
 }
 
 // Sets *to to the number x with a single 16-byte store. After two 8-byte stores, a 16-byte load of *to would stall,
@@ -150,4 +152,12 @@ static inline bool vm_can_call(Vm *vm, const Builtin *builtin, const Origin *at,
         numbers += values[i].len;
     vm_charge(vm, at, 1 + numbers / BUDGET_NUMBERS);
     return true;
+}
+
+// Executes the BUILTIN instruction `instr` with the given arguments.
+static inline Value vm_call_builtin(Vm *vm, const Instr *instr, const Value *values) {
+    if (!vm_can_call(vm, instr->as.builtin, instr->at, values, instr->count))
+        return VALUE_NULL;
+    vm->builtins.called = instr->as.builtin;
+    return instr->as.builtin->call(&vm->builtins, values, instr->count);
 }

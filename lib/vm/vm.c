@@ -38,7 +38,7 @@ Frame vm_frame(Vm *vm, const Code *code, Closure *closure) {
     for (size_t i = 0; i < constants; i++)
         memory[i] = code->constants[i];
     Value *slots = memory + constants;
-    return (Frame){slots, (Loop *)(void *)(slots + registers), closure};
+    return (Frame){slots, code->operands, (Loop *)(void *)(slots + registers), closure};
 }
 
 // Allocates a frame whose slots are null.

@@ -70,6 +70,7 @@ typedef struct Vm {
     // If true, an error is not reported but sets speculation_failed. The caller then executes the instructions again.
     bool speculative;
     bool speculation_failed;     // while `speculative` was true, an error would have been reported
+    bool no_batches;             // for tests: execute loops iteration by iteration and create no node batches
     uint64_t batched_iterations; // total number of iterations executed in batches
     InlineCache *inline_caches;  // one per lookup of the main program, on the heap
     uint32_t inline_cache_count;

@@ -3,10 +3,7 @@
 
 enum { ITERATIONS = 150 };
 
-// 150 iterations, written as one loop and as loops of 5 iterations, which are too short for batches.
-static const char many_form[] = "%sfunc all()\n    for i in ..150\n        %s\n!all v=all()\n    all()\n";
-static const char few_form[] = "%sfunc all()\n    for k in ..30\n        for i in k*5..k*5+5\n            %s\n"
-                               "!all v=all()\n    all()\n";
+static const char loop_form[] = "%sfunc all()\n    for i in ..150\n        %s\n!all v=all()\n    all()\n";
 
 // The body of a loop. `one_by_one`: true if the loop cannot be batched, so that its iterations are executed one by one.
 typedef struct Body {
@@ -26,6 +23,10 @@ static const Body bodies[] = {
     {"(i<7);(i<=z);(i>z);(i>=7);(i==7);(i!=7);not (i<3)", false},
     {"(0/0*i<1);(0/0*i>=1);(0/0*i==0/0*i)", false},
     {"((x<x);(x>x);(x<=x);(x>=x) where x=0/0*i)", false},
+    {"(-y;+y;not y;(y xor i);(y xor 0) where y=0*(i-9))", false},
+    // operands that are numbers in some iterations only
+    {"(y+1;y-1;2*y;y/3;y//2;y%3;y**2;-y;+y;not y where y=(i if i%3 else 'x' if i%2 else i;0/0))", false},
+    {"(y<z;y>z;y<=z;y>=z;y==z;y!=z;(y xor z) where y=(0/0 if i%3 else 'x' if i%2 else i-9))", false},
     // elements
     {"vector[i]+vector[i-3]+vector[i/2]+vector[0-i]", false},
     {"vector[i;i+1]", false},
@@ -65,10 +66,11 @@ static const Body bodies[] = {
     {"debug(i)", true},
 };
 
-// Returns the tree of the second frame of a script.
-static const char *run_loop(Runner *runner, const char *form, const char *body, uint64_t *iterations) {
+// Returns the tree of the second frame of a loop with this body.
+static const char *run_loop(Runner *runner, const char *body, bool no_batches, uint64_t *iterations) {
     char script[2000];
-    snprintf(script, sizeof script, form, before, body);
+    snprintf(script, sizeof script, loop_form, before, body);
+    runner->vm.no_batches = runner->static_vm.no_batches = no_batches;
     runner->vm.batched_iterations = 0;
     runner_run(runner, script, 2);
     *iterations = runner->vm.batched_iterations;
@@ -89,14 +91,14 @@ static void test_batches_match_single_iterations(void **state) {
     Runner *runner = *state;
     set_state(runner);
     for (size_t i = 0; i < 2 * sizeof bodies / sizeof bodies[0]; i++) {
-        uint64_t many, few;
+        uint64_t batched, single;
         const Body *body = &bodies[i / 2];
         runner->simplify = i % 2;
-        const char *found = run_loop(runner, many_form, body->text, &many);
-        assert_text(body->text, found, run_loop(runner, few_form, body->text, &few));
-        assert_int_equal(few, 0);
-        if (!runner->simplify && (many == 0) != body->one_by_one)
-            fail_msg("%s: %d iterations in batches", body->text, (int)many);
+        const char *found = run_loop(runner, body->text, false, &batched);
+        assert_text(body->text, found, run_loop(runner, body->text, true, &single));
+        assert_int_equal(single, 0);
+        if (!runner->simplify && (batched == 0) != body->one_by_one)
+            fail_msg("%s: %d iterations in batches", body->text, (int)batched);
     }
 }
 
@@ -141,7 +143,7 @@ static void test_work_matches(void **state) {
         runner->frame.budget = NULL;
         budget_begin(&budget, UINT64_MAX / 2, NULL);
         runner->frame.budget = &budget;
-        run_loop(runner, i ? few_form : many_form, "!p a=sin(i+z) b=hsv(i;z;1) c=i**3", &iterations);
+        run_loop(runner, "!p a=sin(i+z) b=hsv(i;z;1) c=i**3", i, &iterations);
         runner->frame.budget = NULL;
         work[i] = budget.work;
     }
