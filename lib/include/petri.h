@@ -205,6 +205,9 @@ typedef struct PetriOptions {
     // Polled about every 10 µs during a call, by the same thread; return true to interrupt the call. For hosts whose
     // other threads cannot call petri_interrupt. Must not call the session. NULL (the default): never polled.
     bool (*should_interrupt)(void *user_data);
+    // For tests: execute each iteration of a loop on its own instead of many together. Does not affect results. Default
+    // false.
+    bool no_batches;
 } PetriOptions;
 
 // Writes the default options to the first `size` bytes of `options`. Use petri_default_options instead.

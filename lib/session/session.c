@@ -148,6 +148,7 @@ PetriSession *petri_open(const PetriOptions *options) {
             options->stack_limit, false);
     vm_init(&session->static_vm, &frame->arena, &session->symbols,
             (VmHost){session, ignore_diagnostic, log_vm, session_module}, options->stack_limit, true);
+    session->vm.no_batches = session->static_vm.no_batches = options->no_batches;
     if (session_protect(session, NULL, init_components, NULL) != PETRI_OK)
         petri_close(&session);
     return session;

@@ -47,6 +47,7 @@ FIELD(int,          neighbours,   0)              // PetriNeighbours
 FIELD(const char *, as_threads,   NULL)           // test: overrides --threads of goldens; NULL: no override
 FIELD(const char *, as_neighbours, NULL)          // test: overrides --neighbours of goldens; NULL: no override
 FIELD(bool,         unsimplified, false)
+FIELD(bool,         no_batches,   false)
 FIELD(bool,         show,         false)          // run: show the picture if output is a terminal
 FIELD(bool,         stats,        false)
 FIELD(const char *, trajectory,   NULL)           // file; NULL: none
@@ -124,6 +125,7 @@ OPTION(FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_R
 OPTION(FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "neighbours", 0, "WHEN", ONE_OF(read_choice, "auto", "never", "always"), neighbours, "use neighbour lists: auto, never or always; does not change results")
 OPTION(FOR_TEST, "neighbours", 0, "WHEN", read_text, as_neighbours, "run all scripts with --neighbours WHEN")
 OPTION(FOR_TEST | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "nosimplify", 0, NULL, read_flag, unsimplified, "evaluate the whole script in every frame, without simplifying it; does not change results")
+OPTION(FOR_TEST | FOR_RUN, "no-batches", 0, NULL, read_flag, no_batches, "execute the iterations of loops one by one; does not change results")
 OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "show the picture in the terminal for 10 seconds, or for the length that --runtime or --frames sets; ignored without a terminal or with text output such as --print")
 OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "print timings and each system's energy at the end")
 OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write all particles to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state, append to FILE")

@@ -310,6 +310,7 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.threads = (int)options->threads;
     wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.simplify = !options->unsimplified;
+    wanted.no_batches = options->no_batches;
     wanted.keep_forces = options->prompt;
     wanted.rollback_frames = options->prompt || options->state_file; // a partly computed frame must not be saved
     wanted.profile = options->profile;

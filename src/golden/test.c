@@ -77,7 +77,7 @@ static void add_override(char **argv, int *argc, Text *text, const char *name, c
 static void start_child(Suite *suite, Case *item) {
     SCOPED_STRING folder = script_folder(item->script);
     const Golden *golden = &item->golden;
-    char **argv = memory_calloc((golden->options.count + 10) * sizeof *argv);
+    char **argv = memory_calloc((golden->options.count + 11) * sizeof *argv);
     SCOPED_TEXT threads = {0};
     SCOPED_TEXT neighbours = {0};
     int argc = 0;
@@ -94,6 +94,8 @@ static void start_child(Suite *suite, Case *item) {
     add_override(argv, &argc, &neighbours, "neighbours", suite->options->as_neighbours);
     if (suite->options->unsimplified)
         argv[argc++] = "--nosimplify";
+    if (suite->options->no_batches)
+        argv[argc++] = "--no-batches";
     argv[argc++] = "--";
     argv[argc++] = item->name;
     item->result.seconds = clock_seconds();

@@ -29,8 +29,8 @@ from faults import faults_of, plant
 SUITES = {
     'lib/physics': ['physics', 'scene', 'session'],
     'lib/ranks': ['test_session_ranks', 'test_hilbert'],
-    'lib/vm': ['vm', 'program', 'session', 'simplifier', 'memory', 'repl_sessions', 'cli'],
-    'lib/program': ['program', 'vm', 'session', 'simplifier', 'memory', 'repl_sessions', 'cli'],
+    'lib/vm': ['vm', 'program', 'session', 'simplifier', 'batches', 'memory', 'repl_sessions', 'cli'],
+    'lib/program': ['program', 'vm', 'session', 'simplifier', 'batches', 'memory', 'repl_sessions', 'cli'],
     'lib/state': ['state', 'session', 'scene', 'memory', 'repl_sessions', 'cli'],
     'lib/session': ['session', 'state', 'scene', 'memory', 'repl_sessions', 'cli'],
     'grammar': ['syntax', 'program', 'vm', 'session', 'memory', 'repl_sessions', 'cli'],
