@@ -3,20 +3,39 @@
 #include "value/value_hash.h"
 #include "vm/batch_columns.h"
 
-#include <math.h>
 #include <string.h>
+
+enum { MAX_OPERANDS = 8 }; // maximum number of operands of an instruction that is executed on columns
+
+// The numbers of operands in the selected iterations.
+typedef struct Numbers {
+    const double *of[MAX_OPERANDS]; // by operand; may point to its buffer
+    double buffers[MAX_OPERANDS][BATCH_SIZE];
+} Numbers;
+
+// Reads the numbers of operands. Returns false if there are too many operands, or if an operand is not a single number
+// in all iterations.
+static bool read_numbers(const LoopBatch *batch, const int32_t *operands, uint32_t count, Numbers *numbers) {
+    for (uint32_t i = 0; i < count; i++)
+        if (count > MAX_OPERANDS || !(numbers->of[i] = vm_batch_numbers(batch, operands[i], numbers->buffers[i])))
+            return false;
+    return true;
+}
+
+static const int32_t *operand_list(const LoopBatch *batch, const Instr *instr) {
+    return batch->frame->operands + instr->list;
+}
 
 // --- numbers
 
-// Applies the formula of an instruction (opcode_list.h) to arrays of numbers. Returns false if an operand is not a
-// single number in all iterations.
+// Applies the formula of an instruction (opcode_list.h) to arrays of numbers.
 static bool run_numbers(LoopBatch *batch, const Instr *instr) {
-    double left[BATCH_SIZE], right[BATCH_SIZE], to[BATCH_SIZE];
-    const double *xs = vm_batch_numbers(batch, instr->a, left);
-    const double *ys = xs ? vm_batch_numbers(batch, instr->b, right) : NULL;
-    uint32_t count = batch->selected_count;
-    if (!ys)
+    Numbers numbers;
+    double to[BATCH_SIZE];
+    if (!read_numbers(batch, (int32_t[]){instr->a, instr->b}, 2, &numbers))
         return false;
+    const double *xs = numbers.of[0], *ys = numbers.of[1];
+    const uint32_t count = batch->selected_count;
     switch ((Opcode)instr->op) {
 #define OPCODE(id, name, operands, batch)
 #define NUMBERS(id, name, operands, formula, function)                                                                 \
@@ -37,65 +56,84 @@ static bool run_numbers(LoopBatch *batch, const Instr *instr) {
 
 // Computes the powers of all selected iterations with one vector operation, which is faster than one operation each.
 static bool run_powers(LoopBatch *batch, const Instr *instr) {
-    double left[BATCH_SIZE], right[BATCH_SIZE];
-    const double *x = vm_batch_numbers(batch, instr->a, left);
-    const double *y = x ? vm_batch_numbers(batch, instr->b, right) : NULL;
-    if (!y)
-        return false;
+    Numbers numbers;
     uint32_t count = batch->selected_count;
+    if (!read_numbers(batch, (int32_t[]){instr->a, instr->b}, 2, &numbers))
+        return false;
     batch->vm->at = instr->at;
-    Value powers = op_arith(batch->vm->arena, ARITH_POW, value_numbers_view(x, count),
-                            value_numbers_view(y, column_of(batch, instr->b) ? count : 1));
+    Value powers = op_arith(batch->vm->arena, ARITH_POW, value_numbers_view(numbers.of[0], count),
+                            value_numbers_view(numbers.of[1], column_of(batch, instr->b) ? count : 1));
     vm_batch_store_numbers(batch, instr->d, value_numbers(&powers));
     return true;
 }
 
-// Executes an INDEX whose vector is the same in all iterations. Returns false if the vector differs or is neither a
-// stream nor numeric, or if an index is not a single number.
+// --- elements
+
+// Reads elements of a stream or numeric vector that is the same in all iterations.
 static bool run_index(LoopBatch *batch, const Instr *instr) {
-    double buffer[BATCH_SIZE], to[BATCH_SIZE];
-    const double *at = vm_batch_numbers(batch, instr->b, buffer);
+    Numbers numbers;
+    double to[BATCH_SIZE];
     const Value *vector = &batch->frame->slots[instr->a];
-    if (at && !column_of(batch, instr->a) && vector->kind == VALUE_STREAM) {
-        value_stream_items(*vector, at, batch->selected_count, to);
-        vm_batch_store_numbers(batch, instr->d, to);
-        return true;
-    }
-    if (!at || column_of(batch, instr->a) || vector->kind != VALUE_NUMBERS || vector->len == 0)
+    if (column_of(batch, instr->a) || !read_numbers(batch, &instr->b, 1, &numbers))
         return false;
-    const double *from = value_numbers(vector);
-    for (uint32_t k = 0; k < batch->selected_count; k++)
-        to[k] = from[at[k] >= 0 && at[k] < vector->len ? (uint32_t)at[k] : value_wrap_index(at[k], vector->len)];
+    const double *at = numbers.of[0], *from = value_numbers(vector);
+    if (vector->kind == VALUE_STREAM)
+        value_stream_items(*vector, at, batch->selected_count, to);
+    else if (vector->kind == VALUE_NUMBERS && vector->len > 0)
+        for (uint32_t k = 0; k < batch->selected_count; k++)
+            to[k] = from[at[k] >= 0 && at[k] < vector->len ? (uint32_t)at[k] : value_wrap_index(at[k], vector->len)];
+    else
+        return false;
     vm_batch_store_numbers(batch, instr->d, to);
     return true;
 }
 
-// --- lists of operands
-
-// Sets parts[i] to the numbers of operand i of the list in the selected iterations. They may be in buffers[i]. Returns
-// false if there are more than `max` operands, or if an operand is not a single number in all iterations.
-static bool read_list(const LoopBatch *batch, const Instr *instr, uint32_t max, double (*buffers)[BATCH_SIZE],
-                      const double **parts) {
-    const int32_t *list = batch->frame->operands + instr->list;
-    for (uint32_t i = 0; i < instr->count; i++)
-        if (instr->count > max || !(parts[i] = vm_batch_numbers(batch, list[i], buffers[i])))
+// Slices a vector that is the same in all iterations.
+static bool run_slice(LoopBatch *batch, const Instr *instr) {
+    Numbers numbers;
+    Value values[BATCH_SIZE];
+    const Value *vector = &batch->frame->slots[instr->a];
+    if (column_of(batch, instr->a) || !read_numbers(batch, (int32_t[]){instr->b, instr->c}, 2, &numbers))
+        return false;
+    batch->vm->at = instr->as.inner_origin;
+    for (uint32_t k = 0; k < batch->selected_count; k++)
+        if (!vm_slice_numbers(batch->vm, vector, numbers.of[0][k], numbers.of[1][k], &values[k]))
             return false;
+    vm_batch_store(batch, instr->d, values);
     return true;
 }
+
+// Looks up one key per selected iteration. The keys must consist of numbers.
+static bool run_lookups(LoopBatch *batch, const Instr *instr) {
+    Numbers numbers;
+    double key[MAX_OPERANDS];
+    Value values[BATCH_SIZE];
+    if (!batch->vm->state || !read_numbers(batch, operand_list(batch, instr), instr->count, &numbers))
+        return false;
+    batch->vm->at = instr->at;
+    batch->vm->met_dynamic = true;
+    for (uint32_t k = 0; k < batch->selected_count; k++) {
+        for (uint32_t i = 0; i < instr->count; i++)
+            key[i] = numbers.of[i][k];
+        values[k] = vm_lookup_numbers(batch->vm, instr->target, key, instr->count);
+    }
+    vm_batch_store(batch, instr->d, values);
+    return true;
+}
+
+// --- built-ins
 
 // Calls an element-wise built-in once for all selected iterations. An argument is a vector with one number per
 // iteration, or a single number if it is the same in all iterations.
 static bool run_each(LoopBatch *batch, const Instr *instr) {
-    enum { MAX_OPERANDS = 4 };
     const Builtin *builtin = instr->as.builtin;
-    const int32_t *list = batch->frame->operands + instr->list;
-    double buffers[MAX_OPERANDS][BATCH_SIZE];
-    const double *parts[MAX_OPERANDS];
+    const int32_t *list = operand_list(batch, instr);
+    Numbers numbers;
     Value args[MAX_OPERANDS];
-    if (builtin->each == 0 || instr->count < builtin->each || !read_list(batch, instr, MAX_OPERANDS, buffers, parts))
+    if (builtin->each == 0 || instr->count < builtin->each || !read_numbers(batch, list, instr->count, &numbers))
         return false;
     for (uint32_t i = 0; i < instr->count; i++)
-        args[i] = value_numbers_view(parts[i], column_of(batch, list[i]) ? batch->selected_count : 1);
+        args[i] = value_numbers_view(numbers.of[i], column_of(batch, list[i]) ? batch->selected_count : 1);
     vm_charge(batch->vm, instr->at, batch->selected_count);
     batch->vm->builtins.called = builtin;
     Value result = builtin->call(&batch->vm->builtins, args, instr->count);
@@ -108,8 +146,7 @@ static bool run_each(LoopBatch *batch, const Instr *instr) {
 // Calls a built-in once per selected iteration, with the arguments of this iteration. Returns false if the arguments
 // are the same in all iterations, because one call may then be sufficient.
 static bool run_calls(LoopBatch *batch, const Instr *instr) {
-    enum { MAX_OPERANDS = 8 };
-    const int32_t *list = batch->frame->operands + instr->list;
+    const int32_t *list = operand_list(batch, instr);
     const Column *columns[MAX_OPERANDS];
     Value args[MAX_OPERANDS], values[BATCH_SIZE];
     uint32_t different = 0;
@@ -133,69 +170,38 @@ static bool run_calls(LoopBatch *batch, const Instr *instr) {
 
 // Computes noise at one point of the plane per iteration.
 static bool run_noise(LoopBatch *batch, const Instr *instr) {
-    const int32_t *list = batch->frame->operands + instr->list;
-    double left[BATCH_SIZE], right[BATCH_SIZE], to[BATCH_SIZE];
-    if (instr->as.builtin->each != BUILTIN_EACH_POINT || instr->count != 3 || column_of(batch, list[0]))
-        return false;
-    const double *x = vm_batch_numbers(batch, list[1], left), *y = x ? vm_batch_numbers(batch, list[2], right) : NULL;
-    if (!y)
+    const int32_t *list = operand_list(batch, instr);
+    Numbers numbers;
+    double to[BATCH_SIZE];
+    if (instr->as.builtin->each != BUILTIN_EACH_POINT || instr->count != 3 || column_of(batch, list[0]) ||
+        !read_numbers(batch, list + 1, 2, &numbers))
         return false;
     vm_charge(batch->vm, instr->at, batch->selected_count);
-    builtin_noise_points(&batch->vm->builtins, batch->frame->slots[list[0]], x, y, batch->selected_count, to);
+    builtin_noise_points(&batch->vm->builtins, batch->frame->slots[list[0]], numbers.of[0], numbers.of[1],
+                         batch->selected_count, to);
     vm_batch_store_numbers(batch, instr->d, to);
     return true;
 }
 
+static bool run_builtin(LoopBatch *batch, const Instr *instr) {
+    return run_each(batch, instr) || run_noise(batch, instr) || run_calls(batch, instr);
+}
+
+// --- vectors and nodes
+
 // Composes one vector of numbers per selected iteration. All vectors have the same length and are rows of one array.
 static bool run_compose(LoopBatch *batch, const Instr *instr) {
-    enum { MAX_OPERANDS = 8 };
-    double buffers[MAX_OPERANDS][BATCH_SIZE];
-    const double *parts[MAX_OPERANDS];
+    Numbers numbers;
     uint32_t width = instr->count, count = batch->selected_count;
     Value values[BATCH_SIZE];
-    if (!read_list(batch, instr, MAX_OPERANDS, buffers, parts))
+    if (!read_numbers(batch, operand_list(batch, instr), width, &numbers))
         return false;
     batch->vm->at = instr->at;
     double *rows = arena_alloc(batch->vm->arena, (size_t)count * width * sizeof *rows);
     for (uint32_t k = 0; k < count; k++) {
         for (uint32_t i = 0; i < width; i++)
-            rows[k * width + i] = parts[i][k];
+            rows[k * width + i] = numbers.of[i][k];
         values[k] = (Value){.len = width, .as.numbers = rows + k * width};
-    }
-    vm_batch_store(batch, instr->d, values);
-    return true;
-}
-
-// Slices a vector that is the same in all iterations.
-static bool run_slice(LoopBatch *batch, const Instr *instr) {
-    double left[BATCH_SIZE], right[BATCH_SIZE];
-    Value values[BATCH_SIZE];
-    const double *from = vm_batch_numbers(batch, instr->b, left);
-    const double *to = from ? vm_batch_numbers(batch, instr->c, right) : NULL;
-    if (!to || column_of(batch, instr->a))
-        return false;
-    batch->vm->at = instr->as.inner_origin;
-    for (uint32_t k = 0; k < batch->selected_count; k++)
-        if (!vm_slice_numbers(batch->vm, &batch->frame->slots[instr->a], from[k], to[k], &values[k]))
-            return false;
-    vm_batch_store(batch, instr->d, values);
-    return true;
-}
-
-// Looks up one key per selected iteration. The keys must consist of numbers.
-static bool run_lookups(LoopBatch *batch, const Instr *instr) {
-    enum { MAX_OPERANDS = 4 };
-    double buffers[MAX_OPERANDS][BATCH_SIZE], key[MAX_OPERANDS];
-    const double *parts[MAX_OPERANDS];
-    Value values[BATCH_SIZE];
-    if (!batch->vm->state || !read_list(batch, instr, MAX_OPERANDS, buffers, parts))
-        return false;
-    batch->vm->at = instr->at;
-    batch->vm->met_dynamic = true;
-    for (uint32_t k = 0; k < batch->selected_count; k++) {
-        for (uint32_t i = 0; i < instr->count; i++)
-            key[i] = parts[i][k];
-        values[k] = vm_lookup_numbers(batch->vm, instr->target, key, instr->count);
     }
     vm_batch_store(batch, instr->d, values);
     return true;
@@ -204,7 +210,7 @@ static bool run_lookups(LoopBatch *batch, const Instr *instr) {
 // Creates nodes without children. Creates one for the first selected iteration, and copies with other attributes.
 // Returns false if some iterations lack an attribute, or if an attribute that differs may contain nodes.
 static bool run_nodes(LoopBatch *batch, const Instr *instr) {
-    const int32_t *list = batch->frame->operands + instr->list;
+    const int32_t *list = operand_list(batch, instr);
     const Column *columns[CODE_MAX_READ];
     uint32_t count = 0, active = batch->selected_count;
     if (instr->b != CODE_NO_OPERAND)
@@ -239,10 +245,6 @@ static bool run_nodes(LoopBatch *batch, const Instr *instr) {
     }
     vm_batch_store(batch, instr->d, values);
     return true;
-}
-
-static bool run_builtin(LoopBatch *batch, const Instr *instr) {
-    return run_each(batch, instr) || run_noise(batch, instr) || run_calls(batch, instr);
 }
 
 // --- any instruction
