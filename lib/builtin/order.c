@@ -66,7 +66,7 @@ static Value find_extreme(BuiltinContext *context, const char *name, const Value
         if (best == NO_POSITION)
             return builtin_error(context, name, "the elements must be all numbers or all strings");
     }
-    return position ? value_number(best) : value_element(context->arena, args[0], best);
+    return position ? value_number(best) : value_element(args[0], best);
 }
 
 BUILTIN_IS(min, find_extreme(context, "min", args, count, -1, false))

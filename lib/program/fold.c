@@ -10,7 +10,6 @@
 // static tree of particles becomes one constant vector of nodes that all frames share.
 #include "program/compile.h"
 #include "program/lower.h"
-#include "value/value_hash.h"
 
 // Vectors with more elements are not folded: evaluating them again costs less than keeping them in memory.
 enum { MAX_ELEMENTS = 1 << 22 };
@@ -171,19 +170,10 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
     return replace_with_constant(compiler, expr, value);
 }
 
-// Returns the value of the name at index `element` if `value` is unpacked to `count` names (L8.3).
-static Value unpack_value(Compiler *compiler, Value value, uint32_t element, uint32_t count) {
-    if (count == 1)
-        return value;
-    if (value.kind == VALUE_STREAM)
-        return value_number(value_stream_item(value, element));
-    return value_element(compiler->arena, value, element);
-}
-
 void compile_set_constant(Compiler *compiler, uint32_t count, Value value) {
     Binding *binding = compiler->function->scope;
     for (uint32_t i = count; i > 0; i--, binding = binding->outer) {
         binding->is_constant = true;
-        binding->constant = unpack_value(compiler, value, i - 1, count);
+        binding->constant = count == 1 ? value : value_element(value, i - 1);
     }
 }

@@ -94,7 +94,7 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
     uint32_t at = 0;
     while (is_plain_number(check->session, value_at(&v, at)))
         at++;
-    Str wrong = format_text(arena, &check->session->symbols, value_element(arena, v, at));
+    Str wrong = format_text(arena, &check->session->symbols, value_element(v, at));
     bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));
     report_definition(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
                       str_format(arena, "%.*s is not a number; '%.*s' takes numbers, such as its default %.*s",

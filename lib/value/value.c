@@ -3,6 +3,7 @@
 
 #include "base/number.h"
 #include "value/node.h"
+#include "value/value_hash.h"
 
 #include <math.h>
 #include <string.h>
@@ -61,7 +62,7 @@ Value value_index(Arena *arena, Value v, Value index) {
         return VALUE_NULL;
     const double *at = value_numbers(&index);
     if (index.len == 1)
-        return value_element(arena, v, value_wrap_index(at[0], v.len));
+        return value_element(v, value_wrap_index(at[0], v.len));
     if (v.kind == VALUE_NUMBERS) {
         const double *from = value_numbers(&v);
         double *numbers = arena_alloc_array(arena, index.len, sizeof *numbers);
@@ -75,8 +76,9 @@ Value value_index(Arena *arena, Value v, Value index) {
     return vector_finish(&vector);
 }
 
-Value value_element(Arena *arena, Value v, uint32_t k) {
-    (void)arena;
+Value value_element(Value v, uint32_t k) {
+    if (v.kind == VALUE_STREAM)
+        return value_number(value_stream_item(v, k));
     if (v.len == 0)
         return VALUE_NULL;
     k %= v.len;
@@ -94,7 +96,7 @@ Value value_slice(Arena *arena, Value v, uint32_t start, uint32_t count) {
     if (v.kind == VALUE_NUMBERS)
         return value_numbers_view(value_numbers(&v) + start, count);
     if (count == 1)
-        return value_element(arena, v, start);
+        return value_element(v, start);
     for (uint32_t i = 0; i < count; i++)
         if (v.as.items[start + i].type != ITEM_NUMBER)
             return (Value){.len = count, .kind = VALUE_MIXED, .as.items = v.as.items + start};

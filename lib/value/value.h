@@ -114,9 +114,9 @@ bool value_contains(Arena *arena, Value x, Value y);
 
 // Returns v[index] (L5.7). v must not be a stream.
 Value value_index(Arena *arena, Value v, Value index);
-// Returns a vector of one element: the element of v whose index is k modulo the length of v. Returns null if v is null.
-// v must not be a stream. Used for unpacking.
-Value value_element(Arena *arena, Value v, uint32_t k);
+// Returns a vector of one element: item k of a stream, or the element of v whose index is k modulo the length of v.
+// Returns null if v is null. Used for unpacking.
+Value value_element(Value v, uint32_t k);
 // Returns a vector of the elements of v with indices `start` to start + count - 1, which must exist.
 Value value_slice(Arena *arena, Value v, uint32_t start, uint32_t count);
 // Returns the index of the element that index x selects in a vector of length n: x rounded down, modulo n. An x that is

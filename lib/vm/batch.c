@@ -20,7 +20,7 @@ static void bind_iterations(LoopBatch *batch, const Instr *start, const Loop *lo
     }
     for (uint32_t i = 0; i < start->count; i++) {
         for (uint32_t k = 0; k < batch->count; k++)
-            values[k] = vm_loop_element(batch->vm, loop, loop->at + k * start->count + i);
+            values[k] = vm_loop_element(loop, loop->at + k * start->count + i);
         vm_batch_store(batch, start->d + (int32_t)i, values);
     }
 }

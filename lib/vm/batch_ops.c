@@ -304,7 +304,7 @@ void vm_batch_unpack(LoopBatch *batch, const Instr *instr) {
         whole[k] = column_read(batch, instr->a, batch->selection[k]);
     for (uint32_t i = 0; i < instr->count; i++) {
         for (uint32_t k = 0; k < batch->selected_count; k++)
-            values[k] = vm_unpack_element(batch->vm, whole[k], i);
+            values[k] = value_element(whole[k], i);
         vm_batch_store(batch, instr->d + (int32_t)i, values);
     }
 }

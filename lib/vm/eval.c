@@ -102,26 +102,22 @@ Value vm_index(Vm *vm, const Frame *frame, const Instr *instr) {
 
 // --- loops and imports
 
-Value vm_unpack_element(Vm *vm, Value value, uint32_t i) {
-    return value.kind == VALUE_STREAM ? value_number(value_stream_item(value, i)) : value_element(vm->arena, value, i);
-}
-
-NOINLINE static void unpack_value(Vm *vm, Value *slots, uint32_t count, Value value) {
+NOINLINE static void unpack_value(Value *slots, uint32_t count, Value value) {
     for (uint32_t i = 0; i < count; i++)
-        slots[i] = vm_unpack_element(vm, value, i);
+        slots[i] = value_element(value, i);
 }
 
-Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i) {
+Value vm_loop_element(const Loop *loop, uint32_t i) {
     return i >= loop->source.len               ? VALUE_NULL
            : loop->source.kind == VALUE_ABSENT ? value_number(op_range_number(&loop->span, i))
-                                               : value_element(vm->arena, loop->source, i);
+                                               : value_element(loop->source, i);
 }
 
 // Binds the loop's names, in slots[0] to slots[count - 1], to the elements of one iteration (L10.1). Names for which no
 // element is left are null.
-NOINLINE static void bind_elements(Vm *vm, const Loop *loop, Value *slots, uint32_t count) {
+NOINLINE static void bind_elements(const Loop *loop, Value *slots, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
-        slots[i] = vm_loop_element(vm, loop, loop->at + i);
+        slots[i] = vm_loop_element(loop, loop->at + i);
 }
 
 // Starts the next iteration of a loop. Returns false if there is none.
@@ -134,7 +130,7 @@ static bool next_iteration(Vm *vm, const Instr *instr, const Loop *loop, Value *
     else if (instr->count == 1 && loop->source.kind == VALUE_NUMBERS)
         vm_set_number(&slots[instr->d], value_numbers(&loop->source)[loop->at]);
     else
-        bind_elements(vm, loop, slots + instr->d, instr->count);
+        bind_elements(loop, slots + instr->d, instr->count);
     return true;
 }
 
@@ -185,7 +181,7 @@ static inline __attribute__((always_inline)) Value eval_code(Vm *vm, Frame *fram
             D = A;
             break;
         case OP_UNPACK:
-            unpack_value(vm, &D, instr->count, A);
+            unpack_value(&D, instr->count, A);
             break;
         case OP_IMPORT:
             eval_import(vm, frame, instr, A);

@@ -78,10 +78,8 @@ Value vm_index_value(Vm *vm, Value vector, Value index);
 // If from..to are whole numbers within a numeric vector, and at least two, sets *slice to these elements and returns
 // true.
 bool vm_slice_numbers(Vm *vm, const Value *vector, double from, double to, Value *slice);
-// If `value` is unpacked to several names, vm_unpack_element returns the value of name i. vm_loop_element returns
-// element i of the loop's source, or null if the source has fewer elements.
-Value vm_unpack_element(Vm *vm, Value value, uint32_t i);
-Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i);
+// Returns element i of the loop's source, or null if the source has fewer elements.
+Value vm_loop_element(const Loop *loop, uint32_t i);
 // batch.c: executes as many of the loop's remaining iterations as possible in batches. `start` is the FOR or FOR_RANGE
 // instruction of the loop, and must have a BatchPlan. Called when the loop starts, and again when loop->at reaches
 // loop->retry_at.

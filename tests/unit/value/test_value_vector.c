@@ -217,8 +217,10 @@ static void test_element_and_slice(void **state) {
     World *world = *state;
     Arena *arena = &world->arena;
     Value v = read_value(world, "'a';1;2;!b");
-    assert_text("wraps", show(world, value_element(arena, v, 5)), "1");
-    assert_text("null", show(world, value_element(arena, VALUE_NULL, 5)), "null");
+    assert_text("wraps", show(world, value_element(v, 5)), "1");
+    assert_text("null", show(world, value_element(VALUE_NULL, 5)), "null");
+    Value stream = read_value(world, "uniform:1");
+    assert_true(value_element(stream, 5).as.number == value_stream_item(stream, 5));
     assert_text("all", show(world, value_slice(arena, v, 0, 4)), "'a';1;2;(!b)");
     assert_text("none", show(world, value_slice(arena, v, 2, 0)), "null");
     assert_text("one", show(world, value_slice(arena, v, 3, 1)), "(!b)");
