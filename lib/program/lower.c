@@ -108,7 +108,7 @@ static void emit_operator(Lowering *lowering, uint16_t op, const Expr *expr, int
     int32_t a = lower_operand(lowering, expr->children[0]);
     int32_t b = expr->count > 1 ? lower_operand(lowering, expr->children[1]) : a;
     if (expr->slot) // <, >, <= or >= with the same object on both sides (L5.5)
-        emit_move(lowering, d, lower_constant(lowering, value_number(op == OP_LE || op == OP_GE)), expr);
+        emit_move(lowering, d, add_constant(lowering, value_number(op == OP_LE || op == OP_GE)), expr);
     else
         lower_emit(lowering, expr, (Instr){.op = op, .d = d, .a = a, .b = b});
 }
