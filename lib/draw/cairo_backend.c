@@ -48,7 +48,7 @@ static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
     if (wide)
         layers->below[at] = hdr_begin_layer(canvas);
     bool degraded = wide ? canvas->hdr_target.pixels == layers->below[at].pixels
-                         : !draw_reserve(canvas, (size_t)pixels * sizeof(uint32_t));
+                         : !float_image_reserve(&canvas->pool, (size_t)pixels * sizeof(uint32_t));
     draw_report_degraded(canvas, place, "the layer", degraded);
     if (degraded)
         return;
@@ -71,7 +71,7 @@ static void end_layer(Canvas *canvas, Layers *layers, double alpha) {
     cairo_pop_group_to_source(canvas->cr);
     cairo_set_operator(canvas->cr, CAIRO_OPERATOR_OVER);
     cairo_paint_with_alpha(canvas->cr, alpha);
-    draw_release(canvas, (size_t)layers->pixels[at] * sizeof(uint32_t));
+    float_image_release(&canvas->pool, (size_t)layers->pixels[at] * sizeof(uint32_t));
 }
 
 // Adds a rectangle around the clip area to the path. Under the even-odd rule, this inverts the path.

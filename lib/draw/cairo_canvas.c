@@ -112,6 +112,7 @@ static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surfac
     PetriStatus result = result_of(cairo_status(cr));
     if (result == PETRI_OK) {
         Drawing drawing = {.canvas = {.painter = painter,
+                                      .pool.budget = &painter->budget,
                                       .picture = page->picture,
                                       .cr = cr,
                                       .faults = faults,

@@ -113,8 +113,8 @@ void draw_add_element(Canvas *canvas, PathElement kind, const double *n) {
         curve_to(canvas, n[0], n[1], n[2], n[3], n[4], n[5]);
         break;
     case PATH_ARC:
-    case PATH_ARC_JOINED:
-        draw_ellipse_path(canvas, n[0], n[1], n[2], n[3], n[4], n[5], kind == PATH_ARC_JOINED);
+    case PATH_ARC_ON:
+        draw_ellipse_path(canvas, n[0], n[1], n[2], n[3], n[4], n[5], kind == PATH_ARC_ON);
         break;
     case PATH_ARC_TO:
         arc_to(canvas, n);
@@ -132,7 +132,6 @@ static bool is_current_path(const Canvas *canvas, const DisplayCommand *command)
 }
 
 void draw_set_path(Canvas *canvas, const DisplayCommand *command) {
-    static const uint8_t counts[] = {2, 2, 4, 6, 6, 6, 7, 0};
     const DisplayList *list = canvas->list;
     if (is_current_path(canvas, command))
         return;
@@ -144,7 +143,7 @@ void draw_set_path(Canvas *canvas, const DisplayCommand *command) {
         for (uint32_t i = list->runs.at[run].start; i < end;) {
             PathElement kind = (PathElement)list->numbers.at[i];
             draw_add_element(canvas, kind, list->numbers.at + i + 1);
-            i += 1u + counts[kind];
+            i += 1u + display_path_sizes[kind];
         }
         run = last ? DISPLAY_NONE : list->runs.at[run].next;
     }

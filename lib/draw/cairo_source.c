@@ -1,5 +1,6 @@
 // cairo_source.c: translates paint sources of a display list to Cairo patterns.
 #include "draw/draw.h"
+#include "draw/noise.h"
 
 #include <math.h>
 
@@ -69,6 +70,38 @@ static cairo_pattern_t *fade_pattern(Canvas *canvas, cairo_pattern_t *pattern, d
     return cairo_pop_group(canvas->cr);
 }
 
+// Returns a pattern of noise that covers the clip.
+static cairo_pattern_t *make_noise(Canvas *canvas, const DisplaySource *source, double alpha) {
+    cairo_t *cr = canvas->cr;
+    cairo_matrix_t units, to_units, to_pixels;
+    double x1, y1, x2, y2;
+    cairo_get_matrix(cr, &units);
+    cairo_save(cr);
+    cairo_identity_matrix(cr);
+    cairo_clip_extents(cr, &x1, &y1, &x2, &y2);
+    cairo_restore(cr);
+    double left = floor(x1), top = floor(y1), width = fmax(ceil(x2) - left, 1), height = fmax(ceil(y2) - top, 1);
+    double work = width * height * (10 + 100.0 * source->stop_count);
+    if (!draw_charge(canvas, NULL, work, "noise is left out"))
+        return cairo_pattern_create_rgba(0, 0, 0, 0);
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)width, (int)height);
+    to_units = units;
+    cairo_matrix_invert(&to_units);
+    if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
+        draw_noise(source,
+                   &(DisplayMatrix){to_units.xx, to_units.yx, to_units.xy, to_units.yy, to_units.x0, to_units.y0},
+                   (int)left, (int)top, alpha, (uint32_t *)(void *)cairo_image_surface_get_data(surface), (int)width,
+                   (int)height);
+    cairo_surface_mark_dirty(surface);
+    cairo_pattern_t *pattern = cairo_pattern_create_for_surface(surface);
+    cairo_surface_destroy(surface);
+    cairo_matrix_init_translate(&to_pixels, -left, -top);
+    cairo_matrix_multiply(&to_pixels, &units, &to_pixels);
+    cairo_pattern_set_matrix(pattern, &to_pixels);
+    cairo_pattern_set_filter(pattern, CAIRO_FILTER_NEAREST);
+    return pattern;
+}
+
 static cairo_pattern_t *make_pattern(Canvas *canvas, uint32_t number, double alpha) {
     const DisplaySource *source = &canvas->list->sources.at[number];
     cairo_pattern_t *pattern = NULL;
@@ -87,7 +120,7 @@ static cairo_pattern_t *make_pattern(Canvas *canvas, uint32_t number, double alp
     case SOURCE_BLEND:
         return fade_pattern(canvas, make_blend(canvas, source), alpha);
     case SOURCE_NOISE:
-        return draw_noise(canvas, source, alpha);
+        return make_noise(canvas, source, alpha);
     }
     cairo_pattern_set_extend(pattern, CAIRO_EXTEND_PAD);
     add_stops(canvas->list, source, alpha, pattern);

@@ -16,18 +16,20 @@ typedef struct DisplayMatrix {
     double xx, yx, xy, yy, x0, y0;
 } DisplayMatrix;
 
-// The kinds of path elements. In DisplayList.numbers, each element is stored as its kind, followed by the operands
-// listed here.
+// The kinds of path elements, as PETRI_PATH_… of petri-draw.h: PATH_MOVE and so on. In DisplayList.numbers, each
+// element is stored as its kind, followed by its operands.
 typedef enum PathElement {
-    PATH_MOVE,       // x, y
-    PATH_LINE,       // x, y
-    PATH_QUADRATIC,  // control x, y, end x, y
-    PATH_CUBIC,      // two control points and an end
-    PATH_ARC,        // centre x, y, radii x, y, start and sweep in turns, clockwise; starts a new subpath
-    PATH_ARC_JOINED, // like PATH_ARC, but a line joins the current point to the start of the arc
-    PATH_ARC_TO,     // radii x, y, rotation in turns, two flags (0 or 1): large arc, clockwise; end x, y
-    PATH_CLOSE,
+#define ELEMENT(name, operands) PATH_##name,
+#include "draw/display_list_rows.h"
 } PathElement;
+
+// The number of operands of each kind of path element.
+static const uint8_t display_path_sizes[] = {
+#define ELEMENT(name, operands) operands 0,
+#define NUMBER(name) 1 +
+#define NUMBERS(name, count) count +
+#include "draw/display_list_rows.h"
+};
 
 // A range of consecutive path elements in DisplayList.numbers.
 typedef struct DisplayRun {
@@ -73,19 +75,19 @@ typedef struct DisplaySource {
     uint32_t image;      // for a pattern: index of the image
 } DisplaySource;
 
-// FILTER_BLUR and so on. The values are those of PETRI_FILTER_BLUR and so on in petri-draw.h.
+// The kinds of filters, as PETRI_FILTER_…. FILTER_SOURCE is the unfiltered drawing.
 typedef enum DisplayFilterKind {
-#define FILTER(id, name, reader, children, inputs, help) FILTER_##id = PETRI_FILTER_##id,
-#include "schema/schema_list.h"
+#define FILTER_KIND(name, operands) FILTER_##name,
+#include "draw/display_list_rows.h"
 } DisplayFilterKind;
 
 typedef struct DisplayFilter {
     DisplayFilterKind kind;
     double radius[2]; // for blur and shadow: standard deviation; for dilate and erode: reach
     double offset[2];
-    double color[4];
+    double colour[4];
     bool only;        // true: draw the shadow without the object
-    int mode;         // for a blend: composite mode
+    int mode;         // for a blend: composite mode; -1: use `numbers`
     uint32_t paint;   // for FILTER_PAINT: index of the paint
     uint32_t numbers; // index in DisplayList.numbers of 20 matrix elements or 4 coefficients; DISPLAY_NONE: use `mode`
     uint32_t inputs[2]; // indices of filters; DISPLAY_NONE: the unfiltered drawing; only blends use the second input

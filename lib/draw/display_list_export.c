@@ -5,8 +5,9 @@
 #include "draw/picture.h"
 
 #include <math.h>
+#include <string.h>
 
-static const char other_node[] = "the picture of another node";
+enum { PIXELS_FLAG = 2 };               // index of the number that is 1 if there are filters or noise
 enum { MAX_EFFECT_ELEMENTS = 2000000 }; // maximum number of path elements that the effects of a picture may create
 
 typedef struct DisplayListExport {
@@ -18,17 +19,60 @@ typedef struct DisplayListExport {
     uint32_t matrix;          // index of the matrix written last; DISPLAY_NONE: none
     uint32_t paint;           // index of the paint written last; DISPLAY_NONE: none
     uint32_t effect_elements; // path elements created by effects so far
+    double scale;             // of the automatic picture: pixels per unit
+    double colour[4];         // of the automatic picture: the current paint; NaN: another paint
+    double line_width;        // of the automatic picture: width of the current stroke style; 0: not set
 } DisplayListExport;
 
 static void add(DisplayListExport *numbers, const double *values, uint32_t count) {
-    double *to = DISPLAY_ADD(numbers->arena, numbers->out, count);
+    if (numbers->out.room - numbers->out.count < count) // checked here, because most calls add a single number
+        numbers->out.at = display_list_grow(numbers->arena, numbers->out.at, numbers->out.count, &numbers->out.room,
+                                            count, sizeof *values);
+    double *to = numbers->out.at + numbers->out.count;
+    numbers->out.count += count;
     for (uint32_t i = 0; i < count; i++)
         to[i] = values[i];
 }
 
 #define ADD(...) add(numbers, (const double[]){__VA_ARGS__}, sizeof((const double[]){__VA_ARGS__}) / sizeof(double))
 
-static void add_text(DisplayListExport *numbers, Str text) {
+typedef struct NumberList {
+    const double *at;
+    uint32_t count;
+} NumberList;
+
+typedef struct StopList {
+    const DisplayStop *at;
+    uint32_t count;
+} StopList;
+
+// A path from one of three sources; the others are NULL.
+typedef struct AnyPath {
+    const DisplayPath *path;
+    const Outline *outline;
+    NumberList elements;
+} AnyPath;
+
+// The operands of each command.
+#define COMMAND(name, operands)                                                                                        \
+    typedef struct name##Operands {                                                                                    \
+        double kind;                                                                                                   \
+        operands                                                                                                       \
+    } name##Operands;
+#define NUMBER(name) double name;
+#define NUMBERS(name, count) const double *name;
+#define MATRIX(name) const DisplayMatrix *name;
+#define COLOUR(name) const double *name;
+#define STOPS(name) StopList name;
+#define DASHES(name) NumberList name;
+#define STRING(name) Str name;
+#define PATH(name) AnyPath name;
+#define PIXELS(name) Texture *name;
+#define FILTER(name) uint32_t name;
+#define PAINT(name) const DisplaySource *name;
+#include "draw/display_list_rows.h"
+
+static void add_string(DisplayListExport *numbers, Str text) {
     uint32_t count = 0;
     for (size_t at = 0; at < text.len; count++)
         utf8_next(text, &at);
@@ -37,34 +81,68 @@ static void add_text(DisplayListExport *numbers, Str text) {
         ADD(utf8_next(text, &at));
 }
 
-static void add_unsupported(DisplayListExport *numbers, const char *what) {
-    ADD(PETRI_DRAW_UNSUPPORTED);
-    add_text(numbers, str_from(what));
-}
-
 static void add_matrix(DisplayListExport *numbers, const DisplayMatrix *m) {
     ADD(m->xx, m->yx, m->xy, m->yy, m->x0, m->y0);
 }
 
-static void add_path(DisplayListExport *numbers, const DisplayPath *path) {
-    const DisplayList *list = numbers->list;
-    uint32_t count_at = numbers->out.count;
+static void add_list(DisplayListExport *numbers, NumberList list) {
+    ADD(list.count);
+    add(numbers, list.at, list.count);
+}
+
+// Adds numbers, preceded by their count, that are written between begin_list and end_list.
+static uint32_t begin_list(DisplayListExport *numbers) {
     ADD(0);
+    return numbers->out.count;
+}
+
+static void end_list(DisplayListExport *numbers, uint32_t start) {
+    numbers->out.at[start - 1] = numbers->out.count - start;
+}
+
+static void add_stops(DisplayListExport *numbers, StopList stops) {
+    ADD(stops.count);
+    for (uint32_t i = 0; i < stops.count; i++) {
+        ADD(stops.at[i].offset);
+        add(numbers, stops.at[i].color, 4);
+    }
+}
+
+static void add_path_runs(DisplayListExport *numbers, const DisplayPath *path) {
+    const DisplayList *list = numbers->list;
     for (uint32_t run = path->first; run != DISPLAY_NONE;) {
         bool last = run == path->last;
         uint32_t start = list->runs.at[run].start, end = last ? path->end : list->runs.at[run].end;
         add(numbers, list->numbers.at + start, end - start);
         run = last ? DISPLAY_NONE : list->runs.at[run].next;
     }
-    numbers->out.at[count_at] = numbers->out.count - count_at - 1;
 }
 
-// Adds the picture of another node. Returns false if it does not exist.
-static bool add_pixels(DisplayListExport *numbers, Str id) {
-    PetriPainter *painter = numbers->painter;
-    Texture *texture = painter ? render_graph_find(painter->render_graph, id) : NULL;
-    if (!texture || !texture_download(painter->gl, texture))
-        return false;
+static void add_outline(DisplayListExport *numbers, const Outline *outline) {
+    for (uint32_t i = 0; i < outline->elements.count; i++) {
+        const OutlineElement *element = &outline->elements.at[i];
+        ADD(element->kind);
+        add(numbers, &element->points[0].x, display_path_sizes[element->kind]);
+    }
+}
+
+static void add_path(DisplayListExport *numbers, const AnyPath *path) {
+    uint32_t start = begin_list(numbers);
+    if (path->path)
+        add_path_runs(numbers, path->path);
+    else if (path->outline)
+        add_outline(numbers, path->outline);
+    else
+        add(numbers, path->elements.at, path->elements.count);
+    end_list(numbers, start);
+}
+
+// Adds the pixels of a picture. NULL means an empty picture.
+static void add_pixels(DisplayListExport *numbers, Texture *texture) {
+    if (!texture) {
+        ADD(0, 0);
+        return;
+    }
     uint32_t *row = arena_alloc_array(numbers->arena, (size_t)texture->width, sizeof *row);
     ADD(texture->width, texture->height);
     for (int y = 0; y < texture->height; y++) {
@@ -76,173 +154,163 @@ static bool add_pixels(DisplayListExport *numbers, Str id) {
         for (int x = 0; x < texture->width; x++)
             to[x] = row[x];
     }
-    return true;
+}
+
+static void add_source(DisplayListExport *numbers, const DisplaySource *source, double alpha);
+static void add_filter_list(DisplayListExport *numbers, uint32_t number);
+
+// Write a command and its operands.
+#define COMMAND(name, operands)                                                                                        \
+    static inline void write_##name(DisplayListExport *numbers, const name##Operands *o) {                             \
+        ADD(o->kind);                                                                                                  \
+        operands                                                                                                       \
+    }
+#define NUMBER(name) ADD(o->name);
+#define NUMBERS(name, count) add(numbers, o->name, count);
+#define MATRIX(name) add_matrix(numbers, o->name);
+#define COLOUR(name) add(numbers, o->name, 4);
+#define STOPS(name) add_stops(numbers, o->name);
+#define DASHES(name) add_list(numbers, o->name);
+#define STRING(name) add_string(numbers, o->name);
+#define PATH(name) add_path(numbers, &o->name);
+#define PIXELS(name) add_pixels(numbers, o->name);
+#define FILTER(name) add_filter_list(numbers, o->name);
+#define PAINT(name) add_source(numbers, o->name, 1);
+#include "draw/display_list_rows.h"
+
+#define WRITE(name, ...) write_##name(numbers, &(name##Operands){.kind = PETRI_DRAW_##name, __VA_ARGS__})
+
+static void add_unsupported(DisplayListExport *numbers, const char *what) {
+    WRITE(UNSUPPORTED, .string = str_from(what));
+}
+
+static void report_other_node(DisplayListExport *numbers) {
+    if (!numbers->painter)
+        add_unsupported(numbers, "the picture of another node");
+}
+
+// Returns the picture of another node, or NULL if there is none.
+static Texture *find_pixels(DisplayListExport *numbers, Str id) {
+    PetriPainter *painter = numbers->painter;
+    Texture *texture = painter ? render_graph_find(painter->render_graph, id) : NULL;
+    return texture && texture_download(painter->gl, texture) ? texture : NULL;
 }
 
 static void add_pattern(DisplayListExport *numbers, const DisplaySource *source, double alpha) {
     const DisplayImage *image = &numbers->list->images.at[source->image];
-    uint32_t start = numbers->out.count;
-    ADD(PETRI_DRAW_PATTERN);
-    add_matrix(numbers, &source->matrix);
-    ADD(alpha);
-    if (image->file.len > 0) {
-        ADD(0, 0);
-        add_text(numbers, image->file);
-    } else if (!add_pixels(numbers, image->id)) {
-        numbers->out.count = start;
-        ADD(PETRI_DRAW_COLOR, 0, 0, 0, 0);
-        if (!numbers->painter)
-            add_unsupported(numbers, other_node);
-    }
-}
-
-static void add_gradient(DisplayListExport *numbers, const DisplaySource *source, double alpha) {
-    if (source->kind == SOURCE_LINEAR) {
-        ADD(PETRI_DRAW_LINEAR, source->ends[0], source->ends[1], source->ends[2], source->ends[3]);
-    } else {
-        ADD(PETRI_DRAW_RADIAL);
-        add_matrix(numbers, &source->matrix);
-    }
-    ADD(alpha, source->stop_count);
-    for (uint32_t i = 0; i < source->stop_count; i++) {
-        const DisplayStop *stop = &numbers->list->stops.at[source->first_stop + i];
-        ADD(stop->offset, stop->color[0], stop->color[1], stop->color[2], stop->color[3]);
-    }
+    Texture *pixels = image->file.len > 0 ? NULL : find_pixels(numbers, image->id);
+    if (image->file.len > 0 || pixels)
+        WRITE(PATTERN, .matrix = &source->matrix, .alpha = alpha, .pixels = pixels, .file_string = image->file);
+    else
+        WRITE(COLOR, .colour = (const double[4]){0});
+    if (image->file.len == 0)
+        report_other_node(numbers);
 }
 
 // The recursion is bounded because display_list_build_source limits the depth of blends.
 static void add_source(DisplayListExport *numbers, const DisplaySource *source, double alpha) {
-    const double *c = source->color;
+    const DisplayList *list = numbers->list;
+    StopList stops = {list->stops.at + source->first_stop, source->stop_count};
     switch (source->kind) {
     case SOURCE_COLOR:
-        ADD(PETRI_DRAW_COLOR, c[0], c[1], c[2], c[3]);
+        WRITE(COLOR, .colour = source->color);
         break;
     case SOURCE_LINEAR:
+        WRITE(LINEAR, .start = source->ends, .end = source->ends + 2, .alpha = alpha, .stops = stops);
+        break;
     case SOURCE_RADIAL:
-        add_gradient(numbers, source, alpha);
+        WRITE(RADIAL, .matrix = &source->matrix, .inner = (const double[3]){0}, .alpha = alpha, .stops = stops);
         break;
     case SOURCE_PATTERN:
         add_pattern(numbers, source, alpha);
         break;
     case SOURCE_BLEND:
-        ADD(PETRI_DRAW_BLEND, isnan(source->ratio) ? -1 : source->ratio, source->mode, alpha);
-        add_source(numbers, &numbers->list->sources.at[source->first_stop], 1);
-        add_source(numbers, &numbers->list->sources.at[source->stop_count], 1);
+        WRITE(BLEND, .ratio = isnan(source->ratio) ? -1 : source->ratio, .mode = source->mode, .alpha = alpha,
+              .first_paint = &list->sources.at[source->first_stop],
+              .second_paint = &list->sources.at[source->stop_count]);
         break;
     case SOURCE_NOISE:
-        ADD(PETRI_DRAW_NOISE, source->ends[0], source->ends[1], source->ends[2], source->ends[3], source->ratio,
-            source->stop_count, source->mode, alpha);
+        WRITE(NOISE, .frequency = source->ends, .tile = source->ends + 2, .seed = source->ratio,
+              .octaves = source->stop_count, .type = source->mode, .alpha = alpha);
+        numbers->out.at[PIXELS_FLAG] = true;
         break;
     }
 }
-
-static void add_filter(DisplayListExport *numbers, uint32_t number);
 
 static void add_paint(DisplayListExport *numbers, const DisplayPaint *paint) {
     const DisplayEffect *effect = paint->effect == DISPLAY_NONE ? NULL : &numbers->list->effects.at[paint->effect];
-    const double *c = paint->color;
-    if (paint->source == DISPLAY_NONE)
-        ADD(PETRI_DRAW_COLOR, c[0], c[1], c[2], c[3]);
-    else
-        add_source(numbers, &numbers->list->sources.at[paint->source], fmin(fmax(c[3], 0), 1));
-    ADD(PETRI_DRAW_STROKE_STYLE, paint->stroke_width, paint->join, paint->cap, paint->composite, paint->antialias);
-    ADD(effect && effect->kind == EFFECT_DASH ? effect->count : 0, effect ? effect->amounts[0] : 0);
+    NumberList dashes = {0};
     if (effect && effect->kind == EFFECT_DASH)
-        add(numbers, numbers->list->numbers.at + effect->numbers, effect->count);
-    if (paint->filter != DISPLAY_NONE) {
-        ADD(PETRI_DRAW_FILTER);
-        add_filter(numbers, paint->filter);
-    }
+        dashes = (NumberList){numbers->list->numbers.at + effect->numbers, effect->count};
+    if (paint->source == DISPLAY_NONE)
+        WRITE(COLOR, .colour = paint->color);
+    else
+        add_source(numbers, &numbers->list->sources.at[paint->source], fmin(fmax(paint->color[3], 0), 1));
+    WRITE(STROKE_STYLE, .width = paint->stroke_width, .join = paint->join, .cap = paint->cap, .mode = paint->composite,
+          .antialias = paint->antialias, .dash_offset = effect ? effect->amounts[0] : 0, .dashes = dashes);
+    if (paint->filter != DISPLAY_NONE)
+        WRITE(FILTER, .filter = paint->filter);
 }
 
-static void add_blend(DisplayListExport *numbers, const DisplayFilter *filter) {
-    if (filter->numbers == DISPLAY_NONE) {
-        ADD(filter->mode);
-    } else {
-        ADD(-1);
-        add(numbers, numbers->list->numbers.at + filter->numbers, 4);
-    }
+// Adds the commands of a filter's paint.
+static void add_filter_paint(DisplayListExport *numbers, const DisplayFilter *filter) {
+    DisplayPaint paint = numbers->list->paints.at[filter->paint];
+    paint.filter = paint.effect = DISPLAY_NONE;
+    uint32_t start = begin_list(numbers);
+    add_paint(numbers, &paint);
+    end_list(numbers, start);
 }
 
-// Writes a filter and its inputs. A kind of filter is written as its value in DisplayFilterKind.
+// Writes a filter and its inputs. The names of operands are those of DisplayFilter's fields.
 static void add_filter(DisplayListExport *numbers, uint32_t number) {
+    static const double none[20] = {0};
     if (number == DISPLAY_NONE) {
         ADD(PETRI_FILTER_SOURCE);
         return;
     }
     const DisplayFilter *filter = &numbers->list->filters.at[number];
+    const double *table = filter->numbers == DISPLAY_NONE ? none : numbers->list->numbers.at + filter->numbers;
+    const uint32_t *inputs = filter->inputs;
     ADD(filter->kind);
     switch (filter->kind) {
-    case FILTER_SHADOW:
-        ADD(filter->radius[0], filter->radius[1], filter->offset[0], filter->offset[1]);
-        add(numbers, filter->color, 4);
-        ADD(filter->only);
-        break;
-    case FILTER_BLUR:
-    case FILTER_DILATE:
-    case FILTER_ERODE:
-        ADD(filter->radius[0], filter->radius[1]);
-        break;
-    case FILTER_OFFSET:
-        ADD(filter->offset[0], filter->offset[1]);
-        break;
-    case FILTER_COLOUR_MATRIX:
-        add(numbers, numbers->list->numbers.at + filter->numbers, 20);
-        break;
-    case FILTER_PAINT: {
-        DisplayPaint paint = numbers->list->paints.at[filter->paint];
-        paint.filter = paint.effect = DISPLAY_NONE;
-        add_paint(numbers, &paint);
-        return;
+#define FILTER_KIND(name, operands)                                                                                    \
+    case FILTER_##name:                                                                                                \
+        operands break;
+#define NUMBER(name) ADD(filter->name);
+#define NUMBERS(name, count) add(numbers, filter->name, count);
+#define TABLE(name, count) add(numbers, table, count);
+#define COLOUR(name) add(numbers, filter->name, 4);
+#define FILTER(name) add_filter(numbers, *inputs++);
+#define COMMANDS(name) add_filter_paint(numbers, filter);
+#include "draw/display_list_rows.h"
     }
-    case FILTER_BLEND:
-        add_blend(numbers, filter);
-        break;
-    case FILTER_SOURCE:
-        return;
-    }
-    add_filter(numbers, filter->inputs[0]);
-    if (filter->kind == FILTER_BLEND)
-        add_filter(numbers, filter->inputs[1]);
 }
 
-static void add_text_command(DisplayListExport *numbers, const DisplayCommand *command) {
+static void add_filter_list(DisplayListExport *numbers, uint32_t number) {
+    uint32_t start = begin_list(numbers);
+    add_filter(numbers, number);
+    end_list(numbers, start);
+    numbers->out.at[PIXELS_FLAG] = true;
+}
+
+static void add_text(DisplayListExport *numbers, const DisplayCommand *command) {
     const DisplayText *text = &numbers->list->texts.at[command->item];
     if (outline_has_effect(numbers->list, &numbers->list->paints.at[command->paint]))
         add_unsupported(numbers, "a path effect on text");
-    ADD(PETRI_DRAW_TEXT, command->fill, command->stroke, text->point[0], text->point[1], text->size, text->weight,
-        text->width, text->slant, text->center);
-    add_text(numbers, str_from(text->family ? text->family : ""));
-    add_text(numbers, text->text);
+    WRITE(TEXT, .fill = command->fill, .stroke = command->stroke, .point = text->point, .size = text->size,
+          .weight = text->weight, .width = text->width, .slant = text->slant, .centred = text->center,
+          .family_string = str_from(text->family ? text->family : ""), .string = text->text);
 }
 
 static void add_image(DisplayListExport *numbers, const DisplayImage *image) {
-    uint32_t start = numbers->out.count;
-    ADD(image->file.len > 0 ? PETRI_DRAW_IMAGE : PETRI_DRAW_PIXELS, image->point[0], image->point[1], image->size[0],
-        image->size[1], image->fit);
     if (image->file.len > 0) {
-        add_text(numbers, image->file);
-    } else if (!add_pixels(numbers, image->id)) {
-        numbers->out.count = start;
-        if (!numbers->painter)
-            add_unsupported(numbers, other_node);
+        WRITE(IMAGE, .point = image->point, .size = image->size, .fit = image->fit, .file_string = image->file);
+        return;
     }
-}
-
-static void add_outline(DisplayListExport *numbers, const Outline *outline) {
-    uint32_t count_at = numbers->out.count;
-    ADD(0);
-    for (uint32_t i = 0; i < outline->elements.count; i++) {
-        const OutlineElement *element = &outline->elements.at[i];
-        const OutlinePoint *p = element->points;
-        if (element->kind == PATH_CUBIC)
-            ADD(PETRI_PATH_CUBIC, p[0].x, p[0].y, p[1].x, p[1].y, p[2].x, p[2].y);
-        else if (element->kind == PATH_CLOSE)
-            ADD(PETRI_PATH_CLOSE);
-        else
-            ADD(element->kind, p[0].x, p[0].y);
-    }
-    numbers->out.at[count_at] = numbers->out.count - count_at - 1;
+    Texture *pixels = find_pixels(numbers, image->id);
+    if (pixels)
+        WRITE(PIXELS, .point = image->point, .size = image->size, .fit = image->fit, .pixels = pixels);
+    report_other_node(numbers);
 }
 
 // Adds the path that results from a path effect. If the paths for filling and stroking differ, adds two commands.
@@ -258,8 +326,7 @@ static void add_path_with_effect(DisplayListExport *numbers, const DisplayComman
     for (int part = 0; part < 1 + separate; part++) {
         bool fill = command->fill && part == 0, stroke = command->stroke && part == separate;
         Outline outline = outline_apply(list, number, from, !fill);
-        ADD(PETRI_DRAW_PATH, fill, stroke, command->path.fill_type);
-        add_outline(numbers, &outline);
+        WRITE(PATH, .fill = fill, .stroke = stroke, .rule = command->path.fill_type, .path.outline = &outline);
         numbers->effect_elements += outline.elements.count;
     }
     if (numbers->effect_elements > MAX_EFFECT_ELEMENTS)
@@ -272,14 +339,13 @@ static void add_path_command(DisplayListExport *numbers, const DisplayCommand *c
         add_path_with_effect(numbers, command, paint);
         return;
     }
-    ADD(PETRI_DRAW_PATH, command->fill, command->stroke, command->path.fill_type);
-    add_path(numbers, &command->path);
+    WRITE(PATH, .fill = command->fill, .stroke = command->stroke, .rule = command->path.fill_type,
+          .path.path = &command->path);
 }
 
 static void add_command(DisplayListExport *numbers, const DisplayCommand *command) {
     if (command->kind < DISPLAY_SAVE && command->matrix != numbers->matrix) {
-        ADD(PETRI_DRAW_MATRIX);
-        add_matrix(numbers, &numbers->list->matrices.at[command->matrix]);
+        WRITE(MATRIX, .matrix = &numbers->list->matrices.at[command->matrix]);
         numbers->matrix = command->matrix;
     }
     if (command->kind < DISPLAY_SAVE && command->paint != numbers->paint) {
@@ -291,7 +357,7 @@ static void add_command(DisplayListExport *numbers, const DisplayCommand *comman
         add_path_command(numbers, command);
         break;
     case DISPLAY_TEXT:
-        add_text_command(numbers, command);
+        add_text(numbers, command);
         break;
     case DISPLAY_IMAGE:
         add_image(numbers, &numbers->list->images.at[command->item]);
@@ -299,46 +365,120 @@ static void add_command(DisplayListExport *numbers, const DisplayCommand *comman
     case DISPLAY_CLIP:
     case DISPLAY_MASK: {
         bool outside = (command->kind == DISPLAY_MASK) != (command->path.fill_type > FILL_EVEN_ODD);
-        ADD(PETRI_DRAW_CLIP, outside, command->path.fill_type & 1);
-        add_path(numbers, &command->path);
+        WRITE(CLIP, .outside = outside, .even_odd = command->path.fill_type & 1, .path.path = &command->path);
         break;
     }
     case DISPLAY_SAVE:
-        ADD(PETRI_DRAW_SAVE);
+        WRITE(SAVE, );
         break;
     case DISPLAY_RESTORE: // the host also restores its matrix and paint
         numbers->matrix = numbers->paint = DISPLAY_NONE;
-        ADD(PETRI_DRAW_RESTORE);
+        WRITE(RESTORE, );
         break;
     case DISPLAY_LAYER:
         numbers->matrix = numbers->paint = DISPLAY_NONE;
-        ADD(PETRI_DRAW_LAYER);
+        WRITE(LAYER, );
         break;
     case DISPLAY_LAYER_END:
         numbers->matrix = numbers->paint = DISPLAY_NONE;
-        ADD(PETRI_DRAW_LAYER_END, command->alpha);
+        WRITE(LAYER_END, .alpha = command->alpha);
         break;
     }
 }
 
-static void add_system(DisplayListExport *numbers, const AutoSystem *system) {
-    ADD(system->dimensions, system->charged, system->frame.middle[0], system->frame.middle[1], system->frame.middle[2],
-        system->frame.half, system->body_count);
-    for (uint32_t i = 0; i < system->body_count; i++) {
-        const AutoBody *body = &system->bodies[i];
-        ADD(body->position[0], body->position[1], body->position[2], body->radius, body->shade, body->anchor);
+// Sets the paint of the next shape of the automatic picture. If `width` is above 0, also sets the width of strokes.
+static void add_shape_paint(DisplayListExport *numbers, AutoColour c, double alpha, double width) {
+    const double colour[] = {c.r, c.g, c.b, alpha};
+    if (memcmp(colour, numbers->colour, sizeof colour) != 0)
+        WRITE(COLOR, .colour = colour);
+    memcpy(numbers->colour, colour, sizeof colour);
+    if (width > 0 && width != numbers->line_width) {
+        WRITE(STROKE_STYLE, .width = width, .mode = COMPOSITE_OVER, .antialias = true);
+        numbers->line_width = width;
     }
-    ADD(system->link_count);
-    for (uint32_t i = 0; i < system->link_count; i++)
-        ADD(system->links[i].from, system->links[i].to);
-    ADD(system->barrier_count);
-    for (uint32_t i = 0; i < system->barrier_count; i++) {
-        add(numbers, system->barriers[i].position, 3);
-        add(numbers, system->barriers[i].normal, 3);
+}
+
+static void add_ball_paint(DisplayListExport *numbers, const AutoShape *ball) {
+    static const double inner[] = AUTO_BALL_INNER, outer[] = AUTO_BALL_OUTER;
+    AutoColour a = ball->light, b = ball->colour, c = ball->dark;
+    double radius = ball->size * outer[2];
+    DisplayMatrix matrix = {
+        radius, 0, 0, radius, ball->points[0] + ball->size * outer[0], ball->points[1] + ball->size * outer[1]};
+    DisplayStop stops[] = {{0, {a.r, a.g, a.b, 1}}, {AUTO_BALL_MIDDLE, {b.r, b.g, b.b, 1}}, {1, {c.r, c.g, c.b, 1}}};
+    const double start[] = {(inner[0] - outer[0]) / outer[2], (inner[1] - outer[1]) / outer[2], inner[2] / outer[2]};
+    numbers->colour[0] = NAN;
+    WRITE(RADIAL, .matrix = &matrix, .inner = start, .alpha = 1, .stops = {stops, 3});
+}
+
+static void add_lines(DisplayListExport *numbers, const double *points, uint32_t count) {
+    double *elements = arena_alloc_array(numbers->arena, count, 3 * sizeof *elements);
+    for (uint32_t i = 0; i < count; i++) {
+        elements[3 * i] = i % 2 ? PETRI_PATH_LINE : PETRI_PATH_MOVE;
+        elements[3 * i + 1] = points[2 * i];
+        elements[3 * i + 2] = points[2 * i + 1];
     }
-    ADD(system->scale_count);
-    for (uint32_t i = 0; i < system->scale_count; i++)
-        ADD(system->scale[i].x1, system->scale[i].y1, system->scale[i].x2, system->scale[i].y2);
+    WRITE(PATH, .stroke = true, .path.elements = {elements, 3 * count});
+}
+
+// A path of four corners.
+#define QUADRILATERAL(x1, y1, x2, y2, x3, y3, x4, y4)                                                                  \
+    {                                                                                                                  \
+        (const double[]){PETRI_PATH_MOVE, x1, y1, PETRI_PATH_LINE, x2, y2, PETRI_PATH_LINE, x3, y3,                    \
+                         PETRI_PATH_LINE, x4, y4, PETRI_PATH_CLOSE},                                                   \
+            13                                                                                                         \
+    }
+
+// Adds a shape of the automatic picture.
+static void add_shape(void *context, const AutoShape *shape) {
+    static const DisplayMatrix identity = {1, 0, 0, 1, 0, 0};
+    DisplayListExport *numbers = context;
+    const double *p = shape->points;
+    bool ring = shape->kind == AUTO_RING;
+    switch (shape->kind) {
+    case AUTO_PANEL_START:
+        WRITE(SAVE, );
+        WRITE(MATRIX, .matrix = &identity);
+        WRITE(CLIP, .path.elements =
+                        QUADRILATERAL(p[0], p[1], p[0] + p[2], p[1], p[0] + p[2], p[1] + p[3], p[0], p[1] + p[3]));
+        numbers->colour[0] = NAN;
+        numbers->line_width = 0;
+        break;
+    case AUTO_PANEL_END:
+        WRITE(RESTORE, );
+        break;
+    case AUTO_LINES:
+        add_shape_paint(numbers, shape->colour, shape->alpha, shape->size);
+        add_lines(numbers, p, shape->count);
+        break;
+    case AUTO_WALL:
+        add_shape_paint(numbers, shape->colour, shape->alpha, shape->line);
+        add_lines(numbers, p, 2);
+        add_shape_paint(numbers, shape->colour, AUTO_WALL_ALPHA, 0);
+        WRITE(PATH, .fill = true, .path.elements = QUADRILATERAL(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]));
+        break;
+    case AUTO_DISC:
+    case AUTO_RING:
+    case AUTO_BALL:
+        if (shape->kind == AUTO_BALL)
+            add_ball_paint(numbers, shape);
+        else
+            add_shape_paint(numbers, shape->colour, shape->alpha, shape->line);
+        WRITE(PATH, .fill = !ring, .stroke = ring,
+              .path.elements = {(const double[]){PETRI_PATH_ARC, p[0], p[1], shape->size, shape->size, 0, 1}, 7});
+        break;
+    }
+}
+
+static void add_automatic(DisplayListExport *numbers, const CanvasPicture *picture) {
+    AutoColour ground = AUTO_GROUND;
+    WRITE(BACKGROUND, .colour = (const double[]){ground.r, ground.g, ground.b, 1});
+    auto_draw(&(AutoTarget){.arena = numbers->arena,
+                            .width = picture->width,
+                            .height = picture->height,
+                            .scale = numbers->scale,
+                            .draw = add_shape,
+                            .context = numbers},
+              picture->automatic);
 }
 
 // Returns the first canvas in the tree of a node. Other nodes that produce a picture, such as effects or a second
@@ -374,11 +514,9 @@ static void add_canvas(DisplayListExport *numbers, const DrawNode *canvas) {
 static void export_picture(void *context) {
     DisplayListExport *numbers = context;
     const CanvasPicture *canvases = numbers->picture;
-    ADD(canvases->width, canvases->height);
+    ADD(canvases->width, canvases->height, false);
     if (canvases->automatic) {
-        ADD(PETRI_DRAW_PARTICLES, canvases->automatic->count);
-        for (uint32_t i = 0; i < canvases->automatic->count; i++)
-            add_system(numbers, &canvases->automatic->systems[i]);
+        add_automatic(numbers, canvases);
         return;
     }
     const DrawNode *canvas = find_canvas(numbers, canvases->window, 0);
@@ -391,14 +529,15 @@ const double *draw_canvas_display_list(PetriPainter *painter, const DrawNode *ca
     DisplayListExport made = {
         .painter = painter, .arena = &painter->arena, .matrix = DISPLAY_NONE, .paint = DISPLAY_NONE};
     DisplayListExport *numbers = &made;
-    ADD(width, height);
+    ADD(width, height, false);
     add_canvas(numbers, canvas);
     *count = made.out.count;
     return made.out.at;
 }
 
-const double *draw_picture_display_list(Arena *arena, const CanvasPicture *picture, size_t *count) {
-    DisplayListExport made = {.picture = picture, .arena = arena, .matrix = DISPLAY_NONE, .paint = DISPLAY_NONE};
+const double *draw_picture_display_list(Arena *arena, const CanvasPicture *picture, double scale, size_t *count) {
+    DisplayListExport made = {
+        .picture = picture, .arena = arena, .matrix = DISPLAY_NONE, .paint = DISPLAY_NONE, .scale = scale};
     export_picture(&made);
     *count = made.out.count;
     return made.out.at;
@@ -411,8 +550,11 @@ bool petri_picture_is_display_list(const PetriPicture *picture) {
 PetriStatus petri_picture_display_list(PetriPicture *picture, const double **numbers, size_t *count) {
     if (!picture || !numbers || !count)
         return PETRI_INVALID;
-    DisplayListExport made = {
-        .picture = &picture->picture, .arena = &picture->arena, .matrix = DISPLAY_NONE, .paint = DISPLAY_NONE};
+    DisplayListExport made = {.picture = &picture->picture,
+                              .arena = &picture->arena,
+                              .matrix = DISPLAY_NONE,
+                              .paint = DISPLAY_NONE,
+                              .scale = picture->width / picture->picture.width};
     Arena *arenas[] = {&picture->arena};
     bool done = arena_protect(arenas, 1, export_picture, &made) == ARENA_OK;
     *numbers = done ? made.out.at : NULL;

@@ -63,7 +63,7 @@ static bool read_blend(DisplayListBuild *build, const DrawNode *node, DisplayFil
     double r = ratio ? fmin(fmax(ratio->as.numbers[0], 0), 1) : 0;
     if (all || ratio)
         filter->numbers = add_numbers(build, 4, all ? all->as.numbers : (const double[]){0, 1 - r, r, 0});
-    filter->mode = draw_word(node, ATTR_MODE);
+    filter->mode = filter->numbers == DISPLAY_NONE ? draw_word(node, ATTR_MODE) : -1;
     return true;
 }
 
@@ -86,7 +86,7 @@ static bool read_shadow(DisplayListBuild *build, const DrawNode *node, DisplayFi
     const AttrValue *color = draw_attr(node, ATTR_COLOR);
     read_offset(build, node, filter);
     filter->only = draw_flag(node, ATTR_SHADOW_ONLY);
-    display_list_build_stop_color(build, color ? color->as.numbers : filter->color, filter->color);
+    display_list_build_stop_color(build, color ? color->as.numbers : filter->colour, filter->colour);
     return read_radius(build, node, filter);
 }
 
@@ -112,7 +112,7 @@ static const FilterRow filter_rows[KIND_COUNT] = {
 uint32_t display_list_build_filter(DisplayListBuild *build, const DrawNode *node) {
     const FilterRow *row = &filter_rows[node->kind];
     DisplayFilter filter = {.kind = row->kind,
-                            .color = {0, 0, 0, 1},
+                            .colour = {0, 0, 0, 1},
                             .numbers = DISPLAY_NONE,
                             .inputs = {DISPLAY_NONE, DISPLAY_NONE},
                             .place = node->origin};

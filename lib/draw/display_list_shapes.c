@@ -73,7 +73,7 @@ static void add_line_to(DisplayListBuild *build, DisplayPath *path, const DrawNo
 static void add_arc_element(DisplayListBuild *build, DisplayPath *path, double x, double y, double rx, double ry,
                             double start, double sweep, bool on) {
     bool joined = on && path->first != DISPLAY_NONE;
-    add_element(build, path, joined ? PATH_ARC_JOINED : PATH_ARC, 6, (const double[]){x, y, rx, ry, start, sweep});
+    add_element(build, path, joined ? PATH_ARC_ON : PATH_ARC, 6, (const double[]){x, y, rx, ry, start, sweep});
 }
 
 static void add_curve_to(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {

@@ -1,21 +1,10 @@
 // draw.h: internal declarations of the files that draw with Cairo.
 #pragma once
 
+#include "draw/float_image.h"
 #include "draw/painter.h"
 
 #include <pango/pangocairo.h>
-
-typedef struct FloatImageMemory FloatImageMemory; // float_image.c
-
-// An image of floats: premultiplied red, green, blue and alpha, rows from the top. Values range from 0 to 1, except
-// that colours on HDR canvases (more than 8 bits per channel) can exceed 1.
-typedef struct FloatImage {
-    int width;
-    int height;
-    float *pixels; // NULL: empty image
-    int x;         // if the image is `hdr_target`: position of its top left corner on the target
-    int y;
-} FloatImage;
 
 // Pango's objects. `family` and `font` are the font that was last set in the layout.
 struct TextContext {
@@ -47,14 +36,13 @@ typedef struct Canvas {
     double layer_pixels; // total number of pixels of the open layers
     double columns;      // width of the target in pixels; `rows` is its height
     double rows;
-    double path_work;               // sum over the edges of the current path: 1 + number of rows that the edge crosses
-    PathSize size;                  // extent of the current path
-    const DisplayList *list;        // the list being drawn; NULL: none
-    const DisplayCommand *path_of;  // the command whose path is Cairo's current path; NULL: none
-    cairo_matrix_t base;            // transform from the list's units to the target
-    bool failed;                    // true after an error was reported
-    size_t charged;                 // bytes charged to the painter's budget
-    FloatImageMemory *float_images; // all allocated float images
+    double path_work;              // sum over the edges of the current path: 1 + number of rows that the edge crosses
+    PathSize size;                 // extent of the current path
+    const DisplayList *list;       // the list being drawn; NULL: none
+    const DisplayCommand *path_of; // the command whose path is Cairo's current path; NULL: none
+    cairo_matrix_t base;           // transform from the list's units to the target
+    bool failed;                   // true after an error was reported
+    FloatImagePool pool;           // float images; also charges other memory to the painter's budget
     // On an HDR canvas: drawn on instead of the pixels of `cr`. On other canvases, the image's `pixels` is NULL.
     FloatImage hdr_target;
     // While drawing is redirected offscreen: the previous targets, and the surface that is drawn on.
@@ -72,9 +60,6 @@ __attribute__((format(printf, 5, 6))) void draw_report_canvas_at(Canvas *canvas,
                                                                  const char *code, const char *format, ...);
 
 // offscreen.c
-// Charges memory to the picture's limit. Returns false, and charges nothing, if that would exceed the limit.
-bool draw_reserve(Canvas *canvas, size_t bytes);
-void draw_release(Canvas *canvas, size_t bytes);
 // Redirects drawing to a new surface whose top left corner is at x, y of the target. Returns NULL if out of memory.
 cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, double x, double y);
 void draw_pop_offscreen(Canvas *canvas);
@@ -142,11 +127,7 @@ bool draw_has_effect(const Canvas *canvas, const DisplayPaint *paint);
 // otherwise for filling. Returns false if out of memory.
 bool draw_apply_effect(Canvas *canvas, const DisplayPaint *paint, const cairo_path_t *path, bool lines);
 
-// noise.c
-// Returns a pattern of noise that covers the clip.
-cairo_pattern_t *draw_noise(Canvas *canvas, const DisplaySource *source, double alpha);
-
-// filters.c
+// cairo_filters.c
 // Draws a command through the paint's filter.
 void draw_filtered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
 
@@ -169,5 +150,5 @@ void draw_images_close(PetriPainter *painter);
 // *problem to the reason, or to NULL if out of memory.
 cairo_surface_t *draw_read_jpeg(Str bytes, size_t memory, const char **problem);
 
-// automatic.c
+// cairo_automatic.c
 void draw_automatic(Canvas *canvas, const AutoPicture *picture);

@@ -24,68 +24,76 @@ static size_t count_of(const FloatImage *image) {
     return image->pixels ? (size_t)image->width * (size_t)image->height : 0;
 }
 
-FloatImage float_image_new(Canvas *canvas, int width, int height) {
+bool float_image_reserve(FloatImagePool *pool, size_t bytes) {
+    if (!budget_reserve(pool->budget, bytes))
+        return false;
+    pool->charged += bytes;
+    return true;
+}
+
+void float_image_release(FloatImagePool *pool, size_t bytes) {
+    budget_release(pool->budget, bytes);
+    pool->charged -= bytes;
+}
+
+FloatImage float_image_new(FloatImagePool *pool, int width, int height) {
     size_t bytes = sizeof(FloatImageMemory) + (size_t)width * (size_t)height * 4 * sizeof(float);
-    FloatImageMemory *memory = draw_reserve(canvas, bytes) ? heap_calloc(1, bytes) : NULL;
+    FloatImageMemory *memory = float_image_reserve(pool, bytes) ? heap_calloc(1, bytes) : NULL;
     if (!memory)
         return (FloatImage){.width = width, .height = height};
     memory->bytes = bytes;
-    memory->next = canvas->float_images;
-    memory->link = &canvas->float_images;
+    memory->next = pool->images;
+    memory->link = &pool->images;
     if (memory->next)
         memory->next->link = &memory->next;
-    canvas->float_images = memory;
+    pool->images = memory;
     return (FloatImage){.width = width, .height = height, .pixels = memory->pixels};
 }
 
-void float_image_free(Canvas *canvas, FloatImage *image) {
+void float_image_free(FloatImagePool *pool, FloatImage *image) {
     if (!image->pixels)
         return;
     FloatImageMemory *memory = memory_of(image);
     *memory->link = memory->next;
     if (memory->next)
         memory->next->link = memory->link;
-    draw_release(canvas, memory->bytes);
+    float_image_release(pool, memory->bytes);
     heap_free(memory);
     image->pixels = NULL;
 }
 
-void float_image_free_all(Canvas *canvas) {
-    while (canvas->float_images)
-        float_image_free(canvas, &(FloatImage){.pixels = canvas->float_images->pixels});
+void float_image_free_all(FloatImagePool *pool) {
+    while (pool->images)
+        float_image_free(pool, &(FloatImage){.pixels = pool->images->pixels});
+    float_image_release(pool, pool->charged);
 }
 
-FloatImage float_image_copy(Canvas *canvas, const FloatImage *image) {
+FloatImage float_image_copy(FloatImagePool *pool, const FloatImage *image) {
     FloatImage out = *image;
     if (image->pixels)
-        out = float_image_new(canvas, image->width, image->height);
+        out = float_image_new(pool, image->width, image->height);
     if (out.pixels)
         memcpy(out.pixels, image->pixels, count_of(image) * 4 * sizeof(float));
     return out;
 }
 
-FloatImage float_image_read(Canvas *canvas, cairo_surface_t *surface) {
-    cairo_surface_flush(surface);
-    const uint32_t *from = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface);
+FloatImage float_image_read(FloatImagePool *pool, const uint32_t *pixels, int width, int height) {
     FloatImage image = {0};
-    if (from)
-        image =
-            float_image_new(canvas, cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface));
+    if (pixels)
+        image = float_image_new(pool, width, height);
     for (size_t i = 0; i < count_of(&image); i++)
         for (unsigned k = 0; k < 4; k++)
-            image.pixels[4 * i + k] = (float)(from[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
+            image.pixels[4 * i + k] = (float)(pixels[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
     return image;
 }
 
-void float_image_write(const FloatImage *image, cairo_surface_t *surface) {
-    uint32_t *to = (uint32_t *)(void *)cairo_image_surface_get_data(surface);
-    for (size_t i = 0; to && i < count_of(image); i++) {
+void float_image_write(const FloatImage *image, uint32_t *pixels) {
+    for (size_t i = 0; pixels && i < count_of(image); i++) {
         uint32_t pixel = 0;
         for (unsigned k = 0; k < 4; k++)
             pixel |= (uint32_t)lrintf(255 * fminf(fmaxf(image->pixels[4 * i + k], 0), 1)) << (k < 3 ? 16 - 8 * k : 24);
-        to[i] = pixel;
+        pixels[i] = pixel;
     }
-    cairo_surface_mark_dirty(surface);
 }
 
 // Limits of a LineFilter, a one-dimensional filter that is applied to each row or column of an image.
@@ -101,14 +109,14 @@ typedef struct LineFilter {
 } LineFilter;
 
 // Applies a filter to all rows (axis 0) or all columns (axis 1).
-static void change_lines(Canvas *canvas, FloatImage *image, int axis, const LineFilter *filter) {
+static void change_lines(FloatImagePool *pool, FloatImage *image, int axis, const LineFilter *filter) {
     int count = axis ? image->height : image->width, lines = axis ? image->width : image->height;
     size_t step = axis ? 4 * (size_t)image->width : 4, between = axis ? 4 : 4 * (size_t)image->width;
     if (!image->pixels)
         return;
-    FloatImage scratch = float_image_new(canvas, count + 2 * filter->reach + 8, 2);
+    FloatImage scratch = float_image_new(pool, count + 2 * filter->reach + 8, 2);
     if (!scratch.pixels) {
-        float_image_free(canvas, image);
+        float_image_free(pool, image);
         return;
     }
     float *line = scratch.pixels, *other = line + 4 * (size_t)scratch.width;
@@ -120,7 +128,7 @@ static void change_lines(Canvas *canvas, FloatImage *image, int axis, const Line
         for (int k = 0; k < count; k++)
             memcpy(at + (size_t)k * step, line + 4 * (size_t)k, 4 * sizeof(float));
     }
-    float_image_free(canvas, &scratch);
+    float_image_free(pool, &scratch);
 }
 
 // Computes the weighted sum of the pixels within reach of pixel `at`. Pixels beyond the ends are transparent.
@@ -193,29 +201,29 @@ static void set_weights(LineFilter *filter, double sigma) {
         filter->weights[i] = (float)(maths_exp(-0.5 * i * i / (sigma * sigma)) / sum);
 }
 
-void float_image_blur(Canvas *canvas, FloatImage *image, const double sigma[2]) {
+void float_image_blur(FloatImagePool *pool, FloatImage *image, const double sigma[2]) {
     for (int axis = 0; axis < 2; axis++) {
         LineFilter filter;
         if (!(sigma[axis] > 0.05))
             continue;
         set_weights(&filter, fmin(sigma[axis], FLOAT_IMAGE_MAX_SIGMA));
-        change_lines(canvas, image, axis, &filter);
+        change_lines(pool, image, axis, &filter);
     }
 }
 
-void float_image_morphology(Canvas *canvas, FloatImage *image, const double radius[2], bool erode) {
+void float_image_morphology(FloatImagePool *pool, FloatImage *image, const double radius[2], bool erode) {
     for (int axis = 0; axis < 2; axis++) {
         double max = axis ? image->height : image->width;
         LineFilter filter = {.apply = find_extremes, .erode = erode, .reach = (int)fmin(rint(radius[axis]), max)};
         if (filter.reach > 0)
-            change_lines(canvas, image, axis, &filter);
+            change_lines(pool, image, axis, &filter);
     }
 }
 
-void float_image_move(Canvas *canvas, FloatImage *image, double dx, double dy) {
+void float_image_move(FloatImagePool *pool, FloatImage *image, double dx, double dy) {
     if (!image->pixels)
         return;
-    FloatImage out = float_image_new(canvas, image->width, image->height);
+    FloatImage out = float_image_new(pool, image->width, image->height);
     int x0 = (int)fmin(fmax(rint(dx), -image->width), image->width);
     int y0 = (int)fmin(fmax(rint(dy), -image->height), image->height);
     int first = x0 > 0 ? x0 : 0, last = x0 > 0 ? image->width : image->width + x0;
@@ -224,7 +232,7 @@ void float_image_move(Canvas *canvas, FloatImage *image, double dx, double dy) {
             memcpy(out.pixels + 4 * ((size_t)y * (size_t)out.width + (size_t)first),
                    image->pixels + 4 * ((size_t)(y - y0) * (size_t)out.width + (size_t)(first - x0)),
                    (size_t)(last - first) * 4 * sizeof(float));
-    float_image_free(canvas, image);
+    float_image_free(pool, image);
     *image = out;
 }
 

@@ -156,7 +156,7 @@ void hdr_composite(Canvas *canvas, const FloatImage *image, double x, double y, 
 }
 
 FloatImage hdr_begin_layer(Canvas *canvas) {
-    FloatImage below = canvas->hdr_target, layer = float_image_new(canvas, below.width, below.height);
+    FloatImage below = canvas->hdr_target, layer = float_image_new(&canvas->pool, below.width, below.height);
     layer.x = below.x;
     layer.y = below.y;
     if (layer.pixels)
@@ -171,6 +171,6 @@ void hdr_end_layer(Canvas *canvas, FloatImage below, double alpha) {
         for (size_t k = 4 * i; k < 4 * i + 4; k++)
             below.pixels[k] = layer->pixels[k] * (float)alpha + below.pixels[k] * rest;
     }
-    float_image_free(canvas, &canvas->hdr_target);
+    float_image_free(&canvas->pool, &canvas->hdr_target);
     canvas->hdr_target = below;
 }

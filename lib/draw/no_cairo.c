@@ -65,9 +65,10 @@ static void call_backend(void *context) {
     Arena *arena = &hosted->painter->arena;
     const PetriCanvasBackend *backend = &hosted->painter->backend;
     size_t count;
-    const double *numbers = hosted->canvas ? draw_canvas_display_list(hosted->painter, hosted->canvas, hosted->width,
-                                                                      hosted->height, &count)
-                                           : draw_picture_display_list(arena, hosted->picture, &count);
+    const double *numbers =
+        hosted->canvas
+            ? draw_canvas_display_list(hosted->painter, hosted->canvas, hosted->width, hosted->height, &count)
+            : draw_picture_display_list(arena, hosted->picture, hosted->width / hosted->picture->width, &count);
     hosted->done = backend->draw(backend->user_data, numbers, count, hosted->width, hosted->height, hosted->pixels);
     if (!hosted->done)
         draw_report(hosted->faults, NULL, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn");

@@ -1,5 +1,5 @@
-// noise.c: noise as a paint source (spec canvas.md 5.5): the noise of SVG's feTurbulence, and Perlin's improved noise.
-#include "draw/draw.h"
+// noise.c: see noise.h.
+#include "draw/noise.h"
 
 #include <math.h>
 
@@ -152,46 +152,16 @@ static uint32_t pixel_of(const double c[CHANNELS], double alpha) {
     return pixel;
 }
 
-static void fill_surface(const Noise *noise, const cairo_matrix_t *to_units, int left, int top, double alpha,
-                         cairo_surface_t *surface) {
-    int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
-    unsigned char *pixels = cairo_image_surface_get_data(surface);
-    for (int row = 0; pixels && row < height; row++)
-        for (int column = 0; column < width; column++) {
-            double x = left + column + 0.5, y = top + row + 0.5, c[CHANNELS];
-            cairo_matrix_transform_point(to_units, &x, &y);
-            noise_at(noise, x, y, c);
-            ((uint32_t *)(void *)(pixels + (ptrdiff_t)row * cairo_image_surface_get_stride(surface)))[column] =
-                pixel_of(c, alpha);
-        }
-    cairo_surface_mark_dirty(surface);
-}
-
-cairo_pattern_t *draw_noise(Canvas *canvas, const DisplaySource *source, double alpha) {
-    cairo_t *cr = canvas->cr;
-    cairo_matrix_t units, to_units, to_pixels;
-    double x1, y1, x2, y2;
-    cairo_get_matrix(cr, &units);
-    cairo_save(cr);
-    cairo_identity_matrix(cr);
-    cairo_clip_extents(cr, &x1, &y1, &x2, &y2);
-    cairo_restore(cr);
-    double left = floor(x1), top = floor(y1), width = fmax(ceil(x2) - left, 1), height = fmax(ceil(y2) - top, 1);
-    double work = width * height * (10 + 100.0 * source->stop_count);
-    if (!draw_charge(canvas, NULL, work, "noise is left out"))
-        return cairo_pattern_create_rgba(0, 0, 0, 0);
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)width, (int)height);
+void draw_noise(const DisplaySource *source, const DisplayMatrix *to_units, int left, int top, double alpha,
+                uint32_t *pixels, int width, int height) {
     Noise noise = {.source = source};
     make_lattice(&noise);
     fit_tiles(&noise);
-    to_units = units;
-    cairo_matrix_invert(&to_units);
-    fill_surface(&noise, &to_units, (int)left, (int)top, alpha, surface);
-    cairo_pattern_t *pattern = cairo_pattern_create_for_surface(surface);
-    cairo_surface_destroy(surface);
-    cairo_matrix_init_translate(&to_pixels, -left, -top);
-    cairo_matrix_multiply(&to_pixels, &units, &to_pixels);
-    cairo_pattern_set_matrix(pattern, &to_pixels);
-    cairo_pattern_set_filter(pattern, CAIRO_FILTER_NEAREST);
-    return pattern;
+    for (int row = 0; row < height; row++)
+        for (int column = 0; column < width; column++) {
+            double x = left + column + 0.5, y = top + row + 0.5, c[CHANNELS];
+            noise_at(&noise, to_units->xx * x + to_units->xy * y + to_units->x0,
+                     to_units->yx * x + to_units->yy * y + to_units->y0, c);
+            *pixels++ = pixel_of(c, alpha);
+        }
 }

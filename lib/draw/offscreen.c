@@ -1,18 +1,6 @@
 // offscreen.c: temporary resources of a drawing: memory, and surfaces to draw on. If a drawing is aborted, draw_close
 // frees them.
-#include "draw/float_image.h"
-
-bool draw_reserve(Canvas *canvas, size_t bytes) {
-    if (!budget_reserve(&canvas->painter->budget, bytes))
-        return false;
-    canvas->charged += bytes;
-    return true;
-}
-
-void draw_release(Canvas *canvas, size_t bytes) {
-    budget_release(&canvas->painter->budget, bytes);
-    canvas->charged -= bytes;
-}
+#include "draw/draw.h"
 
 const char draw_omitted[] = "parts of the picture are left out";
 
@@ -29,7 +17,7 @@ static size_t bytes_of(cairo_surface_t *surface) {
 }
 
 cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, double x, double y) {
-    if (!draw_reserve(canvas, (size_t)width * (size_t)height * sizeof(uint32_t)))
+    if (!float_image_reserve(&canvas->pool, (size_t)width * (size_t)height * sizeof(uint32_t)))
         return NULL;
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
     cairo_surface_set_device_offset(surface, -x, -y);
@@ -37,7 +25,7 @@ cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, doub
     if (cairo_status(cr) != CAIRO_STATUS_SUCCESS) {
         cairo_destroy(cr);
         cairo_surface_destroy(surface);
-        draw_release(canvas, (size_t)width * (size_t)height * sizeof(uint32_t));
+        float_image_release(&canvas->pool, (size_t)width * (size_t)height * sizeof(uint32_t));
         return NULL;
     }
     cairo_set_tolerance(cr, cairo_get_tolerance(canvas->cr));
@@ -53,7 +41,7 @@ cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, doub
 void draw_pop_offscreen(Canvas *canvas) {
     if (!canvas->offscreen)
         return;
-    draw_release(canvas, bytes_of(canvas->offscreen));
+    float_image_release(&canvas->pool, bytes_of(canvas->offscreen));
     cairo_destroy(canvas->cr);
     cairo_surface_destroy(canvas->offscreen);
     canvas->offscreen = NULL;
@@ -76,6 +64,5 @@ void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what,
 
 void draw_close(Canvas *canvas) {
     draw_pop_offscreen(canvas);
-    float_image_free_all(canvas);
-    draw_release(canvas, canvas->charged);
+    float_image_free_all(&canvas->pool);
 }

@@ -335,7 +335,7 @@ static void add_path_element(Outline *out, PathElement kind, const double *n, Ou
         add_curves(out, (double[1][6]){{n[0], n[1], n[2], n[3], n[4], n[5]}}, 1);
         break;
     case PATH_ARC:
-    case PATH_ARC_JOINED:
+    case PATH_ARC_ON:
         count = arcs_of_ellipse(n, 2 / out->fine, start, curves);
         add_element(out, kind == PATH_ARC || begins ? PATH_MOVE : PATH_LINE,
                     *here = (OutlinePoint){start[0], start[1]});
@@ -360,7 +360,6 @@ static void add_path_element(Outline *out, PathElement kind, const double *n, Ou
 }
 
 void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *path) {
-    static const uint8_t counts[] = {2, 2, 4, 6, 6, 6, 7, 0};
     OutlinePoint here = {0, 0}, first = {0, 0};
     for (uint32_t run = path->first; run != DISPLAY_NONE;) {
         bool last = run == path->last;
@@ -368,7 +367,7 @@ void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *
         for (uint32_t i = list->runs.at[run].start; i < end;) {
             PathElement kind = (PathElement)list->numbers.at[i];
             add_path_element(out, kind, list->numbers.at + i + 1, &here, &first);
-            i += 1u + counts[kind];
+            i += 1u + display_path_sizes[kind];
         }
         run = last ? DISPLAY_NONE : list->runs.at[run].next;
     }

@@ -61,10 +61,10 @@ Texture *draw_sized_image(PetriPainter *painter, const DrawNode *node, const uin
 
 // display_list_export.c
 // Return an array of numbers in the format of petri_picture_display_list, for a canvas or for a picture that needs no
-// shaders.
+// shaders. `scale` is the number of pixels per unit of the picture.
 const double *draw_canvas_display_list(PetriPainter *painter, const DrawNode *canvas, double width, double height,
                                        size_t *count);
-const double *draw_picture_display_list(Arena *arena, const CanvasPicture *picture, size_t *count);
+const double *draw_picture_display_list(Arena *arena, const CanvasPicture *picture, double scale, size_t *count);
 
 // cairo_canvas.c, or no_cairo.c
 void draw_tools_close(PetriPainter *painter);

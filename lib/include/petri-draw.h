@@ -193,90 +193,92 @@ PETRI_API PetriStatus petri_painter_present(PetriPainter *painter, PetriPicture 
 PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
 
 // A display list (petri_picture_display_list) describes a picture as an array of numbers, for hosts that draw it
-// themselves. It starts with the width and height of the picture, in the units of all other lengths. Commands follow.
-// Each command is a kind from the list below, then its operands. In the list, the operands follow the colon, in order.
+// themselves. It starts with the width and height of the picture, in the units of all other lengths, and a number that
+// is 1 if the list has PETRI_DRAW_NOISE or PETRI_DRAW_FILTER, otherwise 0. Commands follow. Each command is a kind from
+// the list below, then its operands. In the lists, the operands follow the colon, in order. Brackets contain the parts
+// or the number of parts of an operand, or remarks. Other operands are one number, or as follows.
 //
-// A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. A string is its length,
-// then that many code points. A path is its length, then that many numbers: path elements (`PETRI_PATH_*`) with their
-// operands. A matrix is n0 to n5: x' = n0 x + n2 y + n4, y' = n1 x + n3 y + n5. Pixels are a width, a height and a
-// number for each pixel, as in petri_picture_draw. Gradient stops are their count, then an offset and a colour for each
-// stop.
+// A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. Dashes, commands, a
+// string, a path or a filter are their length, then that many numbers. Those of a string are code points; those of a
+// path are path elements (`PETRI_PATH_*`) with their operands. A matrix is n0 to n5: x' = n0 x + n2 y + n4, y' = n1 x +
+// n3 y + n5. Pixels are a width, a height and a number for each pixel, as in petri_picture_draw. Stops of a gradient
+// are their count, then an offset and a colour for each stop.
 //
 // A paint is a command that sets the paint for the following commands: PETRI_DRAW_COLOR, PETRI_DRAW_LINEAR,
 // PETRI_DRAW_RADIAL, PETRI_DRAW_PATTERN, PETRI_DRAW_BLEND or PETRI_DRAW_NOISE. The composite modes, from 0, are
 // modulate, clear, src, dst, over, dst_over, in, dst_in, out, dst_out, atop, dst_atop, xor, add, multiply, screen,
 // overlay, darken, lighten, color_dodge, color_burn, hard_light, soft_light, difference, exclusion, hue, saturation,
 // color and luminosity.
+//
+// lib/draw/display_list_rows.awk reads these lists. It generates the code that writes and reads display lists.
 enum {
     PETRI_DRAW_MATRIX, // sets the matrix that maps coordinates of the following commands to the picture: matrix
     PETRI_DRAW_COLOR,  // paint: colour
-    PETRI_DRAW_LINEAR, // paint, a linear gradient: start x, y, end x, y, alpha, stops
-    PETRI_DRAW_RADIAL, // paint, a radial gradient: matrix that maps the unit circle to its edge, alpha, stops
+    PETRI_DRAW_LINEAR, // paint, a linear gradient: start (x, y), end (x, y), alpha, stops
+    // Paint, a radial gradient with a matrix that maps the unit circle to its edge, and a circle, before this mapping,
+    // where it starts: matrix, inner (x, y, radius), alpha, stops
+    PETRI_DRAW_RADIAL,
     // Sets the stroke style and ends the current filter: width (0: one pixel), join (0: miter, 1: round, 2: bevel), cap
-    // (0: butt, 1: round, 2: square), composite mode, antialiasing (0 or 1), number of dashes, dash offset, dashes.
+    // (0: butt, 1: round, 2: square), mode (of compositing), antialias (0 or 1), dash offset, dashes
     PETRI_DRAW_STROKE_STYLE,
-    // Draws a path: fill (0 or 1), stroke (0 or 1), fill rule (0: nonzero, 1: even-odd, 2 and 3: inverse of 0 and 1),
-    // path.
+    // Draws a path: fill (0 or 1), stroke (0 or 1), rule (0: nonzero, 1: even-odd, 2 and 3: inverse of 0 and 1), path
     PETRI_DRAW_PATH,
-    // Draws a string: fill (0 or 1), stroke (0 or 1), x, y, size, weight (1 to 1000), width (0: ultra-condensed to 8:
-    // ultra-expanded), slant (0: upright, 1: oblique, 2: italic), centred (0 or 1), string with the font family, string
-    // to draw.
+    // Draws a string: fill (0 or 1), stroke (0 or 1), point (x, y), size, weight (1 to 1000), width (0: ultra-condensed
+    // to 8: ultra-expanded), slant (0: upright, 1: oblique, 2: italic), centred (0 or 1), family string, string
     PETRI_DRAW_TEXT,
-    // Draws an image: x, y, width, height, fit (0: original size, 1: stretched, 2: inside, 3: filling), string with the
-    // file name.
+    // Draws an image: point (x, y), size (width, height), fit (0: original size, 1: stretched, 2: inside, 3: filling),
+    // file string
     PETRI_DRAW_IMAGE,
-    PETRI_DRAW_CLIP,        // clips to the inside (0) or outside (1) of a path: side, even-odd rule (0 or 1), path
+    PETRI_DRAW_CLIP,        // clips to the inside or outside of a path: outside (0 or 1), even-odd (0 or 1), path
     PETRI_DRAW_SAVE,        // saves the clip
-    PETRI_DRAW_RESTORE,     // restores the clip; the list sets matrix and paint again before it uses them
+    PETRI_DRAW_RESTORE,     // restores the clip; the list sets matrix, paint and stroke style again before it uses them
     PETRI_DRAW_LAYER,       // redirects drawing to a transparent layer, until PETRI_DRAW_LAYER_END
     PETRI_DRAW_LAYER_END,   // ends the layer and composites it: alpha
-    PETRI_DRAW_UNSUPPORTED, // replaces an element that a display list cannot describe: string with its name
-    // The automatic picture: number of systems. For each: dimensions, has charges (0 or 1), centre x, y, z and half the
-    // width of the visible box. Number of particles; for each x, y, z, radius, shade (charge from -1 to 1, or speed
-    // from 0 to 1), anchor (0 or 1). Number of links; for each the indices of two particles. Number of barriers; for
-    // each a point x, y, z and the normal x, y, z. Number of lines of the scale bar; for each the end points x, y, x,
-    // y. The points are measured right and up from the lower left corner of the system's panel, whose shorter side is
-    // 540.
-    PETRI_DRAW_PARTICLES,
-    // The image of another node, only for a PetriCanvasBackend: x, y, width, height, fit (as PETRI_DRAW_IMAGE), pixels.
+    PETRI_DRAW_UNSUPPORTED, // replaces an element that a display list cannot describe, by its name: string
+    PETRI_DRAW_BACKGROUND,  // fills the whole picture, whatever the matrix: colour
+    // The image of another node, only for a PetriCanvasBackend: point (x, y), size (width, height), fit (as
+    // PETRI_DRAW_IMAGE), pixels
     PETRI_DRAW_PIXELS,
-    // Paint, a repeated image: matrix from its pixels to current coordinates, alpha, pixels. For an image file, the
-    // pixels are replaced by 0, 0 and a string with the file name.
+    // Paint, a repeated image, with a matrix from its pixels to current coordinates. If the file name is not empty, the
+    // pixels have the size 0. Operands: matrix, alpha, pixels, file string
     PETRI_DRAW_PATTERN,
-    // Sets the filter for the drawings up to the next PETRI_DRAW_STROKE_STYLE: filter (`PETRI_FILTER_*`).
-    PETRI_DRAW_FILTER,
-    // Paint, a blend of two paints: ratio of the second paint (0 to 1), or -1 to composite it over the first with the
-    // composite mode; composite mode, alpha, two paints.
+    PETRI_DRAW_FILTER, // sets the filter for the drawings up to the next PETRI_DRAW_STROKE_STYLE: filter
+    // Paint, a blend of two paints. The ratio is the part of the second paint, or -1 to composite it over the first
+    // with the mode. Operands: ratio, mode, alpha, first paint, second paint
     PETRI_DRAW_BLEND,
-    // Paint, noise: frequency x, y, tile width, height, seed, octaves, type (0: fractal, 1: turbulence, 2: improved),
-    // alpha.
+    // Paint, noise: frequency (x, y), tile (width, height), seed, octaves, type (0: fractal, 1: turbulence, 2:
+    // improved), alpha
     PETRI_DRAW_NOISE,
 };
 
 // Path elements of a display list and their operands.
 enum {
-    PETRI_PATH_MOVE,      // x, y
-    PETRI_PATH_LINE,      // x, y
-    PETRI_PATH_QUADRATIC, // control point x, y, end x, y
-    PETRI_PATH_CUBIC,     // control points x, y, x, y, end x, y
-    PETRI_PATH_ARC,    // starts a new subpath: centre x, y, radii x, y, start angle, sweep angle (positive: clockwise)
-    PETRI_PATH_ARC_ON, // like PETRI_PATH_ARC, but joined to the current point by a line
-    PETRI_PATH_ARC_TO, // radii x, y, rotation, large (0 or 1), clockwise (0 or 1), end x, y
-    PETRI_PATH_CLOSE,  // no operands
+    PETRI_PATH_MOVE,      // starts a subpath: end (x, y)
+    PETRI_PATH_LINE,      // a line: end (x, y)
+    PETRI_PATH_QUADRATIC, // a quadratic curve: control (x, y), end (x, y)
+    PETRI_PATH_CUBIC,     // a cubic curve: control (x, y), second control (x, y), end (x, y)
+    PETRI_PATH_ARC,       // starts a new subpath: centre (x, y), radii (x, y), start, sweep (positive: clockwise)
+    // Like PETRI_PATH_ARC, but joined to the current point by a line: centre (x, y), radii (x, y), start, sweep
+    PETRI_PATH_ARC_ON,
+    PETRI_PATH_ARC_TO, // an arc to a point: radii (x, y), rotation, large (0 or 1), clockwise (0 or 1), end (x, y)
+    PETRI_PATH_CLOSE,  // closes the subpath
 };
 
-// Filters of a display list: a kind, then its operands. Operands that are filters provide the input. Lengths are in the
-// units of the current matrix.
+// Filters of a display list: a kind, then its operands. Operands that are filters provide the input; their length is
+// not given. Lengths are in the units of the current matrix.
 enum {
-    PETRI_FILTER_BLUR,          // radius x, y, filter
-    PETRI_FILTER_SHADOW,        // radius x, y, offset x, y, colour, shadow only (0 or 1), filter
-    PETRI_FILTER_OFFSET,        // x, y, filter
-    PETRI_FILTER_DILATE,        // radius x, y, filter
-    PETRI_FILTER_ERODE,         // radius x, y, filter
-    PETRI_FILTER_COLOUR_MATRIX, // four rows of five numbers, filter
-    PETRI_FILTER_PAINT,         // fills the whole area: commands that set a paint, then PETRI_DRAW_STROKE_STYLE
-    // Combines two filters: either a composite mode, or -1 and four coefficients. The two filters follow. With
-    // coefficients a, b, c and d, the result is a*first*second + b*second + c*first + d.
+    PETRI_FILTER_BLUR, // blurs: radius (x, y), filter
+    // Adds a shadow, or shows only the shadow: radius (x, y), offset (x, y), colour, only (0 or 1), filter
+    PETRI_FILTER_SHADOW,
+    PETRI_FILTER_OFFSET, // moves: offset (x, y), filter
+    PETRI_FILTER_DILATE, // enlarges shapes: radius (x, y), filter
+    PETRI_FILTER_ERODE,  // shrinks shapes: radius (x, y), filter
+    // Multiplies colours by four rows of five numbers: elements (20), filter
+    PETRI_FILTER_COLOUR_MATRIX,
+    // Fills the whole area. The commands set a paint and end with PETRI_DRAW_STROKE_STYLE. Operands: commands
+    PETRI_FILTER_PAINT,
+    // Combines two filters with a composite mode. If the mode is -1, the result is a*first*second + b*second + c*first
+    // + d instead. Operands: mode, factors (4), first filter, second filter
     PETRI_FILTER_BLEND,
     PETRI_FILTER_SOURCE, // the unfiltered drawing
 };
@@ -289,6 +291,32 @@ PETRI_API PetriStatus petri_picture_display_list(PetriPicture *picture, const do
 // Returns true if the display list describes the picture completely: it needs no effects, no images of other nodes and
 // no history.
 PETRI_API bool petri_picture_is_display_list(const PetriPicture *picture);
+
+// Fills pixels with the noise of a PETRI_DRAW_NOISE command, for hosts that draw display lists. `matrix` maps pixels to
+// the coordinates of the list. Pixels are rows without gaps, in the format of petri_picture_draw. Returns PETRI_INVALID
+// if an argument is NULL or the size is not valid.
+PETRI_API PetriStatus petri_noise_draw(const double operands[8], const double matrix[6], uint32_t *pixels, int width,
+                                       int height);
+
+// What a filter needs.
+typedef struct PetriFilterNeeds {
+    double margin;   // distance in pixels by which the drawing must extend beyond the pixels that are shown
+    bool everywhere; // true if the filter changes transparent pixels
+} PetriFilterNeeds;
+
+// Stores what a filter, the operand of PETRI_DRAW_FILTER, needs. `matrix` maps the coordinates of the list to pixels.
+// Returns PETRI_INVALID if an argument is NULL or the numbers are not a filter.
+PETRI_API PetriStatus petri_filter_measure(const double *filter, size_t count, const double matrix[6],
+                                           PetriFilterNeeds *needs);
+
+// Fills pixels with the paint that the commands set. Returns false on failure.
+typedef bool PetriPaintCallback(void *user_data, const double *commands, size_t count, uint32_t *pixels);
+
+// Applies a filter to a drawing. `pixels` has the drawing, and receives the result. For filters of the kind
+// PETRI_FILTER_PAINT, calls `paint` with `pixels`. Returns PETRI_INVALID, with the content of `pixels` undefined, if an
+// argument is NULL, the numbers are not a filter or `paint` returned false.
+PETRI_API PetriStatus petri_filter_draw(const double *filter, size_t count, const double matrix[6], uint32_t *pixels,
+                                        int width, int height, PetriPaintCallback *paint, void *user_data);
 
 // Functions of a host that draws canvases itself, for builds without Cairo. petri computes effects from the results.
 typedef struct PetriCanvasBackend {

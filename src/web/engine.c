@@ -278,3 +278,58 @@ EXPORT(void, web_help, const PetriSession *session) {
     for (size_t i = 0; session && (name = petri_visible_name(session, i)); i++)
         host_help("name", name, "", "", "", "");
 }
+
+// Converts pixels from the format of ImageData, which is not premultiplied and has red in the lowest byte, to that of
+// petri_picture_draw.
+EXPORT(void, web_pixels_from_image_data, uint32_t *pixels, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        uint32_t p = pixels[i], alpha = p >> 24, out = alpha << 24;
+        for (unsigned k = 0; k < 24; k += 8)
+            out |= ((p >> k & 255) * alpha + 127) / 255 << (16 - k);
+        pixels[i] = out;
+    }
+}
+
+EXPORT(void, web_pixels_to_image_data, uint32_t *pixels, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        uint32_t p = pixels[i], alpha = p >> 24, out = alpha << 24;
+        for (unsigned k = 0; k < 24 && alpha; k += 8) {
+            uint32_t channel = ((p >> k & 255) * 255 + alpha / 2) / alpha;
+            out |= (channel < 255 ? channel : 255) << (16 - k);
+        }
+        pixels[i] = out;
+    }
+}
+
+// Fills pixels, in the format of ImageData, with the noise of PETRI_DRAW_NOISE.
+EXPORT(PetriStatus, web_noise, const double *operands, const double *matrix, uint32_t *pixels, int width, int height) {
+    PetriStatus status = petri_noise_draw(operands, matrix, pixels, width, height);
+    web_pixels_to_image_data(pixels, (size_t)width * (size_t)height);
+    return status;
+}
+
+// Stores the members of PetriFilterNeeds in `out`.
+EXPORT(PetriStatus, web_filter_measure, const double *filter, size_t count, const double *matrix, double *out) {
+    PetriFilterNeeds needs = {0};
+    PetriStatus status = petri_filter_measure(filter, count, matrix, &needs);
+    out[0] = needs.margin;
+    out[1] = needs.everywhere;
+    return status;
+}
+
+static bool fill_paint(void *user_data, const double *commands, size_t count, uint32_t *pixels) {
+    size_t *pixel_count = user_data;
+    host_paint(commands, count, pixels);
+    web_pixels_from_image_data(pixels, *pixel_count);
+    return true;
+}
+
+// Applies a filter to pixels in the format of ImageData.
+EXPORT(PetriStatus, web_filter, const double *filter, size_t count, const double *matrix, uint32_t *pixels, int width,
+       int height) {
+    size_t pixel_count = (size_t)width * (size_t)height;
+    web_pixels_from_image_data(pixels, pixel_count);
+    PetriStatus status = petri_filter_draw(filter, count, matrix, pixels, width, height, fill_paint, &pixel_count);
+    web_pixels_to_image_data(pixels, pixel_count);
+    return status;
+}

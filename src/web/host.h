@@ -43,6 +43,8 @@ HOST(shown) void host_shown(const char *title, bool ready);
 // Implement PetriCanvasBackend: host_draw draws a canvas into cleared pixels, host_image returns an image.
 HOST(draw) bool host_draw(const double *numbers, size_t count, int width, int height, uint32_t *pixels);
 HOST(image) const uint32_t *host_image(const char *file, int *width, int *height);
+// Fills pixels, in the format of ImageData, with the paint of a filter (PetriPaintCallback).
+HOST(paint) void host_paint(const double *commands, size_t count, uint32_t *pixels);
 HOST(token) void host_token(int kind, size_t start, size_t end);
 // Receives a row of the help tables.
 HOST(help)

@@ -13,7 +13,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
     # Headers that need a library are checked only if it is installed.
     isa=
     case $header in
-    lib/draw/draw.h | lib/draw/hdr_composite.h | lib/draw/hdr_paint.h | lib/draw/float_image.h)
+    lib/draw/draw.h | lib/draw/hdr_composite.h | lib/draw/hdr_paint.h)
         pkg-config --exists pangocairo 2>/dev/null || continue
         isa=$(pkg-config --cflags pangocairo)
         ;;

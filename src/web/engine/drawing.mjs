@@ -1,23 +1,25 @@
 // drawing.mjs: draws a display list of petri (petri-draw.h, petri_picture_display_list) on a Canvas 2D.
-import { drawFiltered, readFilter } from './filters.mjs';
-import { noisePixels } from './noise.mjs';
-import { drawSystems } from './automatic.mjs';
+import { COMMANDS, COMPOSITES, PATH_ELEMENTS, WORDS } from './constants.mjs';
+import { drawFiltered, noisePixels, unpackPixels } from './pixels.mjs';
 
 const TURN = 2 * Math.PI;
-const JOINS = ['miter', 'round', 'bevel'];
-const CAPS = ['butt', 'round', 'square'];
-const SLANTS = ['normal', 'oblique', 'italic'];
 const STRETCHES = ['ultra-condensed', 'extra-condensed', 'condensed', 'semi-condensed', 'normal', 'semi-expanded', 'expanded',
     'extra-expanded', 'ultra-expanded'];
-// Modes of Canvas 2D in the order of lib/schema/composite_list.h; null: nothing is drawn.
-const MODULATE = 0, COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destination-over', 'source-in',
-    'destination-in', 'source-out', 'destination-out', 'source-atop', 'destination-atop', 'xor', 'lighter', 'multiply',
-    'screen', 'overlay', 'darken', 'lighten', 'color-dodge', 'color-burn', 'hard-light', 'soft-light', 'difference',
-    'exclusion', 'hue', 'saturation', 'color', 'luminosity'];
+// Modes of Canvas 2D that are not called as in petri; null: nothing is drawn. `modulate` also multiplies alpha (`multiply` below).
+const OTHER_MODES = {
+    modulate: 'multiply', src: 'copy', dst: null, over: 'source-over', dst_over: 'destination-over', in: 'source-in',
+    dst_in: 'destination-in', out: 'source-out', dst_out: 'destination-out', atop: 'source-atop', dst_atop: 'destination-atop',
+    add: 'lighter',
+};
+const MODES = COMPOSITES.map(name => name in OTHER_MODES ? OTHER_MODES[name] : name.replace('_', '-'));
+const MODULATE = COMPOSITES.indexOf('modulate'), OVER = 'source-over';
 // In Canvas 2D, these modes also affect pixels outside the path.
 const UNBOUNDED = new Set(['clear', 'copy', 'source-in', 'destination-in', 'source-out', 'destination-atop']);
-const PATH_ELEMENT_SIZES = [2, 2, 4, 6, 6, 6, 7, 0];
 const FONTS = { Helvetica: '"Liberation Sans"', Arial: '"Liberation Sans"', Menlo: '"DejaVu Sans Mono"' };
+const [STROKE_STYLE, UNSUPPORTED] = ['strokeStyle', 'unsupported'].map(name => COMMANDS.findIndex(([other]) => other === name));
+const SLANTS = WORDS.slant.map(name => name === 'upright' ? 'normal' : name);
+const FONT_SIZE = 100; // in pixels; text is drawn at this size and scaled, because some browsers do not draw sizes below 1
+const NO_ENGINE = 'filters and noise, which need the option engine';
 
 // Multiplies a canvas by another canvas, including alpha. Canvas 2D has no such mode.
 function multiply(context, { canvas }) {
@@ -30,8 +32,8 @@ function multiply(context, { canvas }) {
 }
 
 const byte = x => Math.round(255 * Math.min(Math.max(x, 0), 1));
-const color = (n, at, alpha = 1) =>
-    `rgba(${byte(n[at])},${byte(n[at + 1])},${byte(n[at + 2])},${Math.min(Math.max(n[at + 3] * alpha, 0), 1)})`;
+const color = (c, alpha = 1) =>
+    `rgba(${byte(c[0])},${byte(c[1])},${byte(c[2])},${Math.min(Math.max(c[3] * alpha, 0), 1)})`;
 
 // Returns the size of a picture in the script's units.
 export const pictureSize = numbers => ({ width: numbers[0], height: numbers[1] });
@@ -50,100 +52,193 @@ function arcTo(path, [x0, y0], n, at) {
         turns * TURN, Math.atan2(-b - my, -a - mx), Math.atan2(b - my, a - mx), clockwise === 0);
 }
 
-// Adds the path elements from n[at] up to, but not including, n[end].
-function tracePath(path, n, at, end) {
-    let here = [0, 0], first = here;
+function addArc(trace, n, at, joined) {
+    const x = n[at], y = n[at + 1], rx = n[at + 2], ry = n[at + 3], start = n[at + 4], sweep = Math.min(Math.max(n[at + 5], -1), 1);
+    const from = start * TURN, to = (start + sweep) * TURN, { path } = trace;
+    if (!joined) {
+        trace.firstX = x + rx * Math.cos(from);
+        trace.firstY = y + ry * Math.sin(from);
+        if (!trace.empty) // browsers draw a path of only an arc faster
+            path.moveTo(trace.firstX, trace.firstY);
+    }
+    if (rx === ry && rx >= 0)
+        path.arc(x, y, rx, from, to, sweep < 0); // faster
+    else
+        path.ellipse(x, y, Math.abs(rx), Math.abs(ry), 0, from, to, sweep < 0);
+    trace.x = x + rx * Math.cos(to);
+    trace.y = y + ry * Math.sin(to);
+}
+
+// Functions that add a path element, whose operands begin at n[at].
+const ELEMENTS = {
+    move(trace, n, at) {
+        trace.path.moveTo(n[at], n[at + 1]);
+        trace.firstX = n[at];
+        trace.firstY = n[at + 1];
+    },
+    line: ({ path }, n, at) => path.lineTo(n[at], n[at + 1]),
+    quadratic: ({ path }, n, at) => path.quadraticCurveTo(n[at], n[at + 1], n[at + 2], n[at + 3]),
+    cubic: ({ path }, n, at) => path.bezierCurveTo(n[at], n[at + 1], n[at + 2], n[at + 3], n[at + 4], n[at + 5]),
+    arc: (trace, n, at) => addArc(trace, n, at, false),
+    arcOn: (trace, n, at) => addArc(trace, n, at, true),
+    arcTo: ({ path, x, y }, n, at) => arcTo(path, [x, y], n, at),
+    close(trace) {
+        trace.path.closePath();
+        trace.x = trace.firstX;
+        trace.y = trace.firstY;
+    },
+};
+const TRACERS = PATH_ELEMENTS.map(([name, size]) => ({ add: ELEMENTS[name], size, hasEnd: !['arc', 'arcOn', 'close'].includes(name) }));
+
+// Adds the path elements from n[at] up to, but not including, n[end] to a path or context.
+function tracePath(path, { n, at, end }) {
+    const trace = { path, empty: true, x: 0, y: 0, firstX: 0, firstY: 0 }; // the current point and the first point of the subpath
     while (at < end) {
-        const kind = n[at++], size = PATH_ELEMENT_SIZES[kind];
-        if (kind === 0) {
-            path.moveTo(n[at], n[at + 1]);
-            first = [n[at], n[at + 1]];
-        } else if (kind === 1) {
-            path.lineTo(n[at], n[at + 1]);
-        } else if (kind === 2) {
-            path.quadraticCurveTo(n[at], n[at + 1], n[at + 2], n[at + 3]);
-        } else if (kind === 3) {
-            path.bezierCurveTo(n[at], n[at + 1], n[at + 2], n[at + 3], n[at + 4], n[at + 5]);
-        } else if (kind === 4 || kind === 5) {
-            const [x, y, rx, ry, start] = n.subarray(at, at + 5), sweep = Math.min(Math.max(n[at + 5], -1), 1);
-            const from = start * TURN, to = (start + sweep) * TURN;
-            if (kind === 4) {
-                first = [x + rx * Math.cos(from), y + ry * Math.sin(from)];
-                path.moveTo(...first);
-            }
-            path.ellipse(x, y, Math.abs(rx), Math.abs(ry), 0, from, to, sweep < 0);
-            here = [x + rx * Math.cos(to), y + ry * Math.sin(to)];
-        } else if (kind === 6) {
-            arcTo(path, here, n, at);
-        } else {
-            path.closePath();
-            here = first;
-        }
-        if (size && kind !== 4 && kind !== 5)
-            here = [n[at + size - 2], n[at + size - 1]];
+        const { add, size, hasEnd } = TRACERS[n[at++]];
+        add(trace, n, at);
+        trace.empty = false;
         at += size;
+        if (hasEnd) {
+            trace.x = n[at - 2];
+            trace.y = n[at - 1];
+        }
     }
 }
 
-class Painter {
-    constructor(context, numbers, options) {
-        this.context = context;
-        this.n = numbers;
-        this.at = 2;
-        this.layers = [];
-        this.unsupported = new Set();
-        this.image = options.image ?? (() => null);
-        this.background = options.background === undefined ? '#000' : options.background;
-        const { width, height } = context.canvas, scale = Math.min(width / numbers[0], height / numbers[1]);
-        this.base = [scale, (width - scale * numbers[0]) / 2, (height - scale * numbers[1]) / 2];
-        this.matrix = [1, 0, 0, 1, 0, 0];
-        this.paint = '#000';
-        this.alpha = 1; // opacity of the paint, which also applies to images
-        this.solid = true;
-        this.line = { width: 1, join: 0, cap: 0, composite: 4, offset: 0, dashes: [] };
-        this.filter = null;
+function pathOf(elements) {
+    const path = new Path2D();
+    tracePath(path, elements);
+    return path;
+}
+
+// Reads the operands of commands (constants.mjs).
+class Reader {
+    constructor(painter, numbers, at) {
+        Object.assign(this, { painter, n: numbers, at });
     }
 
-    take(count) {
+    number() {
+        return this.n[this.at++];
+    }
+
+    numbers(count) {
         this.at += count;
         return this.n.subarray(this.at - count, this.at);
     }
 
-    text() {
-        return String.fromCodePoint(...this.take(this.take(1)[0]));
+    list() {
+        return this.numbers(this.number());
+    }
+
+    // An array of single numbers is faster than a part of a typed array.
+    matrix() {
+        return [this.number(), this.number(), this.number(), this.number(), this.number(), this.number()];
+    }
+
+    colour() {
+        return [this.number(), this.number(), this.number(), this.number()];
+    }
+
+    dashes() {
+        return this.list();
+    }
+
+    filter() {
+        return this.list();
+    }
+
+    string() {
+        return String.fromCodePoint(...this.list());
     }
 
     path() {
-        const length = this.take(1)[0], path = new Path2D();
-        tracePath(path, this.n, this.at, this.at + length);
+        const length = this.number(), at = this.at;
         this.at += length;
-        return path;
+        return { n: this.n, at, end: this.at };
+    }
+
+    stops() {
+        const stops = [];
+        for (let count = this.number(); count > 0; count--)
+            stops.push({ offset: this.number(), colour: this.colour() });
+        return stops;
+    }
+
+    pixels() {
+        const width = this.number(), height = this.number();
+        return { width, height, pixels: this.numbers(width * height) };
+    }
+
+    paint() {
+        return this.painter.readPaint();
+    }
+}
+
+// Draws a display list. The methods called as a command execute this command.
+class Painter {
+    constructor(context, numbers, options) {
+        const { width, height } = context.canvas, scale = Math.min(width / numbers[0], height / numbers[1]);
+        this.context = context;
+        this.size = [numbers[0], numbers[1]];
+        this.reader = new Reader(this, numbers, 3);
+        this.layers = [];
+        this.missing = new Set(); // descriptions of unsupported parts
+        this.imageOf = options.image ?? (() => null);
+        this.engine = options.engine?.broken ? null : options.engine; // computes pixels of filters and noise
+        this.behind = options.background === undefined ? '#000' : options.background;
+        this.base = [scale, (width - scale * numbers[0]) / 2, (height - scale * numbers[1]) / 2];
+        this.transform = [1, 0, 0, 1, 0, 0];
+        this.placed = this.styled = this.composed = null; // the contexts that have the current transform, line and composite mode
+        this.style = '#000'; // the paint: a style of Canvas 2D, or a function that returns it
+        this.alpha = 1; // opacity of the paint, which also applies to images
+        this.solid = true;
+        this.round = null; // the matrix of an elliptical gradient
+        this.line = { width: 1, join: 'miter', cap: 'butt', mode: OVER, modulates: false, offset: 0, dashes: [] };
+        this.filtering = null; // the filter
+    }
+
+    matrix(matrix) {
+        this.transform = matrix;
+        this.placed = null;
     }
 
     setMatrix() {
-        const [scale, x, y] = this.base, [xx, yx, xy, yy, x0, y0] = this.matrix;
+        if (this.placed === this.context)
+            return;
+        const [scale, x, y] = this.base, [xx, yx, xy, yy, x0, y0] = this.transform;
         this.context.setTransform(scale * xx, scale * yx, scale * xy, scale * yy, scale * x0 + x, scale * y0 + y);
         this.scale = scale * Math.sqrt(Math.abs(xx * yy - xy * yx));
+        this.placed = this.context;
+    }
+
+    setLine() {
+        const { context, line } = this;
+        if (this.styled === context && line.width > 0)
+            return;
+        context.lineWidth = line.width > 0 ? line.width : 1 / this.scale;
+        context.lineJoin = line.join;
+        context.lineCap = line.cap;
+        context.miterLimit = 4;
+        context.setLineDash(line.dashes);
+        context.lineDashOffset = line.offset;
+        this.styled = context;
     }
 
     // Sets up the painting of the next path. Returns false if the path would be invisible.
     begin(fill, stroke) {
-        const { context, line } = this, composite = COMPOSITES[line.composite];
+        const { context, line } = this;
         this.setMatrix();
-        if (!composite)
+        if (!line.mode)
             return false;
-        context.globalCompositeOperation = composite;
-        const style = typeof this.paint === 'function' ? this.paint() : this.paint;
+        if (this.composed !== context)
+            context.globalCompositeOperation = line.mode;
+        this.composed = context;
+        const style = typeof this.style === 'function' ? this.style() : this.style;
         if (fill)
             context.fillStyle = style;
         if (stroke) {
             context.strokeStyle = style;
-            context.lineWidth = line.width > 0 ? line.width : 1 / this.scale;
-            context.lineJoin = JOINS[line.join];
-            context.lineCap = CAPS[line.cap];
-            context.miterLimit = 4;
-            context.setLineDash(line.dashes);
-            context.lineDashOffset = line.offset;
+            this.setLine();
         }
         return true;
     }
@@ -162,8 +257,35 @@ class Painter {
         return inverse;
     }
 
-    figure() {
-        const [fill, stroke, rule] = this.take(3), path = this.path(), inside = rule & 1 ? 'evenodd' : 'nonzero';
+    strokeStyle(width, join, cap, mode, antialias, offset, dashes) {
+        this.line = {
+            width, join: WORDS.join[join], cap: WORDS.cap[cap], mode: MODES[mode], modulates: mode === MODULATE, offset,
+            dashes: Array.from(dashes),
+        };
+        this.styled = this.composed = null;
+        this.filtering = null;
+    }
+
+    path(fill, stroke, rule, elements) {
+        if (this.filtering)
+            this.filtered(() => this.paintElements(fill, stroke, rule, elements));
+        else
+            this.paintElements(fill, stroke, rule, elements);
+    }
+
+    paintElements(fill, stroke, rule, elements) {
+        const inside = rule & 1 ? 'evenodd' : 'nonzero', masked = rule > 1 || (stroke && this.round);
+        if (!this.round && !masked && !this.needsMask(fill, stroke)) { // faster than with a Path2D
+            const { context } = this;
+            if (!this.begin(fill, stroke))
+                return;
+            context.beginPath();
+            tracePath(context, elements);
+            fill && context.fill(inside);
+            stroke && context.stroke();
+            return;
+        }
+        const path = pathOf(elements);
         this.paintPath(fill, stroke, (context, isFill) => {
             if (!isFill)
                 return context.stroke(path);
@@ -172,8 +294,8 @@ class Painter {
             context.fill(this.everywhere());
             context.globalCompositeOperation = 'destination-out';
             context.fill(path, inside);
-            context.globalCompositeOperation = 'source-over';
-        }, rule > 1 || (stroke && this.round));
+            context.globalCompositeOperation = OVER;
+        }, masked);
     }
 
     fillPath(context, path, rule) {
@@ -188,14 +310,18 @@ class Painter {
         context.restore();
     }
 
-    // Paints fill and stroke as one shape. Uses a mask if the overlap of fill and stroke would be visible, if the composite mode affects
-    // pixels outside the path, or if the caller requires a mask (`masked`).
+    // Returns true if the overlap of fill and stroke would be visible, or if the composite mode affects pixels outside the path.
+    needsMask(fill, stroke) {
+        const { mode, modulates } = this.line;
+        return modulates || UNBOUNDED.has(mode) || (fill && stroke && !(this.solid && mode === OVER));
+    }
+
+    // Paints fill and stroke as one shape. Uses a mask if it is needed, or required by the caller (`masked`).
     paintPath(fill, stroke, act, masked) {
-        const composite = COMPOSITES[this.line.composite];
-        if (!composite)
+        const { mode, modulates } = this.line;
+        if (!mode)
             return;
-        const modulates = this.line.composite === MODULATE;
-        if (!masked && !modulates && !UNBOUNDED.has(composite) && !(fill && stroke && !(this.solid && composite === 'source-over'))) {
+        if (!masked && !this.needsMask(fill, stroke)) {
             if (!this.begin(fill, stroke))
                 return;
             fill && act(this.context, true);
@@ -204,13 +330,13 @@ class Painter {
         }
         const { context } = this, mask = this.beside(), all = this.beside();
         all.drawImage(context.canvas, 0, 0);
-        const { paint, line } = this;
-        Object.assign(this, { context: mask, paint: '#000', line: { ...line, composite: 4 } });
+        const { style, line } = this;
+        Object.assign(this, { context: mask, style: '#000', line: { ...line, mode: OVER } });
         this.begin(fill, stroke);
         fill && act(mask, true);
         stroke && act(mask, false);
-        Object.assign(this, { context: all, paint, line });
-        if (composite === 'clear')
+        Object.assign(this, { context: all, style, line });
+        if (mode === 'clear')
             all.reset();
         else if (modulates)
             multiply(all, this.apart(all.canvas.width, all.canvas.height, 0, 0, () => this.paintAll({})));
@@ -234,75 +360,84 @@ class Painter {
     // Calls `act` to draw on a separate canvas, whose top left corner is at x, y of the current canvas. Returns the context of the
     // separate canvas.
     apart(width, height, x, y, act) {
-        const { context, base, line, filter } = this, apart = this.beside({ width, height }, true);
-        Object.assign(this, { context: apart, base: [base[0], base[1] - x, base[2] - y], line: { ...line, composite: 4 }, filter: null });
+        const { context, base, line, filtering } = this, apart = this.beside({ width, height }, true);
+        Object.assign(this, { context: apart, base: [base[0], base[1] - x, base[2] - y], line: { ...line, mode: OVER }, filtering: null });
         act();
-        Object.assign(this, { context, base, line, filter });
+        Object.assign(this, { context, base, line, filtering });
         return apart;
     }
 
-    // Executes the commands of a paint up to and including the one for which `ends` returns true. Returns the paint and restores the
-    // current paint.
+    // Executes commands until `ends` returns true for the last one. Returns the paint that they set, and restores the current paint.
     readUpTo(ends) {
-        const keep = ({ paint, alpha, solid, round, line, filter }) => ({ paint, alpha, solid, round, line, filter });
-        const before = keep(this);
+        const paintOf = ({ style, alpha, solid, round }) => ({ style, alpha, solid, round });
+        const before = { ...paintOf(this), line: this.line, filtering: this.filtering };
         let kind;
         do
-            this.command(kind = this.n[this.at++]);
+            kind = this.command();
         while (!ends(kind));
-        const { paint, alpha, solid, round } = this;
-        Object.assign(this, before);
-        return { paint, alpha, solid, round };
+        const paint = paintOf(this);
+        Object.assign(this, before, { styled: null, composed: null });
+        return paint;
     }
 
+    // Reads one paint of a blend.
     readPaint() {
-        return this.readUpTo(kind => kind === 4);
+        const paint = this.readUpTo(() => true), { reader } = this;
+        while (reader.n[reader.at] === UNSUPPORTED)
+            this.command();
+        return paint;
     }
 
-    readSource() {
-        const source = this.readUpTo(() => true);
-        while (this.n[this.at] === 13)
-            this.command(this.n[this.at++]); // skip commands for unsupported parts
-        return source;
+    // Reads the paint of a filter.
+    readFilterPaint(commands) {
+        const { reader } = this;
+        this.reader = new Reader(this, commands, 0);
+        const paint = this.readUpTo(kind => kind === STROKE_STYLE);
+        this.reader = reader;
+        return paint;
     }
 
     paintAll(paint) {
-        const { paint: before, alpha, solid, round } = this;
+        const { style, alpha, solid, round } = this;
         Object.assign(this, paint);
         this.begin(true, false);
         this.fillPath(this.context, this.everywhere(), 'nonzero');
-        Object.assign(this, { paint: before, alpha, solid, round });
+        Object.assign(this, { style, alpha, solid, round });
     }
 
-    // Composites the canvas of `other` over the canvas of `context`, and returns `context`. `composite` is an index in COMPOSITES.
-    combine(context, other, composite) {
-        if (COMPOSITES[composite])
-            this.compositeOver(context, other, COMPOSITES[composite]);
-        return context;
+    filter(filter) {
+        this.filtering = this.canCompute() ? filter : null;
+    }
+
+    // Returns true if there is an engine to compute pixels.
+    canCompute() {
+        if (!this.engine)
+            this.missing.add(NO_ENGINE);
+        return !!this.engine;
     }
 
     filtered(act) {
-        this.filter ? drawFiltered(this, act, COMPOSITES[this.line.composite]) : act();
+        this.filtering ? drawFiltered(this, this.filtering, act, this.line.mode) : act();
     }
 
-    letters() {
-        const [fill, stroke, x, y, size, weight, width, slant, centred] = this.take(9);
-        const families = this.text().split(',').map(name => FONTS[name.trim()] ? `${FONTS[name.trim()]},${name}` : name);
-        const text = this.text().replace(/\s/g, ' ');
+    text(fill, stroke, x, y, size, weight, width, slant, centred, familyText, text) {
+        const families = familyText.split(',').map(name => FONTS[name.trim()] ? `${FONTS[name.trim()]},${name}` : name);
+        this.filtered(() => this.paintText(fill, stroke, x, y, size, `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${
+            STRETCHES[width] ?? 'normal'} ${FONT_SIZE}px ${families.join(',') || 'sans-serif'}`, centred, text.replace(/\s/g, ' ')));
+    }
+
+    paintText(fill, stroke, x, y, size, font, centred, text) {
         this.setMatrix();
         if (!(size * this.scale > 0.1))
             return;
-        const drawn = 100; // font size in pixels; the text is then scaled, because some browsers do not draw sizes below 1
-        const font = `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${STRETCHES[width] ?? 'normal'} `
-            + `${drawn}px ${families.join(',') || 'sans-serif'}`;
         this.paintPath(fill, stroke, (here, isFill) => {
             here.save();
             here.font = font;
             if (here.fontKerning !== undefined)
                 here.fontKerning = 'none';
             here.translate(x, y);
-            here.scale(size / drawn, size / drawn);
-            here.lineWidth *= drawn / size;
+            here.scale(size / FONT_SIZE, size / FONT_SIZE);
+            here.lineWidth *= FONT_SIZE / size;
             let left = 0, base = 0;
             if (centred) {
                 const ink = here.measureText(text);
@@ -311,72 +446,71 @@ class Painter {
             }
             isFill ? here.fillText(text, left, base) : here.strokeText(text, left, base);
             here.restore();
-        }, typeof this.paint === 'function');
+        }, typeof this.style === 'function');
     }
 
-    picture() {
-        const box = this.take(5), name = this.text(), image = this.image(name);
+    // Returns the image that a script names; null if it is not loaded.
+    findImage(name) {
+        const image = this.imageOf(name);
+        if (!image)
+            this.missing.add(`the image ${name} (not loaded)`);
+        return image;
+    }
+
+    image(x, y, width, height, fit, name) {
+        const image = this.findImage(name);
         if (image)
-            this.drawImage(image, ...box);
-        else
-            this.unsupported.add(`the image ${name} (not loaded)`);
+            this.filtered(() => this.drawImage(image, x, y, width, height, fit));
     }
 
-    // Reads an image whose pixels are in the display list.
-    pixels() {
-        const [width, height] = this.take(2), context = this.beside({ width, height }), pixels = this.take(width * height);
-        const data = new Uint8ClampedArray(4 * width * height);
-        pixels.forEach((pixel, i) => {
-            const alpha = pixel >>> 24, part = shift => alpha && (pixel >>> shift & 255) * 255 / alpha;
-            data.set([part(16), part(8), part(0), alpha], 4 * i);
-        });
-        context.putImageData(new ImageData(data, width, height), 0, 0);
+    pixels(x, y, width, height, fit, image) {
+        const canvas = this.canvasOf(image);
+        this.filtered(() => this.drawImage(canvas, x, y, width, height, fit));
+    }
+
+    // Returns a canvas with an image whose pixels are in the display list. Only lists for the engine have such images.
+    canvasOf({ width, height, pixels }) {
+        const context = this.beside({ width, height });
+        context.putImageData(unpackPixels(this.engine, pixels, width, height), 0, 0);
         return context.canvas;
     }
 
     drawImage(image, x, y, width, height, fit) {
-        const { context } = this;
+        const { context } = this, how = WORDS.fit[fit];
         if (!this.begin(false, false))
             return;
         context.save();
         context.imageSmoothingEnabled = false;
         context.globalAlpha = this.alpha;
         const scales = [width / image.width, height / image.height];
-        const scale = fit === 0 ? 1 : fit === 2 ? Math.min(...scales) : Math.max(...scales);
-        const w = fit === 1 ? width : image.width * scale, h = fit === 1 ? height : image.height * scale;
-        if (fit === 3) {
+        const scale = how === 'original size' ? 1 : how === 'inside' ? Math.min(...scales) : Math.max(...scales);
+        const w = how === 'stretched' ? width : image.width * scale, h = how === 'stretched' ? height : image.height * scale;
+        const centred = how === 'inside' || how === 'filling';
+        if (how === 'filling') {
             context.beginPath();
             context.rect(x, y, width, height);
             context.clip();
         }
-        context.translate(fit > 1 ? x + (width - w) / 2 : x, fit > 1 ? y + (height - h) / 2 : y);
+        context.translate(centred ? x + (width - w) / 2 : x, centred ? y + (height - h) / 2 : y);
         context.scale(w / image.width, h / image.height); // negative sizes mirror the image
         context.drawImage(image, 0, 0);
         context.restore();
     }
 
-    pattern() {
-        const matrix = new DOMMatrix(Array.from(this.take(6))), [alpha] = this.take(1);
-        this.solid = false;
+    setPaint(style, alpha, round = null, solid = false) {
+        this.style = style;
         this.alpha = alpha;
-        this.round = null;
-        let image;
-        if (this.n[this.at] > 0) {
-            image = this.pixels();
-        } else {
-            this.at += 2;
-            const name = this.text();
-            image = this.image(name);
-            if (!image) {
-                this.unsupported.add(`the image ${name} (not loaded)`);
-                return 'transparent';
-            }
-        }
-        return () => {
-            const pattern = this.context.createPattern(this.faded(image, alpha), 'repeat');
-            pattern.setTransform(matrix);
+        this.round = round;
+        this.solid = solid;
+    }
+
+    pattern(matrix, alpha, image, name) {
+        const from = new DOMMatrix(matrix), source = image.width > 0 ? this.canvasOf(image) : this.findImage(name);
+        this.setPaint(source ? () => {
+            const pattern = this.context.createPattern(this.faded(source, alpha), 'repeat');
+            pattern.setTransform(from);
             return pattern;
-        };
+        } : 'transparent', alpha);
     }
 
     // Returns a copy of `image` with the opacity `alpha`, because patterns themselves have no opacity.
@@ -389,47 +523,56 @@ class Painter {
         return context.canvas;
     }
 
-    // Returns a paint that consists of pixels at the resolution of the canvas. `make` draws these pixels on a separate canvas.
-    imageOfPixels(alpha, make) {
-        Object.assign(this, { solid: false, alpha, round: null });
-        return () => {
-            const { context } = this, made = this.beside(), pattern = context.createPattern(make(made).canvas, 'no-repeat');
+    // Sets a paint that consists of pixels at the resolution of the canvas. `make` draws these pixels on a separate canvas.
+    setPixelPaint(alpha, make) {
+        this.setPaint(() => {
+            const { context } = this, made = this.beside();
+            make(made);
+            const pattern = context.createPattern(made.canvas, 'no-repeat');
             pattern.setTransform(context.getTransform().invertSelf());
             return pattern;
-        };
+        }, alpha);
     }
 
-    blend() {
-        const [ratio, mode, alpha] = this.take(3), paints = [this.readSource(), this.readSource()];
-        return this.imageOfPixels(alpha, made => {
+    blend(ratio, mode, alpha, ...paints) {
+        this.setPixelPaint(alpha, made => {
             const { width, height } = made.canvas;
             const [first, second] = paints.map(paint => this.apart(width, height, 0, 0, () => this.paintAll(paint)).canvas);
-            this.compositeOver(made, first, 'source-over', ratio < 0 ? 1 : 1 - ratio);
+            this.compositeOver(made, first, OVER, ratio < 0 ? 1 : 1 - ratio);
             if (ratio >= 0)
                 this.compositeOver(made, second, 'lighter', ratio);
-            else
-                this.combine(made, second, mode);
+            else if (MODES[mode])
+                this.compositeOver(made, second, MODES[mode]);
             if (alpha < 1) {
                 Object.assign(made, { globalCompositeOperation: 'destination-in', fillStyle: `rgba(0,0,0,${alpha})` });
                 made.fillRect(0, 0, width, height);
             }
-            return made;
         });
     }
 
-    noise() {
-        const noise = this.take(8);
-        return this.imageOfPixels(noise[7], made => {
+    noise(...operands) {
+        const { engine } = this;
+        if (!this.canCompute())
+            return this.setPaint('transparent', 1);
+        this.setPixelPaint(operands.at(-1), made => {
             const { width, height } = made.canvas;
-            made.putImageData(noisePixels(noise, this.context.getTransform().invertSelf(), width, height), 0, 0);
-            return made;
+            made.putImageData(noisePixels(engine, operands, this.context.getTransform().invertSelf(), width, height), 0, 0);
         });
     }
 
-    clip() {
-        const [outside, evenOdd] = this.take(2), path = this.path();
+    clip(outside, evenOdd, elements) {
+        const path = pathOf(elements);
         this.setMatrix();
         this.context.clip(outside ? this.inverse(path) : path, outside || evenOdd ? 'evenodd' : 'nonzero');
+    }
+
+    save() {
+        this.context.save();
+    }
+
+    restore() {
+        this.context.restore();
+        this.placed = this.styled = this.composed = null;
     }
 
     // Returns the context of a new canvas, by default as large as the current one.
@@ -438,120 +581,89 @@ class Painter {
         return Object.assign(canvas, { width, height }).getContext('2d', { willReadFrequently });
     }
 
-    beginLayer() {
+    layer() {
         this.layers.push(this.context);
         this.context = this.beside();
     }
 
-    endLayer() {
-        const [alpha] = this.take(1), { canvas } = this.context;
+    layerEnd(alpha) {
+        const { canvas } = this.context;
         this.context = this.layers.pop();
-        this.compositeOver(this.context, canvas, 'source-over', alpha);
+        this.compositeOver(this.context, canvas, OVER, alpha);
     }
 
-    command(kind) {
-        switch (kind) {
-        case 0: this.matrix = this.take(6); this.setMatrix(); break;
-        case 1: this.paint = this.plain(); break;
-        case 2: this.paint = this.linear(); break;
-        case 3: this.paint = this.radial(); break;
-        case 4: {
-            const [width, join, cap, composite, , count, offset] = this.take(7);
-            this.line = { width, join, cap, composite, offset, dashes: Array.from(this.take(count)) };
-            this.filter = null;
-            break;
-        }
-        case 5: this.filtered(() => this.figure()); break;
-        case 6: this.filtered(() => this.letters()); break;
-        case 7: this.filtered(() => this.picture()); break;
-        case 8: this.clip(); break;
-        case 9: this.context.save(); break;
-        case 10: this.context.restore(); break;
-        case 11: this.beginLayer(); break;
-        case 12: this.endLayer(); break;
-        case 13: this.unsupported.add(this.text()); break;
-        case 14: this.systems(); break;
-        case 15: {
-            const box = this.take(5), picture = this.pixels();
-            this.filtered(() => this.drawImage(picture, ...box));
-            break;
-        }
-        case 16: this.paint = this.pattern(); break;
-        case 17: this.filter = readFilter(this); break;
-        case 18: this.paint = this.blend(); break;
-        case 19: this.paint = this.noise(); break;
-        default: throw new Error(`unknown command ${kind} in the display list: drawing.mjs is older than the engine`);
-        }
+    unsupported(name) {
+        this.missing.add(name);
     }
 
-    systems() {
-        const { canvas } = this.context, [scale, x, y] = this.base, [width, height] = this.n;
-        if (this.at === 3 && x <= 0 && y <= 0 && scale * width >= canvas.width && scale * height >= canvas.height)
-            this.background = null; // the background would be hidden, and drawing it costs more than all discs
-        this.at = drawSystems(this.context, this.n, this.at, this.base);
+    background(colour) {
+        const { context, base: [scale, x, y], size: [width, height] } = this, { canvas } = context;
+        if (x <= 0 && y <= 0 && scale * width >= canvas.width && scale * height >= canvas.height)
+            this.behind = null; // it would be hidden, and drawing it takes longer than drawing all discs
+        context.setTransform(scale, 0, 0, scale, x, y);
+        this.placed = null;
+        context.fillStyle = color(colour);
+        context.fillRect(0, 0, width, height);
     }
 
-    plain() {
-        const given = this.take(4);
-        this.alpha = Math.min(Math.max(given[3], 0), 1);
-        this.solid = given[3] >= 1;
-        this.round = null;
-        return color(given, 0);
+    color(colour) {
+        this.setPaint(color(colour), Math.min(Math.max(colour[3], 0), 1), null, colour[3] >= 1);
     }
 
     // Gradients are created on each use, because they depend on the current transform.
-    linear() {
-        const ends = this.take(4), stops = this.readStops();
-        this.round = null;
-        return () => this.addStops(this.context.createLinearGradient(...ends), stops);
+    linear(x1, y1, x2, y2, alpha, stops) {
+        this.setPaint(() => addStops(this.context.createLinearGradient(x1, y1, x2, y2), stops, alpha), alpha);
     }
 
     // Canvas 2D has only circular gradients. For elliptical gradients, the shape is filled in a transformed coordinate system.
-    radial() {
-        const matrix = this.take(6), [xx, yx, xy, yy, x0, y0] = matrix, stops = this.readStops();
+    radial(matrix, x, y, inner, alpha, stops) {
+        const [xx, yx, xy, yy, x0, y0] = matrix;
         const radius = Math.sqrt(Math.abs(xx * yy - xy * yx)), even = Math.hypot(xx - yy, xy + yx) < 1e-6 * radius;
-        this.round = even || !(radius > 0) ? null : new DOMMatrix(Array.from(matrix));
-        const circle = this.round ? [0, 0, 0, 0, 0, 1] : [x0, y0, 0, x0, y0, radius];
-        return () => this.addStops(this.context.createRadialGradient(...circle), stops);
+        const round = even || !(radius > 0) ? null : new DOMMatrix(matrix);
+        const circles = round ? [x, y, inner, 0, 0, 1] : [x0 + xx * x + xy * y, y0 + yx * x + yy * y, radius * inner, x0, y0, radius];
+        this.setPaint(() => addStops(this.context.createRadialGradient(...circles), stops, alpha), alpha, round);
     }
 
-    readStops() {
-        const [alpha, count] = this.take(2);
-        this.solid = false;
-        this.alpha = alpha;
-        return Array.from({ length: count }, () => {
-            const stop = this.take(5);
-            return [Math.min(Math.max(stop[0], 0), 1), color(stop, 1, alpha)];
-        });
-    }
-
-    addStops(gradient, stops) {
-        stops.forEach(([offset, shade]) => gradient.addColorStop(offset, shade));
-        return gradient;
+    // Executes the next command. Returns its kind.
+    command() {
+        const kind = this.reader.number();
+        if (!COMMANDS[kind])
+            throw new Error(`unknown command ${kind} in the display list: drawing.mjs is older than the engine`);
+        COMMANDS[kind][1](this.reader, this);
+        return kind;
     }
 
     draw() {
-        const { canvas } = this.context;
+        const { canvas } = this.context, { reader } = this;
         this.context.reset?.();
         if (!this.context.reset)
             this.context.clearRect(0, 0, canvas.width, canvas.height);
         this.context.save();
-        while (this.at < this.n.length)
-            this.command(this.n[this.at++]);
+        while (reader.at < reader.n.length)
+            this.command();
         this.context.restore();
-        if (this.background) { // drawn last but behind everything, so that the background does not affect compositing
+        if (this.behind) { // drawn last but behind everything, so that the background does not affect compositing
             this.context.save();
-            Object.assign(this.context, { globalCompositeOperation: 'destination-over', fillStyle: this.background });
+            Object.assign(this.context, { globalCompositeOperation: 'destination-over', fillStyle: this.behind });
             this.context.setTransform(1, 0, 0, 1, 0, 0);
             this.context.fillRect(0, 0, canvas.width, canvas.height);
             this.context.restore();
         }
-        return [...this.unsupported];
+        return [...this.missing];
     }
 }
 
+function addStops(gradient, stops, alpha) {
+    for (const { offset, colour } of stops)
+        gradient.addColorStop(Math.min(Math.max(offset, 0), 1), color(colour, alpha));
+    return gradient;
+}
+
 // Draws a display list on a CanvasRenderingContext2D, scaled to fit its canvas and centred. `image(name)` returns the image that a script
-// names, for drawImage. Returns descriptions of unsupported parts.
+// names, for drawImage. `engine` computes the pixels of filters and noise. Returns descriptions of unsupported parts.
 export function drawPicture(context, numbers, options = {}) {
     return new Painter(context, numbers, options).draw();
 }
+
+// Returns true if a display list has filters or noise, for which drawPicture needs the option `engine`.
+export const needsEngine = numbers => numbers[2] !== 0;

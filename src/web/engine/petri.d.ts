@@ -136,15 +136,17 @@ export interface Help {
 
 export type Section = 'tree' | 'state' | 'log' | 'error' | 'hash';
 
-/** A picture rendered with WebGL 2. */
+/** A picture rendered by the engine: with WebGL 2, or because it has filters or noise. */
 export interface RenderedImage {
     image: ImageBitmap;
     title: string;
     ready: boolean;
     /** Descriptions of unsupported parts, which are omitted. */
     unsupported: string[];
-    screen: true;
-    lost: false;
+    /** True if WebGL 2 is available. */
+    screen: boolean;
+    /** True if the browser has lost the WebGL context. */
+    lost: boolean;
 }
 
 /** A session, which runs a script. Calls that fail throw a PetriError and change nothing. */
@@ -194,8 +196,9 @@ export interface Session {
     /** Returns the display list of the last frame for `drawPicture`, or null if there is nothing to draw. */
     displayList(options?: { automatic?: boolean }): Picture | null;
     /**
-     * Like `displayList`, but content that needs WebGL 2 (3-D scenes, effects, several canvases) is rendered to an image,
-     * which the caller owns. Returns a display list if no such content exists or WebGL 2 is not available.
+     * Like `displayList`, but content that needs WebGL 2 (3-D scenes, effects, several canvases), and pictures with filters or noise, are
+     * rendered to an image, which the caller owns. Returns a display list if no such content exists, or if WebGL 2 or OffscreenCanvas
+     * is not available.
      */
     render(options?: { automatic?: boolean }): Picture | RenderedImage | null;
     /** True if the picture of the last frame depends on earlier pictures (`!feedback`, `!reference`, …). */

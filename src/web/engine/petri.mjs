@@ -1,17 +1,15 @@
 // petri.mjs: petri sessions for JavaScript, which load a script, step it and read values. petri.d.ts documents types and calls; otherwise
 // the contracts of petri.h apply.
-import { drawPicture } from './drawing.mjs';
+import { LEVELS, SECTIONS, STATUSES, TOKENS } from './constants.mjs';
+import { drawPicture, needsEngine, pictureSize } from './drawing.mjs';
 import { pixelContext, readPixels } from './pixels.mjs';
 import { compile, instantiate } from './wasm.mjs';
 
-export const STATUS = ['ok', 'invalid', 'limit', 'memory', 'missing', 'interrupted'];
+const OTHER_STATUSES = { limit_exceeded: 'limit', out_of_memory: 'memory', unsupported: 'missing' };
+export const STATUS = STATUSES.map(name => OTHER_STATUSES[name] ?? name);
 const REASONS = {
     invalid: 'invalid argument', limit: 'limit exceeded', memory: 'out of memory', missing: 'not supported', interrupted: 'interrupted',
 };
-const LEVELS = ['error', 'warning', 'note'];
-const TOKENS = ['name', 'keyword', 'number', 'string', 'symbol', 'node', 'tag', 'operator', 'comment', 'invalid', 'newline',
-    'indent', 'dedent'];
-const SECTIONS = { tree: 1, state: 2, log: 4, error: 8, hash: 16 };
 // petri can measure only the engine's stack; JavaScript engines also use a stack of about 1 MiB. This limit allows 500 nested calls of a
 // function, and reports deeper recursion before the browser's stack overflows.
 const STACK = 1536 << 10;
@@ -40,6 +38,7 @@ class Engine {
     constructor(module) {
         this.module = module;
         this.session = null; // the session of the current call
+        this.paint = null; // draws the paint of the current filter (pixels.mjs)
         const text = at => this.memory.text(at);
         const now = () => this.session;
         this.memory = instantiate(module, {
@@ -75,6 +74,7 @@ class Engine {
             shown: (title, ready) => now().taken.push({ image: this.memory.screen.take(), title: text(title), ready: !!ready }),
             draw: (numbers, count, width, height, pixels) => now().drawCanvas(numbers, count, width, height, pixels),
             image: (name, width, height) => now().imagePixels(text(name), width, height),
+            paint: (commands, count, pixels) => this.paint(this.memory.numbers(commands, count).slice(), pixels),
             token: (kind, start, end) => now().taken.push({ kind: TOKENS[kind], start, end }),
             help: (kind, name, parameters, defaultValue, unit, help) =>
                 now().taken.push({
@@ -360,14 +360,26 @@ export class Session {
         const shown = this.taken[0] ?? null, { lost } = this.memory.screen;
         if (this.painter && lost) // the context was lost while the picture was drawn
             return this.render({ automatic });
+        if (shown?.numbers && needsEngine(shown.numbers) && typeof OffscreenCanvas !== 'undefined')
+            this.drawList(shown);
         return shown && { ...shown, screen: this.painter > 0, lost, ...(shown.image && { unsupported: [...this.unsupported] }) };
     }
 
-    drawCanvas(numbers, count, width, height, pixels) {
-        const context = pixelContext(width, height), { image } = this;
-        const unsupported = drawPicture(context, this.memory.numbers(numbers, count), { image, background: null });
+    // Replaces a display list by an image.
+    drawList(shown) {
+        const { width, height } = pictureSize(shown.numbers), canvas = new OffscreenCanvas(width, height);
+        const unsupported = drawPicture(canvas.getContext('2d'), shown.numbers, { image: this.image, engine: this.engine });
         unsupported.forEach(what => this.unsupported.add(what));
-        readPixels(context, this.memory.words(pixels, width * height));
+        shown.image = canvas.transferToImageBitmap();
+        delete shown.numbers;
+    }
+
+    drawCanvas(numbers, count, width, height, pixels) {
+        const context = pixelContext(width, height), { image, engine } = this;
+        // The list is copied, because its memory moves when the engine's memory grows.
+        const unsupported = drawPicture(context, this.memory.numbers(numbers, count).slice(), { image, engine, background: null });
+        unsupported.forEach(what => this.unsupported.add(what));
+        readPixels(this.memory, context, pixels);
         return true;
     }
 
@@ -381,7 +393,7 @@ export class Session {
         const context = pixelContext(image.width, image.height);
         context.reset();
         context.drawImage(image, 0, 0);
-        readPixels(context, this.memory.words(this.pixels, image.width * image.height));
+        readPixels(this.memory, context, this.pixels);
         this.memory.setWord(width, image.width);
         this.memory.setWord(height, image.height);
         return this.pixels;

@@ -1,0 +1,44 @@
+# constants.awk: generates names of enumerators as JavaScript, from petri.h and the rows of composite_list.h. Arrays are
+# indexed by the enumerators' values; in objects, names are mapped to values.
+BEGIN {
+    arrays["PetriStatus"] = "STATUSES"; prefixes["PetriStatus"] = "PETRI_"
+    arrays["PetriLevel"] = "LEVELS"; prefixes["PetriLevel"] = "PETRI_"
+    arrays["PetriTokenKind"] = "TOKENS"; prefixes["PetriTokenKind"] = "PETRI_TOKEN_"
+}
+{ sub(/ *\/\/.*/, "") }
+/^typedef enum / { kind = $3 }
+/^enum \{/ { kind = "enum" }
+kind in arrays || kind == "enum" {
+    text = text " " $0
+    if ($0 !~ /\}/)
+        next
+    sub(/^[^{]*\{ */, "", text)
+    sub(/,? *\}.*/, "", text)
+    count = split(text, names, / *, */)
+    list = ""
+    for (i = 1; i <= count; i++) {
+        if (kind == "enum" && names[i] !~ /^PETRI_PRINT_/)
+            continue
+        sub("^" (kind == "enum" ? "PETRI_PRINT_" : prefixes[kind]), "", names[i])
+        name = tolower(names[i])
+        sub(/ = /, ": ", name)
+        list = list (list == "" ? "" : ", ") (kind == "enum" ? name : "'" name "'")
+    }
+    if (list != "")
+        print_list(kind == "enum" ? "SECTIONS" : arrays[kind], kind == "enum" ? "{ " : "[", list, kind == "enum" ? " }" : "]")
+    kind = text = ""
+}
+/^COMPOSITE\(/ {
+    split($0, parts, "\"")
+    composites = composites (composites == "" ? "" : ", ") "'" parts[2] "'"
+}
+END { print_list("COMPOSITES", "[", composites, "]") }
+# Breaks lines after at most 120 characters.
+function print_list(name, open, list, close_,    line) {
+    line = "export const " name " = " open list close_ ";"
+    while (length(line) > 120 && match(substr(line, 1, 120), /.*, /)) {
+        print substr(line, 1, RLENGTH - 1)
+        line = "    " substr(line, RLENGTH + 1)
+    }
+    print line
+}
