@@ -61,14 +61,6 @@ const acts = {
         // The picture in this answer does not show the particles at their positions; pictures do so from frame 2 on.
         return shown({ loaded: true });
     },
-    // Replaces the text of the running script. Earlier frames are then no longer available.
-    reload({ text, name }) {
-        player.session.reload(text, name);
-        Object.assign(player, { text, name });
-        player.forget(-2);
-        player.lastFrame = player.frame;
-        return shown({ loaded: true });
-    },
     step({ count }) {
         for (let i = 0; i < count; i++)
             player.step();
