@@ -5,9 +5,12 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-static const AutoColour GROUND = AUTO_GROUND;
+typedef struct Colour {
+    double r, g, b;
+} Colour;
+
+static const Colour GROUND = {0.06, 0.07, 0.09}; // as AUTO_GROUND
 // Minimum radii of bodies: in panel pixels, and in pixels of the target. The larger of the two applies.
 static const double MIN_RADIUS = 2, MIN_DEVICE_RADIUS = 1.5;
 // The camera is 0.45 radians to the right of the front view and 0.35 radians above it.
@@ -29,15 +32,15 @@ typedef struct Panel {
     double min_radius; // minimum radius of a body, in the picture's units
 } Panel;
 
-static AutoColour mix_colours(AutoColour a, AutoColour b, double part) {
-    return (AutoColour){a.r + (b.r - a.r) * part, a.g + (b.g - a.g) * part, a.b + (b.b - a.b) * part};
+static Colour mix_colours(Colour a, Colour b, double part) {
+    return (Colour){a.r + (b.r - a.r) * part, a.g + (b.g - a.g) * part, a.b + (b.b - a.b) * part};
 }
 
 // Returns the colour for `shade`, which is a charge (blue through white to orange) or a speed (deep blue through
 // turquoise to pale yellow).
-static AutoColour shade_colour(const AutoSystem *system, double shade) {
-    static const AutoColour negative = {0.25, 0.55, 1}, neutral = {0.85, 0.87, 0.9}, positive = {1, 0.5, 0.15};
-    static const AutoColour slow = {0.2, 0.35, 0.75}, middle = {0.2, 0.75, 0.7}, fast = {1, 0.95, 0.6};
+static Colour shade_colour(const AutoSystem *system, double shade) {
+    static const Colour negative = {0.25, 0.55, 1}, neutral = {0.85, 0.87, 0.9}, positive = {1, 0.5, 0.15};
+    static const Colour slow = {0.2, 0.35, 0.75}, middle = {0.2, 0.75, 0.7}, fast = {1, 0.95, 0.6};
     if (system->charged)
         return shade < 0 ? mix_colours(neutral, negative, -shade) : mix_colours(neutral, positive, shade);
     return shade < 0.5 ? mix_colours(slow, middle, shade * 2) : mix_colours(middle, fast, shade * 2 - 1);
@@ -67,46 +70,59 @@ static Projected project_point(const Panel *panel, const double position[3]) {
 }
 
 // Distant objects fade into the background.
-static AutoColour fade_with_depth(const Panel *panel, AutoColour colour, double depth) {
+static Colour fade_with_depth(const Panel *panel, Colour colour, double depth) {
     return panel->system->dimensions < 3 ? colour : mix_colours(colour, GROUND, fmin(fmax(0.3 + 0.3 * depth, 0), 0.8));
 }
 
-static void draw(const Panel *panel, AutoShape shape) {
-    panel->target->draw(panel->target->context, &shape);
+// Draws a path as a line, whose width is in panel pixels, or fills it if the width is 0.
+static void draw_path(const Panel *panel, const double *path, uint32_t length, double width, Colour c, double alpha,
+                      const AutoGradient *gradient) {
+    panel->target->draw(panel->target->context, &(AutoShape){.path = path,
+                                                             .length = length,
+                                                             .line = width * panel->pixel,
+                                                             .color = {c.r, c.g, c.b, alpha},
+                                                             .gradient = gradient});
 }
 
-// Draws lines between successive pairs of points.
-static void draw_lines(const Panel *panel, const double *points, uint32_t count, double width, AutoColour colour,
+typedef struct Line {
+    double path[6];
+} Line;
+
+static Line line_between(double x1, double y1, double x2, double y2) {
+    return (Line){{PATH_MOVE, x1, y1, PATH_LINE, x2, y2}};
+}
+
+static void draw_lines(const Panel *panel, const Line *lines, uint32_t count, double width, Colour colour,
                        double alpha) {
-    draw(panel, (AutoShape){.kind = AUTO_LINES,
-                            .points = points,
-                            .count = count,
-                            .size = width * panel->pixel,
-                            .colour = colour,
-                            .alpha = alpha});
+    draw_path(panel, lines->path, 6 * count, width, colour, alpha, NULL);
+}
+
+// Returns a gradient that shades a circle like a ball lit from the upper left.
+static AutoGradient ball_gradient(double x, double y, double radius, Colour colour) {
+    Colour light = mix_colours(colour, (Colour){1, 1, 1}, 0.5), dark = mix_colours(colour, (Colour){0, 0, 0}, 0.65);
+    return (AutoGradient){{x - radius * 0.35, y - radius * 0.4, radius * 0.05},
+                          {x - radius * 0.1, y - radius * 0.1, radius * 1.15},
+                          {{0, {light.r, light.g, light.b, 1}},
+                           {0.45, {colour.r, colour.g, colour.b, 1}},
+                           {1, {dark.r, dark.g, dark.b, 1}}}};
 }
 
 static void draw_body(const Panel *panel, const AutoBody *body, const Projected *seen) {
-    double radius = body->radius * seen->size, centre[] = {seen->x, seen->y};
-    double shown = fmin(fmax(radius, panel->min_radius), 4 * (panel->width + panel->height));
+    const double line = 1.5;
+    double shown = fmin(fmax(body->radius * seen->size, panel->min_radius), 4 * (panel->width + panel->height));
     bool small = shown <= panel->min_radius;
-    AutoShape shape = {.kind = AUTO_DISC,
-                       .points = centre,
-                       .count = 1,
-                       .size = shown,
-                       .colour = fade_with_depth(panel, shade_colour(panel->system, body->shade), seen->depth),
-                       .alpha = small ? 1 : 0.85};
+    Colour colour = fade_with_depth(panel, shade_colour(panel->system, body->shade), seen->depth);
+    double ring = fmax(shown - line * panel->pixel / 2, fmax(panel->min_radius, 3 * panel->pixel));
+    double radius = body->anchor ? ring : shown;
+    const double circle[] = {PATH_ARC, seen->x, seen->y, radius, radius, 0, 1, PATH_CLOSE};
     if (body->anchor) {
-        shape.kind = AUTO_RING;
-        shape.line = 1.5 * panel->pixel;
-        shape.size = fmax(shown - shape.line / 2, fmax(panel->min_radius, 3 * panel->pixel));
-        shape.alpha = 1;
+        draw_path(panel, circle, 8, line, colour, 1, NULL);
     } else if (panel->system->dimensions == 3 && !small) {
-        shape.kind = AUTO_BALL;
-        shape.light = mix_colours(shape.colour, (AutoColour){1, 1, 1}, 0.5);
-        shape.dark = mix_colours(shape.colour, (AutoColour){0, 0, 0}, 0.65);
+        AutoGradient ball = ball_gradient(seen->x, seen->y, radius, colour);
+        draw_path(panel, circle, 8, 0, colour, 1, &ball);
+    } else {
+        draw_path(panel, circle, 8, 0, colour, small ? 1 : 0.85, NULL);
     }
-    draw(panel, shape);
 }
 
 // A body to sort, so that bodies are drawn from far to near. Bodies at equal depth keep their order.
@@ -138,12 +154,13 @@ static void draw_links(const Panel *panel) {
     for (uint32_t i = 0; i < system->link_count; i++) {
         Projected from = project_point(panel, system->bodies[system->links[i].from].position);
         Projected to = project_point(panel, system->bodies[system->links[i].to].position);
-        AutoColour colour = fade_with_depth(panel, (AutoColour){0.6, 0.65, 0.7}, (from.depth + to.depth) / 2);
-        draw_lines(panel, (const double[]){from.x, from.y, to.x, to.y}, 2, 1, colour, 0.4);
+        Colour colour = fade_with_depth(panel, (Colour){0.6, 0.65, 0.7}, (from.depth + to.depth) / 2);
+        Line line = line_between(from.x, from.y, to.x, to.y);
+        draw_lines(panel, &line, 1, 1, colour, 0.4);
     }
 }
 
-static const AutoColour WALL = {0.75, 0.7, 0.55};
+static const Colour WALL = {0.75, 0.7, 0.55};
 
 // Draws the barrier of a one- or two-dimensional system: a line, with the blocked side shaded.
 static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
@@ -157,15 +174,12 @@ static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
     // Starts from the point of the wall nearest to the panel's centre, because the barrier's position can be far away.
     double along = (panel->x - at.x) * -ny + (panel->y - at.y) * nx;
     double x = at.x - ny * along, y = at.y + nx * along;
-    const double corners[] = {x - ny * far,        y + nx * far,        x + ny * far,        y - nx * far,
-                              x + (ny - nx) * far, y - (nx + ny) * far, x - (ny + nx) * far, y + (nx - ny) * far};
-    draw(panel, (AutoShape){.kind = AUTO_WALL,
-                            .points = corners,
-                            .count = 4,
-                            .size = far,
-                            .line = 2 * panel->pixel,
-                            .colour = WALL,
-                            .alpha = 0.9});
+    // The first two points are the line.
+    const double box[] = {PATH_MOVE,           x - ny * far, y + nx * far,        PATH_LINE,
+                          x + ny * far,        y - nx * far, PATH_LINE,           x + (ny - nx) * far,
+                          y - (nx + ny) * far, PATH_LINE,    x - (ny + nx) * far, y + (nx - ny) * far};
+    draw_path(panel, box, 6, 2, WALL, 0.9, NULL);
+    draw_path(panel, box, 12, 0, WALL, 0.12, NULL);
 }
 
 // Draws the barrier of a three-dimensional system: a grid of lines around the point of the wall nearest to the view's
@@ -174,7 +188,8 @@ static void draw_grid(const Panel *panel, const AutoBarrier *barrier) {
     enum { LINES = 4 };
     const AutoFrame *frame = &panel->system->frame;
     const double *n = barrier->normal;
-    double away = 0, foot[3], u[3], v[3], points[2 * (2 * LINES + 1)][2][2];
+    double away = 0, foot[3], u[3], v[3];
+    Line lines[2 * (2 * LINES + 1)];
     for (int k = 0; k < 3; k++)
         away += (frame->middle[k] - barrier->position[k]) * n[k];
     if (!(fabs(away) < 1.6 * frame->half)) // the wall is outside the view
@@ -191,17 +206,15 @@ static void draw_grid(const Panel *panel, const AutoBarrier *barrier) {
     for (int i = 0; i < 2 * (2 * LINES + 1); i++) {
         const double *a = i % 2 ? v : u, *b = i % 2 ? u : v;
         double part = frame->half * (i / 2 - LINES) / LINES;
-        for (int end = 0; end < 2; end++) {
-            double point[3];
-            for (int k = 0; k < 3; k++)
-                point[k] =
-                    end ? foot[k] + a[k] * part - b[k] * frame->half : foot[k] + a[k] * part + b[k] * frame->half;
-            Projected seen = project_point(panel, point);
-            points[i][end][0] = seen.x;
-            points[i][end][1] = seen.y;
+        double one[3], two[3];
+        for (int k = 0; k < 3; k++) {
+            one[k] = foot[k] + a[k] * part + b[k] * frame->half;
+            two[k] = foot[k] + a[k] * part - b[k] * frame->half;
         }
+        Projected from = project_point(panel, one), to = project_point(panel, two);
+        lines[i] = line_between(from.x, from.y, to.x, to.y);
     }
-    draw_lines(panel, &points[0][0][0], sizeof points / sizeof points[0][0], 1, WALL, 0.3);
+    draw_lines(panel, lines, sizeof lines / sizeof *lines, 1, WALL, 0.3);
 }
 
 static void draw_barriers(const Panel *panel) {
@@ -212,52 +225,50 @@ static void draw_barriers(const Panel *panel) {
             draw_wall(panel, &panel->system->barriers[i]);
 }
 
-static const AutoColour MARK = {0.5, 0.55, 0.6};
+static const Colour MARK = {0.5, 0.55, 0.6};
 
 // Draws the axes through the origin, across the whole view.
 static void draw_origin(const Panel *panel) {
     const AutoFrame *frame = &panel->system->frame;
     uint32_t axes = panel->system->dimensions == 3 ? 3 : 2;
     const double far = 2 * (panel->width + panel->height) / panel->scale;
-    double points[12];
+    Line lines[3];
     for (uint32_t k = 0; k < axes; k++) {
         double from[3] = {0}, to[3] = {0}, length = axes == 3 ? frame->half : far;
         from[k] = (axes == 3 ? 0 : frame->middle[k]) - length;
         to[k] = (axes == 3 ? 0 : frame->middle[k]) + length;
         Projected a = project_point(panel, from), b = project_point(panel, to);
-        memcpy(points + 4 * k, (const double[]){a.x, a.y, b.x, b.y}, 4 * sizeof *points);
+        lines[k] = line_between(a.x, a.y, b.x, b.y);
     }
-    draw_lines(panel, points, 2 * axes, 1, MARK, 0.25);
+    draw_lines(panel, lines, axes, 1, MARK, 0.25);
 }
 
 static void draw_scale(const Panel *panel) {
     const AutoSystem *system = panel->system;
     double left = panel->x - panel->width / 2, bottom = panel->y + panel->height / 2, pixel = panel->pixel;
-    double *points = arena_alloc_array(panel->target->arena, system->scale_count, 4 * sizeof *points);
+    Line *lines = arena_alloc_array(panel->target->arena, system->scale_count, sizeof *lines);
     for (uint32_t i = 0; i < system->scale_count; i++) {
         const AutoLine *at = &system->scale[i];
-        points[4 * i] = left + at->x1 * pixel;
-        points[4 * i + 1] = bottom - at->y1 * pixel;
-        points[4 * i + 2] = left + at->x2 * pixel;
-        points[4 * i + 3] = bottom - at->y2 * pixel;
+        lines[i] = line_between(left + at->x1 * pixel, bottom - at->y1 * pixel, left + at->x2 * pixel,
+                                bottom - at->y2 * pixel);
     }
-    draw_lines(panel, points, 2 * system->scale_count, 1.5, MARK, 0.8);
+    draw_lines(panel, lines, system->scale_count, 1.5, MARK, 0.8);
 }
 
 static void draw_panel(const Panel *panel) {
     double left = panel->x - panel->width / 2, top = panel->y - panel->height / 2;
-    const double box[] = {left, top, panel->width, panel->height};
-    draw(panel, (AutoShape){.kind = AUTO_PANEL_START, .points = box, .count = 2, .colour = GROUND, .alpha = 1});
+    panel->target->clip(panel->target->context, (const double[]){left, top, panel->width, panel->height});
     draw_origin(panel);
     draw_barriers(panel);
     if (panel->system->dimensions == 1) { // the line that all bodies lie on
         double y = project_point(panel, (const double[3]){panel->system->frame.middle[0]}).y;
-        draw_lines(panel, (const double[]){left, y, left + panel->width, y}, 2, 1, MARK, 0.5);
+        Line line = line_between(left, y, left + panel->width, y);
+        draw_lines(panel, &line, 1, 1, MARK, 0.5);
     }
     draw_links(panel);
     draw_bodies(panel);
     draw_scale(panel);
-    draw(panel, (AutoShape){.kind = AUTO_PANEL_END});
+    panel->target->clip(panel->target->context, NULL);
 }
 
 void auto_draw(const AutoTarget *target, const AutoPicture *picture) {

@@ -9,8 +9,7 @@
 // was called. Axes through the origin and a labelled scale bar provide orientation.
 #pragma once
 
-#include "base/arena.h"
-#include "base/str.h"
+#include "draw/display_list.h"
 
 typedef struct AutoBody {
     double position[3]; // finite
@@ -74,44 +73,24 @@ void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system);
 // Creates the lines of the scale bar for system->frame and stores them in system->scale.
 void auto_scale(Arena *arena, AutoSystem *system);
 
-typedef struct AutoColour {
-    double r, g, b;
-} AutoColour;
-#define AUTO_GROUND                                                                                                    \
-    { 0.06, 0.07, 0.09 } // the background of the picture
-
-typedef enum AutoShapeKind {
-    // Clips to a rectangle, whose corner and size are the points, until AUTO_PANEL_END, and fills it.
-    AUTO_PANEL_START,
-    AUTO_PANEL_END,
-    AUTO_LINES, // lines between successive pairs of points, drawn as one shape; `size` is their width
-    AUTO_WALL,  // a box of four corners around half the picture: its first side, and its area with WALL_ALPHA
-    AUTO_DISC,  // filled; `size` is the radius
-    AUTO_RING,  // the outline of a disc, of width `line`
-    AUTO_BALL,  // a disc shaded like a ball lit from the upper left, by the gradient of AUTO_BALL_…
-} AutoShapeKind;
+// A gradient from one circle to another: centre x, y and radius of each.
+typedef struct AutoGradient {
+    double inner[3];
+    double outer[3];
+    DisplayStop stops[3];
+} AutoGradient;
 
 // A shape of the picture, in the picture's units.
 typedef struct AutoShape {
-    AutoShapeKind kind;
-    const double *points; // x, y of each point
-    uint32_t count;       // number of points
-    double size;
-    double line; // width of an outline
-    AutoColour colour;
-    AutoColour light; // of a ball: the colours of the inner and of the outer circle of the gradient
-    AutoColour dark;
-    double alpha;
+    const double *path; // path elements and their operands, as in DisplayList.numbers
+    uint32_t length;
+    double line; // width of the line; 0: the shape is filled
+    double color[4];
+    const AutoGradient *gradient; // NULL: use `color`
 } AutoShape;
 
-// The gradient of a ball: the centre x, y and the radius of the inner and of the outer circle, relative to the ball,
-// and the place of the ball's own colour.
-#define AUTO_BALL_INNER                                                                                                \
-    { -0.35, -0.4, 0.05 }
-#define AUTO_BALL_OUTER                                                                                                \
-    { -0.1, -0.1, 1.15 }
-#define AUTO_BALL_MIDDLE 0.45
-#define AUTO_WALL_ALPHA 0.12
+#define AUTO_GROUND                                                                                                    \
+    { 0.06, 0.07, 0.09, 1 } // colour of the background
 
 // What the picture is drawn on. The caller fills it with AUTO_GROUND first.
 typedef struct AutoTarget {
@@ -119,6 +98,8 @@ typedef struct AutoTarget {
     double width; // size in the picture's units
     double height;
     double scale; // pixels per unit
+    // Begins a panel: clips to a box, x, y, width and height. NULL ends the panel.
+    void (*clip)(void *context, const double *box);
     void (*draw)(void *context, const AutoShape *shape);
     void *context;
 } AutoTarget;

@@ -125,6 +125,14 @@ void draw_add_element(Canvas *canvas, PathElement kind, const double *n) {
     }
 }
 
+void draw_add_elements(Canvas *canvas, const double *numbers, uint32_t count) {
+    for (uint32_t i = 0; i < count;) {
+        PathElement kind = (PathElement)numbers[i];
+        draw_add_element(canvas, kind, numbers + i + 1);
+        i += 1u + display_path_sizes[kind];
+    }
+}
+
 static bool is_current_path(const Canvas *canvas, const DisplayCommand *command) {
     const DisplayCommand *set = canvas->path_of;
     return set && set->path.first == command->path.first && set->path.last == command->path.last &&
@@ -140,11 +148,8 @@ void draw_set_path(Canvas *canvas, const DisplayCommand *command) {
     for (uint32_t run = command->path.first; run != DISPLAY_NONE;) {
         bool last = run == command->path.last;
         uint32_t end = last ? command->path.end : list->runs.at[run].end;
-        for (uint32_t i = list->runs.at[run].start; i < end;) {
-            PathElement kind = (PathElement)list->numbers.at[i];
-            draw_add_element(canvas, kind, list->numbers.at + i + 1);
-            i += 1u + display_path_sizes[kind];
-        }
+        uint32_t start = list->runs.at[run].start;
+        draw_add_elements(canvas, list->numbers.at + start, end - start);
         run = last ? DISPLAY_NONE : list->runs.at[run].next;
     }
 }

@@ -20,8 +20,7 @@ typedef struct DisplayListExport {
     uint32_t paint;           // index of the paint written last; DISPLAY_NONE: none
     uint32_t effect_elements; // path elements created by effects so far
     double scale;             // of the automatic picture: pixels per unit
-    double colour[4];         // of the automatic picture: the current paint; NaN: another paint
-    double line_width;        // of the automatic picture: width of the current stroke style; 0: not set
+    AutoShape shape;          // of the automatic picture: the previous shape with the current line width
 } DisplayListExport;
 
 static void add(DisplayListExport *numbers, const double *values, uint32_t count) {
@@ -386,96 +385,49 @@ static void add_command(DisplayListExport *numbers, const DisplayCommand *comman
     }
 }
 
-// Sets the paint of the next shape of the automatic picture. If `width` is above 0, also sets the width of strokes.
-static void add_shape_paint(DisplayListExport *numbers, AutoColour c, double alpha, double width) {
-    const double colour[] = {c.r, c.g, c.b, alpha};
-    if (memcmp(colour, numbers->colour, sizeof colour) != 0)
-        WRITE(COLOR, .colour = colour);
-    memcpy(numbers->colour, colour, sizeof colour);
-    if (width > 0 && width != numbers->line_width) {
-        WRITE(STROKE_STYLE, .width = width, .mode = COMPOSITE_OVER, .antialias = true);
-        numbers->line_width = width;
-    }
-}
-
-static void add_ball_paint(DisplayListExport *numbers, const AutoShape *ball) {
-    static const double inner[] = AUTO_BALL_INNER, outer[] = AUTO_BALL_OUTER;
-    AutoColour a = ball->light, b = ball->colour, c = ball->dark;
-    double radius = ball->size * outer[2];
-    DisplayMatrix matrix = {
-        radius, 0, 0, radius, ball->points[0] + ball->size * outer[0], ball->points[1] + ball->size * outer[1]};
-    DisplayStop stops[] = {{0, {a.r, a.g, a.b, 1}}, {AUTO_BALL_MIDDLE, {b.r, b.g, b.b, 1}}, {1, {c.r, c.g, c.b, 1}}};
-    const double start[] = {(inner[0] - outer[0]) / outer[2], (inner[1] - outer[1]) / outer[2], inner[2] / outer[2]};
-    numbers->colour[0] = NAN;
-    WRITE(RADIAL, .matrix = &matrix, .inner = start, .alpha = 1, .stops = {stops, 3});
-}
-
-static void add_lines(DisplayListExport *numbers, const double *points, uint32_t count) {
-    double *elements = arena_alloc_array(numbers->arena, count, 3 * sizeof *elements);
-    for (uint32_t i = 0; i < count; i++) {
-        elements[3 * i] = i % 2 ? PETRI_PATH_LINE : PETRI_PATH_MOVE;
-        elements[3 * i + 1] = points[2 * i];
-        elements[3 * i + 2] = points[2 * i + 1];
-    }
-    WRITE(PATH, .stroke = true, .path.elements = {elements, 3 * count});
-}
-
-// A path of four corners.
-#define QUADRILATERAL(x1, y1, x2, y2, x3, y3, x4, y4)                                                                  \
-    {                                                                                                                  \
-        (const double[]){PETRI_PATH_MOVE, x1, y1, PETRI_PATH_LINE, x2, y2, PETRI_PATH_LINE, x3, y3,                    \
-                         PETRI_PATH_LINE, x4, y4, PETRI_PATH_CLOSE},                                                   \
-            13                                                                                                         \
-    }
-
-// Adds a shape of the automatic picture.
-static void add_shape(void *context, const AutoShape *shape) {
+static void clip_shapes(void *context, const double *box) {
     static const DisplayMatrix identity = {1, 0, 0, 1, 0, 0};
     DisplayListExport *numbers = context;
-    const double *p = shape->points;
-    bool ring = shape->kind == AUTO_RING;
-    switch (shape->kind) {
-    case AUTO_PANEL_START:
-        WRITE(SAVE, );
-        WRITE(MATRIX, .matrix = &identity);
-        WRITE(CLIP, .path.elements =
-                        QUADRILATERAL(p[0], p[1], p[0] + p[2], p[1], p[0] + p[2], p[1] + p[3], p[0], p[1] + p[3]));
-        numbers->colour[0] = NAN;
-        numbers->line_width = 0;
-        break;
-    case AUTO_PANEL_END:
+    if (!box) {
         WRITE(RESTORE, );
-        break;
-    case AUTO_LINES:
-        add_shape_paint(numbers, shape->colour, shape->alpha, shape->size);
-        add_lines(numbers, p, shape->count);
-        break;
-    case AUTO_WALL:
-        add_shape_paint(numbers, shape->colour, shape->alpha, shape->line);
-        add_lines(numbers, p, 2);
-        add_shape_paint(numbers, shape->colour, AUTO_WALL_ALPHA, 0);
-        WRITE(PATH, .fill = true, .path.elements = QUADRILATERAL(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]));
-        break;
-    case AUTO_DISC:
-    case AUTO_RING:
-    case AUTO_BALL:
-        if (shape->kind == AUTO_BALL)
-            add_ball_paint(numbers, shape);
-        else
-            add_shape_paint(numbers, shape->colour, shape->alpha, shape->line);
-        WRITE(PATH, .fill = !ring, .stroke = ring,
-              .path.elements = {(const double[]){PETRI_PATH_ARC, p[0], p[1], shape->size, shape->size, 0, 1}, 7});
-        break;
+        return;
     }
+    double right = box[0] + box[2], bottom = box[1] + box[3];
+    const double path[] = {PATH_MOVE, box[0], box[1],    PATH_LINE, right,  box[1],    PATH_LINE,
+                           right,     bottom, PATH_LINE, box[0],    bottom, PATH_CLOSE};
+    WRITE(SAVE, );
+    WRITE(MATRIX, .matrix = &identity);
+    WRITE(CLIP, .path.elements = {path, sizeof path / sizeof *path});
+    numbers->shape = (AutoShape){.color = {NAN}};
+}
+
+// Adds a shape of the automatic picture, and the attributes in which it differs from the previous one.
+static void add_shape(void *context, const AutoShape *shape) {
+    DisplayListExport *numbers = context;
+    const AutoGradient *gradient = shape->gradient;
+    if (gradient) {
+        const double *from = gradient->inner, *to = gradient->outer;
+        const double start[] = {(from[0] - to[0]) / to[2], (from[1] - to[1]) / to[2], from[2] / to[2]};
+        WRITE(RADIAL, .matrix = &(DisplayMatrix){to[2], 0, 0, to[2], to[0], to[1]}, .inner = start, .alpha = 1,
+              .stops = {gradient->stops, 3});
+    } else if (numbers->shape.gradient || memcmp(shape->color, numbers->shape.color, sizeof shape->color) != 0) {
+        WRITE(COLOR, .colour = shape->color);
+    }
+    double line = shape->line > 0 ? shape->line : numbers->shape.line;
+    if (line != numbers->shape.line)
+        WRITE(STROKE_STYLE, .width = line, .mode = COMPOSITE_OVER, .antialias = true);
+    WRITE(PATH, .fill = shape->line == 0, .stroke = shape->line > 0, .path.elements = {shape->path, shape->length});
+    numbers->shape = *shape;
+    numbers->shape.line = line;
 }
 
 static void add_automatic(DisplayListExport *numbers, const CanvasPicture *picture) {
-    AutoColour ground = AUTO_GROUND;
-    WRITE(BACKGROUND, .colour = (const double[]){ground.r, ground.g, ground.b, 1});
+    WRITE(BACKGROUND, .colour = (const double[])AUTO_GROUND);
     auto_draw(&(AutoTarget){.arena = numbers->arena,
                             .width = picture->width,
                             .height = picture->height,
                             .scale = numbers->scale,
+                            .clip = clip_shapes,
                             .draw = add_shape,
                             .context = numbers},
               picture->automatic);

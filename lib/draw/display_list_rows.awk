@@ -8,6 +8,7 @@ BEGIN {
         print_defaults()
     types["matrix"] = types["colour"] = types["path"] = types["stops"] = types["string"] = types["pixels"] = 1
     types["filter"] = types["paint"] = types["dashes"] = types["commands"] = 1
+    lists["dashes"] = lists["commands"] = lists["filter"] = 1 # a length, then that many numbers
     macros["DRAW"] = "COMMAND"; macros["PATH"] = "ELEMENT"; macros["FILTER"] = "FILTER_KIND"
     arrays["DRAW"] = "COMMANDS"; arrays["PATH"] = "PATH_ELEMENTS"
 }
@@ -40,7 +41,7 @@ function operand_row(text,    remark, words, count, type, parts) {
         exit failed = 1
     }
     if (type in types)
-        return language == "js" ? "r." type "()" : toupper(type) "(" text ")"
+        return language == "c" ? toupper(type) "(" text ")" : "r." (type in lists ? "list" : type) "()"
     if (remark ~ /^[0-9]+$/)
         return language == "c" ? "TABLE(" text ", " remark ")" : "r.numbers(" remark ")"
     if (language == "js" && remark ~ /^0: [a-z ]+(, [0-9]: [a-z ]+)+$/)

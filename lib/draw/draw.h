@@ -91,6 +91,8 @@ void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry,
 // Makes the command's path Cairo's current path, in the current transform.
 void draw_set_path(Canvas *canvas, const DisplayCommand *command);
 void draw_add_element(Canvas *canvas, PathElement kind, const double *numbers);
+// Adds path elements in the format of DisplayList.numbers.
+void draw_add_elements(Canvas *canvas, const double *numbers, uint32_t count);
 void draw_forget_path(Canvas *canvas);
 
 // cairo_paint.c

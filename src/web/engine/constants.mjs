@@ -12,7 +12,7 @@ export const COMMANDS = [
     ['color', (r, p) => p.color(r.colour())],
     ['linear', (r, p) => p.linear(r.number(), r.number(), r.number(), r.number(), r.number(), r.stops())],
     ['radial', (r, p) => p.radial(r.matrix(), r.number(), r.number(), r.number(), r.number(), r.stops())],
-    ['strokeStyle', (r, p) => p.strokeStyle(r.number(), r.number(), r.number(), r.number(), r.number(), r.number(), r.dashes())],
+    ['strokeStyle', (r, p) => p.strokeStyle(r.number(), r.number(), r.number(), r.number(), r.number(), r.number(), r.list())],
     ['path', (r, p) => p.path(r.number(), r.number(), r.number(), r.path())],
     ['text', (r, p) => p.text(...r.numbers(9), r.string(), r.string())],
     ['image', (r, p) => p.image(r.number(), r.number(), r.number(), r.number(), r.number(), r.string())],
@@ -25,7 +25,7 @@ export const COMMANDS = [
     ['background', (r, p) => p.background(r.colour())],
     ['pixels', (r, p) => p.pixels(r.number(), r.number(), r.number(), r.number(), r.number(), r.pixels())],
     ['pattern', (r, p) => p.pattern(r.matrix(), r.number(), r.pixels(), r.string())],
-    ['filter', (r, p) => p.filter(r.filter())],
+    ['filter', (r, p) => p.filter(r.list())],
     ['blend', (r, p) => p.blend(r.number(), r.number(), r.number(), r.paint(), r.paint())],
     ['noise', (r, p) => p.noise(...r.numbers(8))],
 ];

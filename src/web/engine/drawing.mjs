@@ -139,14 +139,6 @@ class Reader {
         return [this.number(), this.number(), this.number(), this.number()];
     }
 
-    dashes() {
-        return this.list();
-    }
-
-    filter() {
-        return this.list();
-    }
-
     string() {
         return String.fromCodePoint(...this.list());
     }
