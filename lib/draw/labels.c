@@ -37,8 +37,8 @@ static void draw_lines(cairo_t *cr, PangoLayout *layout, const PetriLabel *label
     }
 }
 
-PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
-                                      uint32_t *pixels, int width, int height, size_t stride) {
+PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, size_t size,
+                                      double scale, uint32_t *pixels, int width, int height, size_t stride) {
     TextContext *text_context = draw_text_context(painter);
     if (!text_context)
         return PETRI_OUT_OF_MEMORY;
@@ -51,10 +51,11 @@ PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *l
     pango_layout_set_attributes(text_context->layout, NULL);
     text_context->family = NULL;
     for (size_t i = 0; i < count; i++) {
-        pango_font_description_set_absolute_size(font, labels[i].size * PANGO_SCALE);
+        PetriLabel label = draw_label_at(labels, size, i);
+        pango_font_description_set_absolute_size(font, label.size * PANGO_SCALE);
         pango_layout_set_font_description(text_context->layout, font);
-        draw_panel(cr, &labels[i]);
-        draw_lines(cr, text_context->layout, &labels[i]);
+        draw_panel(cr, &label);
+        draw_lines(cr, text_context->layout, &label);
     }
     PetriStatus status = cairo_status(cr) == CAIRO_STATUS_SUCCESS ? PETRI_OK : PETRI_OUT_OF_MEMORY;
     pango_font_description_free(font);

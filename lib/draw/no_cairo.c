@@ -9,9 +9,10 @@ void draw_tools_close(PetriPainter *painter) {
 }
 
 PetriStatus petri_painter_use_backend(PetriPainter *painter, const PetriCanvasBackend *functions) {
-    if (!painter || !functions || !functions->draw || painter->made > 0)
+    PetriCanvasBackend backend = {0};
+    if (!painter || !host_struct_read(&backend, sizeof backend, functions) || !backend.draw || painter->made > 0)
         return PETRI_INVALID;
-    painter->backend = *functions;
+    painter->backend = backend;
     return PETRI_OK;
 }
 
@@ -42,9 +43,10 @@ PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *pictu
     return report_no_cairo(faults);
 }
 
-PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
-                                      uint32_t *pixels, int width, int height, size_t stride) {
-    (void)painter, (void)labels, (void)count, (void)scale, (void)pixels, (void)width, (void)height, (void)stride;
+PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, size_t size,
+                                      double scale, uint32_t *pixels, int width, int height, size_t stride) {
+    (void)painter, (void)labels, (void)count, (void)size, (void)scale, (void)pixels, (void)width, (void)height,
+        (void)stride;
     return PETRI_UNSUPPORTED;
 }
 

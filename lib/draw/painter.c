@@ -174,17 +174,20 @@ static const Recorded *find_record(const PetriPicture *picture, const PetriPaint
     return index < count ? &records[index] : NULL;
 }
 
-bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record) {
-    if (!picture || !painter || !record)
+bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record,
+                          size_t size) {
+    if (!picture || !painter)
         return false;
-    RecordQuery query = {picture, find_record(picture, painter, index), record};
+    PetriRecord found;
+    RecordQuery query = {picture, find_record(picture, painter, index), &found};
     Arena *arenas[] = {&picture->arena};
-    return query.recorded && arena_protect(arenas, 1, fill_record, &query) == ARENA_OK;
+    return query.recorded && arena_protect(arenas, 1, fill_record, &query) == ARENA_OK &&
+           host_struct_write(record, size, &found, sizeof found);
 }
 
 PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size_t index) {
     PetriRecord record;
-    if (!petri_picture_record(picture, painter, index, &record))
+    if (!petri_picture_record(picture, painter, index, &record, sizeof record))
         return PETRI_INVALID;
     return save_picture(&(Saving){.picture = picture,
                                   .painter = painter,

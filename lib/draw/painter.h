@@ -1,6 +1,7 @@
 // painter.h: a painter, and the functions that builds with Cairo (draw.h) and without it (no_cairo.c) share.
 #pragma once
 
+#include "base/host_struct.h"
 #include "draw/display_list.h"
 #include "draw/render_graph.h"
 
@@ -29,6 +30,13 @@ struct PetriPainter {
     uint64_t made;  // serial number of the last picture whose render graph was rendered
     Texture *shown; // the window's picture, as rendered in picture `made`; NULL: none
 };
+
+// Returns a label from an array of a host, in which each label has `size` bytes.
+static inline PetriLabel draw_label_at(const PetriLabel *labels, size_t size, size_t index) {
+    PetriLabel label;
+    host_struct_write(&label, sizeof label, (const char *)labels + index * size, size);
+    return label;
+}
 
 // renderer.c
 // Reports a diagnostic. `place` may be NULL.

@@ -3,6 +3,7 @@
 #include "draw/picture.h"
 
 #include "base/heap.h"
+#include "base/host_struct.h"
 #include "base/number.h"
 #include "draw/render_graph.h"
 #include "draw/systems.h"
@@ -17,19 +18,13 @@ enum { DEFAULT_SIZE = 512, AUTO_SIDE = 1080, MAX_DIAGNOSTICS = 100 };
 
 void petri_picture_options_init(PetriPictureOptions *options, size_t size) {
     const PetriPictureOptions defaults = {.size = size, .scale = 1, .window = -1, .detail = 1};
-    if (options)
-        memcpy(options, &defaults, size < sizeof defaults ? size : sizeof defaults);
+    host_struct_write(options, size, &defaults, sizeof defaults);
 }
 
-// Copies the options of a host. A host that was compiled with an earlier petri-draw.h passes a shorter struct. Returns
-// false if the struct was not initialised or is of a later version.
+// Copies the options of a host. Returns false if they are not valid.
 static bool copy_options(PetriPictureOptions *options, const PetriPictureOptions *given) {
-    size_t min_size = offsetof(PetriPictureOptions, automatic) + sizeof options->automatic;
-    if (!given || given->size < min_size || given->size > sizeof *options)
-        return false;
     petri_picture_options_init(options, sizeof *options);
-    memcpy(options, given, given->size);
-    return options->detail > 0 && options->detail <= 1;
+    return host_struct_read(options, sizeof *options, given) && options->detail > 0 && options->detail <= 1;
 }
 
 // The state of a call of petri_picture.
@@ -301,7 +296,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     picture->arena.budget = access.budget;
     Request request = {.shown = access, .options = &wanted, .picture = picture};
     PetriStatus status = PETRI_INVALID;
-    picture->picture.beat = petri_frame(session).beat;
+    picture->picture.beat = access.beat;
     if (access.number >= 0)
         status = session_report_abort(session, session_protect(session, &picture->arena, make_protected, &request),
                                       "the picture");

@@ -41,7 +41,7 @@ void petri_painter_close(PetriPainter **handle) {
 // A GlShaderTest. `user_data` is the painter.
 static bool test_shader(void *user_data, const char *vertex, const char *fragment, GlShaderProblem *problem) {
     const PetriPainter *painter = user_data;
-    PetriShaderProblem found = {0};
+    PetriShaderProblem found = {.size = sizeof found};
     if (painter->shader_test(painter->shader_test_data, vertex, fragment, &found))
         return true;
     found.text[sizeof found.text - 1] = '\0';
@@ -63,14 +63,15 @@ void draw_test_shaders(PetriPainter *painter) {
     gl_call.test_shaders(painter->gl, painter->shader_test ? test_shader : NULL, painter);
 }
 
-bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem) {
+bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem, size_t size) {
     GlShaderProblem found = {0};
     if (!vertex || !fragment || !problem)
         return false;
     if (gl_try_program(vertex, fragment, &found))
         return true;
-    *problem = (PetriShaderProblem){.failed = found.failed, .in_vertex = found.in_vertex};
-    memcpy(problem->text, found.text, sizeof problem->text);
+    PetriShaderProblem reported = {size < sizeof reported ? size : sizeof reported, found.failed, found.in_vertex, ""};
+    memcpy(reported.text, found.text, sizeof reported.text);
+    host_struct_write(problem, size, &reported, sizeof reported);
     return false;
 }
 

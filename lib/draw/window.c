@@ -30,6 +30,7 @@ typedef struct Presentation {
     PetriPicture *picture; // the picture to show; NULL: the window becomes black
     const PetriLabel *labels;
     size_t count;
+    size_t label_size; // size of a label in the host's header
     double scale;
     int width;
     int height;
@@ -48,11 +49,11 @@ static uint32_t *window_pixels(PetriPainter *painter, int width, int height) {
 }
 
 // Draws a label to separate pixels, which are then composited over the window.
-static bool present_label(const Presentation *presentation, const PetriLabel *label) {
+static bool present_label(const Presentation *presentation, PetriLabel label) {
     PetriPainter *painter = presentation->painter;
-    double scale = presentation->scale, left = floor(label->x * scale), top = floor(label->y * scale);
-    double right = fmin(ceil((label->x + label->width) * scale), presentation->width);
-    double bottom = fmin(ceil((label->y + label->height) * scale), presentation->height);
+    double scale = presentation->scale, left = floor(label.x * scale), top = floor(label.y * scale);
+    double right = fmin(ceil((label.x + label.width) * scale), presentation->width);
+    double bottom = fmin(ceil((label.y + label.height) * scale), presentation->height);
     left = fmax(left, 0);
     top = fmax(top, 0);
     if (!(right > left) || !(bottom > top))
@@ -62,10 +63,9 @@ static bool present_label(const Presentation *presentation, const PetriLabel *la
     if (!pixels)
         return false;
     memset(pixels, 0, (size_t)width * (size_t)height * sizeof *pixels);
-    PetriLabel moved = *label;
-    moved.x -= left / scale;
-    moved.y -= top / scale;
-    return petri_painter_draw_labels(painter, &moved, 1, scale, pixels, width, height,
+    label.x -= left / scale;
+    label.y -= top / scale;
+    return petri_painter_draw_labels(painter, &label, 1, sizeof label, scale, pixels, width, height,
                                      (size_t)width * sizeof *pixels) == PETRI_OK &&
            gl_call.present_pixels(painter->gl, &painter->arena, pixels, (int)left, presentation->height - (int)bottom,
                                   width, height, true);
@@ -88,8 +88,9 @@ static void present_protected(void *context) {
         presentation->done = gl_call.present_pixels(painter->gl, &painter->arena, painter->window, 0, 0,
                                                     presentation->width, presentation->height, false);
     }
-    for (size_t i = 0; i < presentation->count; i++)
-        presentation->done = presentation->done && present_label(presentation, &presentation->labels[i]);
+    for (size_t i = 0; i < presentation->count && presentation->done; i++)
+        presentation->done =
+            present_label(presentation, draw_label_at(presentation->labels, presentation->label_size, i));
 }
 
 // Renders the picture: to a texture if possible, else to the pixels in `painter->window`.
@@ -114,7 +115,7 @@ static PetriStatus prepare_picture(Presentation *presentation) {
 }
 
 PetriStatus petri_painter_present(PetriPainter *painter, PetriPicture *picture, const PetriLabel *labels, size_t count,
-                                  double scale, int width, int height) {
+                                  size_t size, double scale, int width, int height) {
     const char *problem;
     if (!painter || !painter->on_window || (count > 0 && !labels) || !picture_is_good_size(width, height))
         return PETRI_INVALID;
@@ -122,6 +123,7 @@ PetriStatus petri_painter_present(PetriPainter *painter, PetriPicture *picture, 
                                  .picture = picture,
                                  .labels = labels,
                                  .count = count,
+                                 .label_size = size,
                                  .scale = scale,
                                  .width = width,
                                  .height = height};

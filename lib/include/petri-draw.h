@@ -28,7 +28,7 @@ typedef enum PetriAutomatic {
 
 // Options of a picture. Start with petri_default_picture_options.
 typedef struct PetriPictureOptions {
-    size_t size; // sizeof(PetriPictureOptions) of the header that the host was compiled with
+    size_t size; // sizeof(PetriPictureOptions)
     // Size in pixels. The drawing is scaled to fit and centred. If width and height are 0 (the default), the picture
     // has the size that the script sets.
     int width;
@@ -100,6 +100,7 @@ PETRI_API void petri_painter_close(PetriPainter **painter);
 
 // Why a shader program cannot be used.
 typedef struct PetriShaderProblem {
+    size_t size;     // number of bytes of the struct; do not change it
     bool failed;     // true if the driver crashed or exceeded a limit, false if it rejected the program
     bool in_vertex;  // true if the message is about the vertex shader, false: the fragment shader or both
     char text[1024]; // the driver's message, or what failed
@@ -118,7 +119,7 @@ enum { PETRI_SHADER_TRY_PIXELS = 256 }; // number of pixels that petri_shader_tr
 // Compiles a shader program and draws some pixels with it, in a separate OpenGL context. For the process that a
 // PetriShaderTest starts. If the driver rejects the program, or there is no OpenGL, fills *problem and returns false.
 // Also returns false if an argument is NULL.
-PETRI_API bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem);
+PETRI_API bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem, size_t size);
 
 // Renders all canvases and effects of a picture's frame. Does nothing if this is the picture that the painter rendered
 // last. Functions that draw or save a picture also render it. Call this function only for frames that are not drawn or
@@ -142,7 +143,8 @@ typedef struct PetriRecord {
 // Stores the data of record number `index` in *record. `picture` must be the picture that the painter rendered last
 // (petri_picture_render). Creates missing folders of the record's file. Returns false past the last record. The record
 // is valid until the painter renders another picture or the picture is freed.
-PETRI_API bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record);
+PETRI_API bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record,
+                                    size_t size);
 
 // Writes the file of a record that is an image: .png, .jpg, .svg or .pdf. Returns the same statuses as
 // petri_picture_save. Also returns PETRI_INVALID if there is no such record, or if the record is denied.
@@ -155,8 +157,9 @@ PETRI_API PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *pai
 PETRI_API PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width,
                                          int height, size_t stride);
 
-// A panel of text that a host draws over a picture. Lengths and positions are multiplied by the `scale` that is
-// passed to the drawing function. Colours are red, green, blue and alpha from 0 to 1.
+// A panel of text that a host draws over a picture. Functions take the size of a label, sizeof(PetriLabel). Lengths and
+// positions are multiplied by the `scale` that is passed to the drawing function. Colours are red, green, blue and
+// alpha from 0 to 1.
 typedef struct PetriLabel {
     const char *text; // UTF-8; newlines separate lines
     double x;         // left edge of the panel
@@ -174,7 +177,8 @@ typedef struct PetriLabel {
 // Draws labels over opaque pixels, in the format of petri_picture_draw. `scale` is the number of pixels per unit of the
 // labels. Returns PETRI_UNSUPPORTED without Cairo.
 PETRI_API PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t count,
-                                                double scale, uint32_t *pixels, int width, int height, size_t stride);
+                                                size_t size, double scale, uint32_t *pixels, int width, int height,
+                                                size_t stride);
 
 // Lets a painter draw with the host's OpenGL ES 3 context, so that petri_painter_present can show pictures without
 // reading them back from the GPU. Uses the EGL context that is current in the calling thread. It must be current
@@ -187,7 +191,7 @@ PETRI_API PetriStatus petri_painter_use_gl(PetriPainter *painter);
 // host then swaps the buffers. Returns PETRI_INVALID without petri_painter_use_gl. Otherwise returns the status of
 // petri_picture_draw; on failure the window is black except for the labels.
 PETRI_API PetriStatus petri_painter_present(PetriPainter *painter, PetriPicture *picture, const PetriLabel *labels,
-                                            size_t count, double scale, int width, int height);
+                                            size_t count, size_t size, double scale, int width, int height);
 
 // Returns how many pictures the painter has read back from the GPU.
 PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
@@ -320,6 +324,7 @@ PETRI_API PetriStatus petri_filter_draw(const double *filter, size_t count, cons
 
 // Functions of a host that draws canvases itself, for builds without Cairo. petri computes effects from the results.
 typedef struct PetriCanvasBackend {
+    size_t size; // sizeof(PetriCanvasBackend)
     // Draws a display list, scaled to fit and centred, into cleared pixels: rows without gaps, in the format of
     // petri_picture_draw. Returns false on failure.
     bool (*draw)(void *user_data, const double *numbers, size_t count, int width, int height, uint32_t *pixels);

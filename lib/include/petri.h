@@ -9,7 +9,12 @@
 // - Only one thread at a time may use a session or an object obtained from it: a value, node, configuration or
 //   snapshot. Different sessions are independent. Functions that take no handle may be called by any thread at any
 //   time.
-// - A struct argument is accessed only during the call. Text is UTF-8. The length PETRI_NUL_TERMINATED means that the
+// - A struct argument is accessed only during the call. Later versions may add fields to the end of structs, except
+//   PetriString, PetriItem, PetriValue and PetriColumn. A struct that the host passes to the library, or that a
+//   callback receives, therefore starts with its size: set `size` to the size of the struct. A function that fills a
+//   struct takes its size as an argument: pass `sizeof`. Fields that an older library does not know become 0. A call
+//   that sets such a field fails.
+// - Text is UTF-8. The length PETRI_NUL_TERMINATED means that the
 //   text ends at a NUL byte. Indices and item numbers start at 0.
 // - Functions that can fail return a PetriStatus. They may all return PETRI_OUT_OF_MEMORY, or PETRI_INVALID for invalid
 //   arguments. Functions that load, step, print or evaluate may also return PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED.
@@ -88,6 +93,7 @@ typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
 
 // An error, warning or note about a script. In a callback, the strings are valid only during the call.
 typedef struct PetriDiagnostic {
+    size_t size; // number of bytes of the struct that are filled
     PetriLevel level;
     const char *file; // NULL if the diagnostic has no position
     uint32_t line;    // from 1; 0 if the diagnostic has no position
@@ -118,6 +124,7 @@ typedef enum PetriNeighbours {
 // petri_interrupt has been called on all ranks, the functions may return without waiting. Numbers that were not
 // received must then be set to 0.
 typedef struct PetriRanks {
+    size_t size;    // sizeof(PetriRanks)
     int rank;       // number of this process, from 0
     int rank_count; // number of processes
     // Smallest number of particle pairs for which the work is divided; 0 (the default): chosen by the library.
@@ -142,7 +149,7 @@ typedef struct PetriRanks {
 
 // Options of a session. Start with petri_default_options.
 typedef struct PetriOptions {
-    size_t size; // sizeof(PetriOptions) of the header that the host was compiled with
+    size_t size; // sizeof(PetriOptions)
     double fps;  // frames per second, unless the script has `%pragma fps`. Default 60
     // Follow the wall clock: petri_step waits until the frame is due, and the script's `time` is the time since frame
     // 0. Default false (lockstep): petri_step does not wait, and `time` is the frame number divided by fps.
@@ -221,7 +228,7 @@ static inline PetriOptions petri_default_options(void) {
 }
 
 // Creates a session without a script. Free it with petri_close. Returns NULL if out of memory, if the options were not
-// initialised or come from a newer petri.h, or if `fps` is not positive and finite.
+// initialised, or if `fps` is not positive and finite.
 PETRI_API PetriSession *petri_open(const PetriOptions *options);
 
 // Frees a session and sets the handle to NULL. NULL handles are ignored. Free its configurations and snapshots first.
@@ -309,7 +316,7 @@ typedef struct PetriParameter {
 // Gets a parameter of the script by number: first the parameters of the script and its included files, then those of
 // modules imported at its top level. Returns false past the last, or if out of memory. The strings are valid until the
 // next call that uses the session.
-PETRI_API bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter);
+PETRI_API bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter, size_t size);
 
 // Sets a parameter of the script to a value written as in petri_define, or resets it to its default if `value` is NULL.
 // The change takes effect in the next frame. State, frame numbers, time and beat continue. Returns PETRI_INVALID if the
@@ -329,8 +336,11 @@ typedef struct PetriFrame {
     double physics_seconds;    // time spent on the particle systems
 } PetriFrame;
 
-// Returns a copy of the last frame's data.
-PETRI_API PetriFrame petri_frame(const PetriSession *session);
+// Gets the data of the last frame.
+PETRI_API bool petri_frame(const PetriSession *session, PetriFrame *frame, size_t size);
+
+// Returns the number of the last frame; -1: no frame yet.
+PETRI_API int64_t petri_frame_number(const PetriSession *session);
 
 // Returns the units of work (PetriOptions.work_limit) of all calls since the session was opened. They include constant
 // folding, and each petri_picture_render that petri_picture_report has followed. With it, a host can limit a whole run.
@@ -346,6 +356,7 @@ enum {
     PETRI_BUTTON_RIGHT = 4, // further buttons: 8, 16, 32, 64, 128
 };
 typedef struct PetriPointer {
+    size_t size;      // sizeof(PetriPointer)
     bool inside;      // true if the pointer is over the window; if false, x and y are ignored
     double x;         // 0 at the left edge to 1 at the right edge; values outside are clamped
     double y;         // 0 at the top to 1 at the bottom
@@ -576,7 +587,7 @@ typedef struct PetriSystem {
 } PetriSystem;
 
 // Gets a particle system by number, in the order of the script. Returns false past the last, or if out of memory.
-PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
+PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system, size_t size);
 
 // Sets whether the memory of columns stays readable, with unspecified contents, after the columns become invalid. Use
 // it in hosts that cannot control when columns are last read, such as garbage-collected languages. The memory counts
@@ -613,7 +624,7 @@ typedef struct PetriRankStats {
 } PetriRankStats;
 
 // Gets the communication statistics of a system. Returns false if there is no such system.
-PETRI_API bool petri_rank_stats(PetriSession *session, size_t system, PetriRankStats *stats);
+PETRI_API bool petri_rank_stats(PetriSession *session, size_t system, PetriRankStats *stats, size_t size);
 
 // Finds the number of the particle with the given id. Returns false if there is none, or if out of memory.
 PETRI_API bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, uint32_t *particle);
@@ -631,7 +642,8 @@ typedef struct PetriForce {
 // Gets a force applier or barrier by number, in the order of the script. Returns false past the last, or if out of
 // memory. The vectors are valid until the next call that gets data about a system, such as petri_system, and at most as
 // long as the columns.
-PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
+PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force,
+                                  size_t size);
 
 // Returns true if the last frame has something to draw: a window with a canvas, or a particle system. Use petri-draw.h
 // to draw it.
@@ -661,10 +673,10 @@ typedef struct PetriNodeAttribute {
 } PetriNodeAttribute;
 
 // Gets a kind of node by number. Returns false past the last.
-PETRI_API bool petri_node_kind(size_t kind, PetriNodeKind *out);
+PETRI_API bool petri_node_kind(size_t kind, PetriNodeKind *out, size_t size);
 
 // Gets an attribute of a kind of node by number. Returns false past the last.
-PETRI_API bool petri_node_attribute(size_t kind, size_t attribute, PetriNodeAttribute *out);
+PETRI_API bool petri_node_attribute(size_t kind, size_t attribute, PetriNodeAttribute *out, size_t size);
 
 // Sections that petri_print writes, in this order (spec cli.md 3.3).
 enum {
@@ -724,7 +736,7 @@ typedef struct PetriPromptResult {
 // Executes statements. Writes values in printed form, nodes as trees and debug() output as `> text`; `write` may be
 // NULL. Returns PETRI_INVALID if the text is not valid. A statement that fails is not retained and stops the execution.
 PETRI_API PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWriteCallback *write,
-                                   void *user_data, PetriPromptResult *result);
+                                   void *user_data, PetriPromptResult *result, size_t size);
 
 // Removes the retained nodes of the prompt and, if `bindings` is true, also the bindings. Returns the number of removed
 // statements; 0 if out of memory.
@@ -744,7 +756,7 @@ typedef struct PetriEvaluation {
 // Evaluates one expression like petri_prompt, without retaining it. Writes its value on one line, without a newline;
 // `write` may be NULL. Returns PETRI_INVALID if the text is not a single valid expression.
 PETRI_API PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriEvaluation *result,
-                                     PetriWriteCallback *write, void *user_data);
+                                     size_t size, PetriWriteCallback *write, void *user_data);
 
 // Evaluates the script again for the last frame, or for frame 0 if there is no frame yet. Does nothing if that frame
 // was already evaluated with the current configuration. petri_tree and petri_print then show the result. Returns
@@ -772,6 +784,7 @@ typedef enum PetriTokenKind {
     PETRI_TOKEN_DEDENT,   // end of a block
 } PetriTokenKind;
 typedef struct PetriToken {
+    size_t size; // number of bytes of the struct that are filled
     PetriTokenKind kind;
     size_t start; // bytes from the start of the text
     size_t end;   // first byte after the token
@@ -799,6 +812,7 @@ typedef enum PetriNameKind {
 // A use or binding of a name. Positions are bytes from the start of the text. An end is the position after the last
 // byte.
 typedef struct PetriBinding {
+    size_t size; // number of bytes of the struct that are filled
     PetriNameKind kind;
     size_t start;         // start of the name
     size_t end;           // end of the name
@@ -832,7 +846,7 @@ PETRI_API uint64_t petri_diagnostic_count(const PetriSession *session, PetriLeve
 
 // Gets one of the last 100 diagnostics by number, oldest first, for hosts without on_diagnostic. Returns false past the
 // last. The strings are valid until the next diagnostic, petri_clear_diagnostics or petri_close.
-PETRI_API bool petri_diagnostic(const PetriSession *session, size_t number, PetriDiagnostic *diagnostic);
+PETRI_API bool petri_diagnostic(const PetriSession *session, size_t number, PetriDiagnostic *diagnostic, size_t size);
 
 // Removes the stored diagnostics, so that petri_diagnostic returns only diagnostics of later calls.
 PETRI_API void petri_clear_diagnostics(PetriSession *session);
@@ -846,10 +860,10 @@ typedef struct PetriBuiltin {
 } PetriBuiltin;
 
 // Gets a built-in function by number. Returns false past the last.
-PETRI_API bool petri_builtin(size_t index, PetriBuiltin *builtin);
+PETRI_API bool petri_builtin(size_t index, PetriBuiltin *builtin, size_t size);
 
 // Gets, by number, a function that the host added with petri_add_function. Returns false past the last.
-PETRI_API bool petri_host_function(const PetriSession *session, size_t number, PetriBuiltin *function);
+PETRI_API bool petri_host_function(const PetriSession *session, size_t number, PetriBuiltin *function, size_t size);
 
 // Parses a number with an optional suffix, as in scripts and options, or a time code, which is converted to seconds.
 // Returns false if the text is not a number.

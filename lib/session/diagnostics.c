@@ -50,11 +50,13 @@ static void retain_diagnostic(Diagnostics *diagnostics, const PetriDiagnostic *d
     diagnostics->retained_count += !full;
 }
 
-bool petri_diagnostic(const PetriSession *session, size_t number, PetriDiagnostic *diagnostic) {
-    if (!session || !diagnostic || number >= session->diagnostics.retained_count)
+bool petri_diagnostic(const PetriSession *session, size_t number, PetriDiagnostic *diagnostic, size_t size) {
+    if (!session || number >= session->diagnostics.retained_count)
         return false;
-    *diagnostic = *session->diagnostics.retained[(session->diagnostics.retained_first + number) % MAX_RETAINED];
-    return true;
+    PetriDiagnostic found =
+        *session->diagnostics.retained[(session->diagnostics.retained_first + number) % MAX_RETAINED];
+    found.size = size < sizeof found ? size : sizeof found;
+    return host_struct_write(diagnostic, size, &found, sizeof found);
 }
 
 void petri_clear_diagnostics(PetriSession *session) {
@@ -106,7 +108,8 @@ static void send_diagnostic(PetriSession *session, const Diag *diag, Str rendere
         place = source_locate(diag->at.source, diag->at.span.start);
         end = source_locate(diag->at.source, diag->at.span.end);
     }
-    PetriDiagnostic public_diag = {.level = (PetriLevel)diag->level,
+    PetriDiagnostic public_diag = {.size = sizeof public_diag,
+                                   .level = (PetriLevel)diag->level,
                                    .file = diag->at.source ? str_to_c(arena, diag->at.source->name) : NULL,
                                    .line = place.line,
                                    .column = place.column,

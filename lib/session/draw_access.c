@@ -6,6 +6,7 @@
 DrawAccess session_draw_access(PetriSession *session) {
     const Unit *program = session->config.program;
     return (DrawAccess){.number = program ? session->clock.number : -1,
+                        .beat = session->clock.beat,
                         .tree = session->frame.tree,
                         .schema = &session->schema,
                         .scene = session->scene,

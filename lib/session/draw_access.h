@@ -9,6 +9,7 @@
 // The last frame's data. Valid until the next call that uses the session.
 typedef struct DrawAccess {
     int64_t number; // frame number; -1: no frame yet
+    double beat;
     Value tree;
     Schema *schema; // reads the windows of `tree`
     Scene *scene;   // particle systems (scene_view)

@@ -394,17 +394,22 @@ uint64_t petri_work(const PetriSession *session) {
     return session ? session->total_work : 0;
 }
 
-PetriFrame petri_frame(const PetriSession *session) {
+int64_t petri_frame_number(const PetriSession *session) {
+    return session ? session->clock.number : -1;
+}
+
+bool petri_frame(const PetriSession *session, PetriFrame *frame, size_t size) {
     if (!session)
-        return (PetriFrame){.number = -1};
+        return false;
     const Clock *clock = &session->clock;
-    const SessionFrame *frame = &session->frame;
-    return (PetriFrame){.number = clock->number,
-                        .time = clock->time,
-                        .beat = clock->beat,
-                        .fps = clock->rates.fps,
-                        .tempo = clock->rates.tempo,
-                        .physics_steps = frame->physics_steps,
-                        .evaluation_seconds = frame->evaluation_seconds,
-                        .physics_seconds = frame->physics_seconds};
+    const SessionFrame *last = &session->frame;
+    const PetriFrame data = {.number = clock->number,
+                             .time = clock->time,
+                             .beat = clock->beat,
+                             .fps = clock->rates.fps,
+                             .tempo = clock->rates.tempo,
+                             .physics_steps = last->physics_steps,
+                             .evaluation_seconds = last->evaluation_seconds,
+                             .physics_seconds = last->physics_seconds};
+    return host_struct_write(frame, size, &data, sizeof data);
 }

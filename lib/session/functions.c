@@ -93,21 +93,22 @@ static PetriStatus add_function(PetriSession *session, void *context) {
     return PETRI_OK;
 }
 
-PetriStatus petri_add_function(PetriSession *session, const PetriFunction *function) {
+PetriStatus petri_add_function(PetriSession *session, const PetriFunction *given) {
+    PetriFunction function = {0};
     Value constant;
-    if (!session || session->call_depth > 0 || !function || function->size != sizeof *function || !function->name ||
-        !function->parameters || !function->call)
+    if (!session || session->call_depth > 0 || !host_struct_read(&function, sizeof function, given) || !function.name ||
+        !function.parameters || !function.call)
         return PETRI_INVALID;
-    Str name = str_from(function->name);
+    Str name = str_from(function.name);
     if (!session_is_name(name) || engine_name_exists(name) || builtin_find(name) || builtin_constant(name, &constant))
         return PETRI_INVALID;
-    return session_protect(session, NULL, add_function, (void *)function);
+    return session_protect(session, NULL, add_function, &function);
 }
 
-bool petri_host_function(const PetriSession *session, size_t number, PetriBuiltin *function) {
-    if (!session || !function || number >= session->functions.count)
+bool petri_host_function(const PetriSession *session, size_t number, PetriBuiltin *function, size_t size) {
+    if (!session || number >= session->functions.count)
         return false;
     const Builtin *row = session->functions.rows[number];
-    *function = (PetriBuiltin){row->name, row->parameters, row->help};
-    return true;
+    const PetriBuiltin found = {row->name, row->parameters, row->help};
+    return host_struct_write(function, size, &found, sizeof found);
 }

@@ -3,22 +3,24 @@
 
 #include <math.h>
 
-PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer) {
+PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *given) {
+    PetriPointer pointer = {0};
     if (!session)
         return PETRI_INVALID;
     Input *input = scene_input(session->scene);
-    if (!pointer) {
+    if (!given) {
         input_release_all(input);
         return PETRI_OK;
     }
-    if (!pointer->inside) {
-        input_report_pointer(input, NULL, pointer->buttons);
+    if (!host_struct_read(&pointer, sizeof pointer, given))
+        return PETRI_INVALID;
+    if (!pointer.inside) {
+        input_report_pointer(input, NULL, pointer.buttons);
         return PETRI_OK;
     }
-    if (!isfinite(pointer->x) || !isfinite(pointer->y))
+    if (!isfinite(pointer.x) || !isfinite(pointer.y))
         return PETRI_INVALID;
-    input_report_pointer(input, (double[]){fmin(1, fmax(0, pointer->x)), fmin(1, fmax(0, pointer->y))},
-                         pointer->buttons);
+    input_report_pointer(input, (double[]){fmin(1, fmax(0, pointer.x)), fmin(1, fmax(0, pointer.y))}, pointer.buttons);
     return PETRI_OK;
 }
 

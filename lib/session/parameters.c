@@ -316,11 +316,12 @@ static PetriStatus find_parameter(PetriSession *session, void *context) {
     return PETRI_INVALID;
 }
 
-bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter) {
-    if (!session || !parameter)
-        return false;
-    Request request = {number, parameter};
-    return session->config.program && session_run(session, find_parameter, &request, "the query") == PETRI_OK;
+bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter, size_t size) {
+    PetriParameter found;
+    Request request = {number, &found};
+    return session && parameter && session->config.program &&
+           session_run(session, find_parameter, &request, "the query") == PETRI_OK &&
+           host_struct_write(parameter, size, &found, sizeof found);
 }
 
 typedef struct Setting {

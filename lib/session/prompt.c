@@ -331,11 +331,11 @@ static PetriStatus wrap_statement(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWriteCallback *write, void *host,
-                         PetriPromptResult *done) {
-    if (!session || !text || !done)
+                         PetriPromptResult *result, size_t size) {
+    if (!session || !text || !result)
         return PETRI_INVALID;
     Job job = {.out = {.write = write, .user_data = host}};
-    *done = (PetriPromptResult){0};
+    PetriPromptResult done = {0};
     diagnostics_repeat(&session->diagnostics, true);
     PetriStatus status = begin_job(session, text, length, &job);
     if (status == PETRI_OK && reject_pragmas(session, job.unit))
@@ -344,11 +344,12 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
         job.ast = job.unit->ast->children[i];
         status = session_run(session, wrap_statement, &job, "the input");
         if (status == PETRI_OK)
-            status = prompt_statement(session, &job, done);
+            status = prompt_statement(session, &job, &done);
     }
     diagnostics_repeat(&session->diagnostics, false);
     if (job.shadowed)
-        done->shadowed = job.shadowed->name.bytes;
+        done.shadowed = job.shadowed->name.bytes;
+    host_struct_write(result, size, &done, sizeof done);
     unit_free(job.unit);
     return status;
 }
@@ -371,7 +372,7 @@ static PetriStatus write_line(PetriSession *session, void *context) {
     return PETRI_OK;
 }
 
-PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriEvaluation *result,
+PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriEvaluation *result, size_t size,
                            PetriWriteCallback *write, void *host) {
     if (!session || !text || !result)
         return PETRI_INVALID;
@@ -387,10 +388,11 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
     }
     if (status == PETRI_OK) {
         bool one = job.value.kind == VALUE_NUMBERS && job.value.len == 1;
-        *result = (PetriEvaluation){.is_true = value_true(job.value),
-                                    .length = job.value.len,
-                                    .number = one ? job.value.as.number : NAN,
-                                    .seconds = job.seconds};
+        const PetriEvaluation found = {.is_true = value_true(job.value),
+                                       .length = job.value.len,
+                                       .number = one ? job.value.as.number : NAN,
+                                       .seconds = job.seconds};
+        host_struct_write(result, size, &found, sizeof found);
         if (write)
             status = session_run(session, write_line, &job, "the input");
     }

@@ -19,17 +19,16 @@ void petri_options_init(PetriOptions *options, size_t size) {
                                 .stack_limit = (size_t)4 << 20,
                                 .memory_limit = (size_t)2 << 30,
                                 .work_limit = UINT64_C(1) << 30};
-    if (options)
-        memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
+    host_struct_write(options, size, &usual, sizeof usual);
 }
 
-// Reads the options of a host, which may have been compiled with an older petri.h and a shorter struct. Returns false
-// if they were not initialised, come from a newer petri.h, or are not valid.
-static bool read_options(PetriOptions *options, const PetriOptions *given) {
-    if (!given || given->size < offsetof(PetriOptions, cpu) || given->size > sizeof *options)
-        return false;
+// Reads the options of a host. Returns false if they are not valid.
+static bool read_options(PetriOptions *options, PetriRanks *ranks, const PetriOptions *given) {
     petri_options_init(options, sizeof *options);
-    memcpy(options, given, given->size);
+    if (!host_struct_read(options, sizeof *options, given) ||
+        (options->ranks && !host_struct_read(ranks, sizeof *ranks, options->ranks)))
+        return false;
+    options->ranks = options->ranks ? ranks : NULL;
     return options->fps > 0 && isfinite(options->fps);
 }
 
@@ -120,7 +119,8 @@ void session_arena(PetriSession *session, Arena *arena, const char *name, size_t
 
 PetriSession *petri_open(const PetriOptions *options) {
     PetriOptions wanted;
-    if (!read_options(&wanted, options))
+    PetriRanks ranks = {0};
+    if (!read_options(&wanted, &ranks, options))
         return NULL;
     options = &wanted;
     PetriSession *session = heap_calloc(1, sizeof *session);

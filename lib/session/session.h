@@ -4,6 +4,7 @@
 // checkpoint.c. Every public function that allocates does so within session_protect.
 #pragma once
 
+#include "base/host_struct.h"
 #include "base/sha256.h"
 #include "builtin/files.h"
 #include "builtin/noise.h"

@@ -71,8 +71,10 @@ void petri_keep_columns(PetriSession *session, bool keep) {
         arena_free_retained(&session->budget);
 }
 
-bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
-    return session && system && run_request(session, (Request){find_system, number, 0, system});
+bool petri_system(PetriSession *session, size_t number, PetriSystem *system, size_t size) {
+    PetriSystem found;
+    return session && system && run_request(session, (Request){find_system, number, 0, &found}) &&
+           host_struct_write(system, size, &found, sizeof found);
 }
 
 static PetriStatus find_rank_stats(PetriSession *session, const Request *request, const SceneView *view) {
@@ -81,8 +83,10 @@ static PetriStatus find_rank_stats(PetriSession *session, const Request *request
     return PETRI_OK;
 }
 
-bool petri_rank_stats(PetriSession *session, size_t number, PetriRankStats *stats) {
-    return session && stats && run_request(session, (Request){find_rank_stats, number, 0, stats});
+bool petri_rank_stats(PetriSession *session, size_t number, PetriRankStats *stats, size_t size) {
+    PetriRankStats found;
+    return session && stats && run_request(session, (Request){find_rank_stats, number, 0, &found}) &&
+           host_struct_write(stats, size, &found, sizeof found);
 }
 
 static PetriStatus find_id(PetriSession *session, const Request *request, const SceneView *view) {
@@ -168,6 +172,8 @@ static PetriStatus find_force(PetriSession *session, const Request *request, con
     return PETRI_OK;
 }
 
-bool petri_system_force(PetriSession *session, size_t number, uint32_t index, PetriForce *out) {
-    return session && out && run_request(session, (Request){find_force, number, index, out});
+bool petri_system_force(PetriSession *session, size_t number, uint32_t index, PetriForce *out, size_t size) {
+    PetriForce found;
+    return session && out && run_request(session, (Request){find_force, number, index, &found}) &&
+           host_struct_write(out, size, &found, sizeof found);
 }

@@ -15,13 +15,14 @@ typedef struct Reading {
 
 static void send_token(void *context, TokenKind kind, Span span) {
     const Reading *reading = context;
-    PetriToken token = {(PetriTokenKind)kind, span.start, span.end};
+    PetriToken token = {sizeof token, (PetriTokenKind)kind, span.start, span.end};
     reading->token_callback(reading->user_data, &token);
 }
 
 static void send_binding(void *context, const BindingInfo *note) {
     const Reading *reading = context;
-    PetriBinding name = {.kind = (PetriNameKind)note->kind,
+    PetriBinding name = {.size = sizeof name,
+                         .kind = (PetriNameKind)note->kind,
                          .start = note->span.start,
                          .end = note->span.end,
                          .binding_start = note->binding_start == NAME_FREE ? PETRI_NUL_TERMINATED : note->binding_start,

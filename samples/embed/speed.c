@@ -4,9 +4,8 @@
 //
 // The script calls `kick`, a function of this program. The program reads the value of a counter from the state, which a
 // script would read as `$:age`.
-#include <petri.h>
-
 #include <math.h>
+#include <petri.h>
 #include <stdio.h>
 
 static const char script[] = "%pragma fps 60\n"
@@ -63,7 +62,7 @@ int main(void) {
         PetriSystem gas;
         status = petri_step(session);
         PetriValue age = petri_state_get(session, (PetriValue){.length = 1, .numbers = &key});
-        if (frame % 40 == 0 && petri_system(session, 0, &gas))
+        if (frame % 40 == 0 && petri_system(session, 0, &gas, sizeof gas))
             printf("%3d: %u particles, age %.3g, mean speed %.2f\n", frame, gas.particle_count,
                    age.length == 1 ? age.numbers[0] : 0, mean_speed(&gas));
     }

@@ -1,10 +1,9 @@
 // steer.cpp: a session in C++ with a global variable that the program changes in each frame.
 //
 //   c++ -std=c++17 steer.cpp -o steer $(pkg-config --cflags --libs petri) && ./steer
-#include <petri.h>
-
 #include <cstdio>
 #include <memory>
+#include <petri.h>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -37,7 +36,7 @@ class Session {
     }
     PetriSystem system(size_t number) const {
         PetriSystem system;
-        if (!petri_system(get(), number, &system))
+        if (!petri_system(get(), number, &system, sizeof system))
             throw std::out_of_range("no such system");
         return system;
     }
@@ -51,7 +50,7 @@ class Session {
             return;
         std::string text = petri_status_text(status);
         PetriDiagnostic diagnostic;
-        for (size_t i = 0; petri_diagnostic(get(), i, &diagnostic); i++)
+        for (size_t i = 0; petri_diagnostic(get(), i, &diagnostic, sizeof diagnostic); i++)
             text += std::string("\n") + diagnostic.rendered;
         throw std::runtime_error(text);
     }

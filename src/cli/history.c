@@ -63,7 +63,7 @@ static void drop_one(FrameHistory *history) {
 
 static void push_keyframe(FrameHistory *history, PetriSession *session, PetriSnapshot *snapshot) {
     history->keyframes[history->keyframe_count++] =
-        (Keyframe){petri_frame(session).number, history->epochs[history->epoch_count - 1].number, snapshot};
+        (Keyframe){petri_frame_number(session), history->epochs[history->epoch_count - 1].number, snapshot};
     history->bytes += petri_snapshot_bytes(snapshot);
     while (history->keyframe_count > HISTORY_MAX || (history->bytes > HISTORY_BYTES && history->keyframe_count > 2))
         drop_one(history);
@@ -87,7 +87,7 @@ static bool begin_epoch(FrameHistory *history, PetriSession *session, bool resta
         drop_all(history);
     history->epochs = memory_realloc(history->epochs, (history->epoch_count + 1) * sizeof *history->epochs);
     history->epochs[history->epoch_count++] =
-        (Epoch){++history->last_epoch, petri_frame(session).number, petri_config_revision(session)};
+        (Epoch){++history->last_epoch, petri_frame_number(session), petri_config_revision(session)};
     push_keyframe(history, session, snapshot);
     return true;
 }
@@ -96,7 +96,7 @@ bool history_start(FrameHistory *history, PetriSession *session, const char *why
     drop_all(history);
     petri_snapshot_free(history->origin);
     history->origin = petri_snapshot(session);
-    history->first = history->last = history->times_start = petri_frame(session).number;
+    history->first = history->last = history->times_start = petri_frame_number(session);
     history->time_count = 0;
     history->why = why;
     return history->origin && begin_epoch(history, session, true);
@@ -148,13 +148,13 @@ static void record_time(FrameHistory *history, const PetriFrame *frame) {
 }
 
 static PetriStatus replay_step(const FrameHistory *history, PetriSession *session) {
-    int64_t at = petri_frame(session).number - history->times_start;
+    int64_t at = petri_frame_number(session) - history->times_start;
     bool known = history->live && at >= 0 && (uint64_t)at < history->time_count;
     return known ? petri_step_at(session, history->times[at].time, history->times[at].beat) : petri_step(session);
 }
 
 PetriStatus history_step(FrameHistory *history, PetriSession *session) {
-    int64_t before = petri_frame(session).number;
+    int64_t before = petri_frame_number(session);
     if (!ensure_started(history, session))
         return PETRI_OUT_OF_MEMORY;
     if (history->live && before < history->last)
@@ -163,7 +163,7 @@ PetriStatus history_step(FrameHistory *history, PetriSession *session) {
         return PETRI_OUT_OF_MEMORY;
     uint64_t config = petri_config_revision(session);
     PetriStatus status = petri_step(session);
-    int64_t frame = petri_frame(session).number;
+    int64_t frame = petri_frame_number(session);
     if (status == PETRI_INTERRUPTED || frame == before)
         return status;
     if (petri_config_revision(session) != config) {
@@ -171,7 +171,8 @@ PetriStatus history_step(FrameHistory *history, PetriSession *session) {
             history_start(history, session, "an imported file has changed") ? PETRI_OK : PETRI_OUT_OF_MEMORY;
         return status == PETRI_OK ? started : status;
     }
-    PetriFrame made = petri_frame(session);
+    PetriFrame made;
+    petri_frame(session, &made, sizeof made);
     record_time(history, &made);
     if (frame > history->last) {
         history->last = frame;
@@ -198,11 +199,11 @@ static const Keyframe *keyframe_before(const FrameHistory *history, int64_t fram
 // keyframe `from` and `frame` and the session has the configuration `config`. Otherwise starts at the keyframe.
 static PetriStatus replay_frames(const FrameHistory *history, PetriSession *session, const Keyframe *from,
                                  uint64_t config, int64_t frame) {
-    int64_t now = petri_frame(session).number;
+    int64_t now = petri_frame_number(session);
     PetriStatus status = PETRI_OK;
     if (now >= frame || now < from->frame || petri_config_revision(session) != config)
         status = petri_rewind(session, from->snapshot);
-    while (status == PETRI_OK && petri_frame(session).number < frame)
+    while (status == PETRI_OK && petri_frame_number(session) < frame)
         status = replay_step(history, session);
     return status;
 }
@@ -225,11 +226,11 @@ PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t f
         return PETRI_OUT_OF_MEMORY;
     PetriStatus status = PETRI_OK;
     int64_t target = frame < history->last ? frame : history->last;
-    if (petri_frame(session).number != target)
+    if (petri_frame_number(session) != target)
         status = seek_back(history, session, target, why);
     petri_config_apply(session, config);
     petri_config_free(config);
-    while (status == PETRI_OK && petri_frame(session).number < frame)
+    while (status == PETRI_OK && petri_frame_number(session) < frame)
         status = history_step(history, session);
     return status;
 }
@@ -247,7 +248,7 @@ static PetriStatus recompute_frame(const FrameHistory *history, const Keyframe *
 }
 
 PetriStatus history_recompute(FrameHistory *history, PetriSession *session) {
-    int64_t frame = petri_frame(session).number;
+    int64_t frame = petri_frame_number(session);
     const Keyframe *from = frame <= history->first || frame > history->last ? NULL : keyframe_before(history, frame);
     PetriConfig *config = petri_config_get(session);
     PetriStatus status = !config ? PETRI_OUT_OF_MEMORY : PETRI_OK;

@@ -13,7 +13,7 @@ bool is_invalid_definition(const PetriDiagnostic *diagnostic) {
 }
 
 bool parameter_find(PetriSession *session, const char *name, PetriParameter *parameter) {
-    for (size_t i = 0; petri_parameter(session, i, parameter) && parameter->settable; i++)
+    for (size_t i = 0; petri_parameter(session, i, parameter, sizeof *parameter) && parameter->settable; i++)
         if (strcmp(parameter->name, name) == 0)
             return true;
     return false;
@@ -62,7 +62,7 @@ size_t parameters_list(PetriSession *session, Output *output) {
     SCOPED_TEXT_TABLE table = text_table_new(COLUMNS);
     SCOPED_TEXT file = {0}; // path of the module whose parameters are being written
     size_t own = 0;
-    for (size_t i = 0; petri_parameter(session, i, &parameter); i++) {
+    for (size_t i = 0; petri_parameter(session, i, &parameter, sizeof parameter); i++) {
         own += parameter.settable;
         if (!parameter.settable && (file.len == 0 || strcmp(file.bytes, parameter.file) != 0)) {
             text_table_write(&table, output);

@@ -51,7 +51,7 @@ static void write_number(const RowWriter *writer, PetriColumn column, uint32_t p
 uint32_t particles_dimensions(PetriSession *session) {
     PetriSystem system;
     uint32_t max_dimensions = 1;
-    for (size_t s = 0; petri_system(session, s, &system); s++)
+    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++)
         max_dimensions = system.dimensions > max_dimensions ? system.dimensions : max_dimensions;
     return max_dimensions;
 }
@@ -67,9 +67,10 @@ void particles_header(uint32_t dimensions, PetriWriteCallback *write, void *user
 
 bool particles_rows(PetriSession *session, uint32_t dimensions, PetriWriteCallback *write, void *user_data) {
     const RowWriter writer = {dimensions, write, user_data};
-    PetriFrame frame = petri_frame(session);
+    PetriFrame frame;
+    petri_frame(session, &frame, sizeof frame);
     PetriSystem system;
-    for (size_t s = 0; petri_system(session, s, &system); s++) {
+    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
         for (uint32_t i = 0; i < system.particle_count; i++) {
             const char *id = petri_format_value(session, petri_particle_id(session, s, i));
             if (!id)

@@ -158,7 +158,7 @@ int shader_test_run(void) {
         return STATUS_FAILED;
     PetriShaderProblem problem = {0};
     int status = SHADER_GOOD;
-    if (!petri_shader_try(input.bytes, input.bytes + length + 1, &problem))
+    if (!petri_shader_try(input.bytes, input.bytes + length + 1, &problem, sizeof problem))
         status = problem.failed ? STATUS_FAILED : problem.in_vertex ? SHADER_REJECTED_VERTEX : SHADER_REJECTED;
     fputs(problem.text, stdout);
     fflush(stdout);

@@ -15,14 +15,14 @@ const Topic TOPICS[] = {
 };
 
 bool topic_find_builtin(Str name, PetriBuiltin *builtin) {
-    for (size_t i = 0; petri_builtin(i, builtin); i++)
+    for (size_t i = 0; petri_builtin(i, builtin, sizeof *builtin); i++)
         if (str_equal(name, str_from(builtin->name)))
             return true;
     return false;
 }
 
 bool topic_find_kind(Str name, size_t *number, PetriNodeKind *kind) {
-    for (; petri_node_kind(*number, kind); ++*number)
+    for (; petri_node_kind(*number, kind, sizeof *kind); ++*number)
         if (str_equal(name, str_from(kind->name)))
             return true;
     return false;
@@ -60,7 +60,7 @@ static void add_type(TextTable *table, const PetriNodeAttribute *attribute) {
 static void print_attributes(Text *text, size_t kind) {
     SCOPED_TEXT_TABLE table = text_table_new(4);
     PetriNodeAttribute attribute;
-    for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
+    for (size_t i = 0; petri_node_attribute(kind, i, &attribute, sizeof attribute); i++) {
         char head[80], fallback[120] = "";
         snprintf(head, sizeof head, "    %s", attribute.name);
         if (attribute.default_value[0] != '\0')
@@ -107,8 +107,8 @@ static bool print_owners(Text *text, const char *name) {
     SCOPED_TEXT_TABLE table = text_table_new(3);
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++) {
             if (strcmp(attribute.name, name) == 0) {
                 char head[80];
                 snprintf(head, sizeof head, "    !%s", kind.name);
@@ -139,13 +139,13 @@ void topics_offer(StrNearest *nearest) {
     PetriBuiltin builtin;
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++)
         nearest_offer(nearest, builtin.name);
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         nearest->wanted = str_starts_with(topic, STR("!")) ? (Str){topic.bytes + 1, topic.len - 1} : topic;
         nearest_offer(nearest, kind.name);
         nearest->wanted = topic;
-        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++)
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++)
             nearest_offer(nearest, attribute.name);
     }
     for (size_t i = 0; TOPICS[i].word; i++)

@@ -57,7 +57,7 @@ static void render_if_needed(LinkSession *link_session) {
     PetriPictureOptions options = petri_default_picture_options();
     PetriPicture *picture = NULL;
     petri_picture_follow(session, &options);
-    if (petri_frame(session).number >= link_session->linked.frame || !petri_needs_history(session) ||
+    if (petri_frame_number(session) >= link_session->linked.frame || !petri_needs_history(session) ||
         petri_picture(session, &options, &picture) != PETRI_OK)
         return;
     if (!link_session->painter)
@@ -72,7 +72,7 @@ static bool exceeds_limit(LinkSession *link_session) {
     Frames *frames = &link_session->frames;
     const Linked *linked = &link_session->linked;
     uint64_t work = petri_work(frames->session), limit = link_work_limit(options_work_limit(frames->options));
-    int64_t number = petri_frame(frames->session).number;
+    int64_t number = petri_frame_number(frames->session);
     if (work <= limit || number >= linked->frame)
         return false;
     double needed = (double)work * (double)(linked->frame + 1) / (double)(number + 1);
@@ -88,7 +88,7 @@ static int make_frames(LinkSession *link_session) {
     frames_begin(frames);
     bool going = true;
     while (going && frames_due(frames)) {
-        going = frames_step(frames) && set_parameters(link_session, petri_frame(frames->session).number);
+        going = frames_step(frames) && set_parameters(link_session, petri_frame_number(frames->session));
         if (going)
             render_if_needed(link_session);
         going = going && !exceeds_limit(link_session);

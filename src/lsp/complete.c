@@ -56,7 +56,7 @@ static void set_detail(Json *item, const char *text, const char *help) {
 
 static void offer_kinds(Offer *all) {
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         SCOPED_TEXT label = {0};
         text_add_format(&label, "!%s", kind.name);
         set_detail(add_candidate(all, label.bytes, AS_CLASS, label.bytes, 'a'), kind.area, kind.help);
@@ -65,7 +65,7 @@ static void offer_kinds(Offer *all) {
 
 static void offer_attributes(Offer *all, size_t kind) {
     PetriNodeAttribute attribute;
-    for (size_t i = 0; kind != SIZE_MAX && petri_node_attribute(kind, i, &attribute); i++) {
+    for (size_t i = 0; kind != SIZE_MAX && petri_node_attribute(kind, i, &attribute, sizeof attribute); i++) {
         SCOPED_TEXT label = {0};
         SCOPED_TEXT help = {0};
         text_add_format(&label, "%s=", attribute.name);
@@ -121,7 +121,7 @@ static void offer_names(Offer *all) {
             offer_name(all, document, name);
     }
     offer_around(all);
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++) {
         SCOPED_TEXT head = {0};
         text_add_format(&head, "%s(%s)", builtin.name, builtin.parameters);
         set_detail(add_candidate(all, builtin.name, AS_FUNCTION, builtin.name, 'c'), head.bytes, builtin.help);
@@ -156,7 +156,7 @@ static void offer_choices(Offer *all, size_t token) {
     size_t kind =
         token >= 2 && document_is(document, token - 1, "=") ? hover_node_of(document, token - 2, &node) : SIZE_MAX;
     PetriNodeAttribute attribute;
-    for (size_t k = 0; kind != SIZE_MAX && petri_node_attribute(kind, k, &attribute); k++) {
+    for (size_t k = 0; kind != SIZE_MAX && petri_node_attribute(kind, k, &attribute, sizeof attribute); k++) {
         if (!str_equal(document_token(document, token - 2), str_from(attribute.name)))
             continue;
         for (const char *at = strchr(attribute.type, ':'); at; at = strchr(at + 1, ':')) {

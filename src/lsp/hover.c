@@ -51,7 +51,7 @@ static void hover_kinds(Text *out, Str name) {
         text_add_format(out, "%s**!%s** (%s) — %s\n", out->len > 0 ? "\n---\n" : "", kind.name, kind.area, kind.help);
         if (kind.formula[0] != '\0')
             text_add_format(out, "\n```text\n%s\n```\n%s\n", kind.formula, FORMULA_LETTERS);
-        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++) {
             text_add_c(out, "\n- ");
             hover_attribute(out, &attribute);
         }
@@ -127,7 +127,8 @@ static void find_values(Server *server, Document *document) {
         SCOPED_TEXT value = {0};
         PetriEvaluation result;
         SCOPED_STRING own = memory_strndup(document->text.bytes + name->start, name->end - name->start);
-        if (wanted && petri_evaluate(session, own, strlen(own), &result, text_collect, &value) == PETRI_OK &&
+        if (wanted &&
+            petri_evaluate(session, own, strlen(own), &result, sizeof result, text_collect, &value) == PETRI_OK &&
             value.len > 0) {
             Str shown = str_truncate(text_str(&value), MAX_SHOWN);
             json_put(document->values, own, json_from(shown));
@@ -212,7 +213,7 @@ static void hover_name(Text *out, const RequestContext *request, size_t token) {
     const char *node = NULL;
     size_t kind = !name && document_is(document, token + 1, "=") ? hover_node_of(document, token, &node) : SIZE_MAX;
     PetriNodeAttribute attribute;
-    for (size_t k = 0; kind != SIZE_MAX && petri_node_attribute(kind, k, &attribute); k++) {
+    for (size_t k = 0; kind != SIZE_MAX && petri_node_attribute(kind, k, &attribute, sizeof attribute); k++) {
         if (text_equals(text, attribute.name)) {
             hover_attribute(out, &attribute);
             text_add_format(out, "\n\nof `!%s`", node);

@@ -38,9 +38,9 @@ static void offer_topics(const Completion *completion) {
     offer(completion, "nodes", "list all nodes with their attributes");
     offer(completion, "version", "print the version");
     offer_commands(completion);
-    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++)
         offer(completion, builtin.name, builtin.help);
-    for (size_t i = 0; petri_node_kind(i, &kind); i++)
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++)
         offer(completion, kind.name, kind.help);
     for (size_t i = 0; TOPICS[i].word; i++)
         offer(completion, TOPICS[i].word, TOPICS[i].help);
@@ -70,7 +70,7 @@ static void offer_parameters(const Completion *completion) {
     PetriParameter parameter;
     if (session && petri_load(session, completion->script) == PETRI_OK) {
         output_format(completion->output, ":nospace\n");
-        for (size_t i = 0; petri_parameter(session, i, &parameter) && parameter.settable; i++) {
+        for (size_t i = 0; petri_parameter(session, i, &parameter, sizeof parameter) && parameter.settable; i++) {
             SCOPED_TEXT name = {0}, help = {0};
             text_add_format(&name, "%s=", parameter.name);
             parameter_describe(&help, &parameter);

@@ -17,7 +17,7 @@ enum { ATTRIBUTE_COLUMN = 22, BUILTIN_COLUMN = 38 };
 static int help_builtins(void) {
     SCOPED_TEXT text = {0};
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++) {
         char head[128];
         snprintf(head, sizeof head, "%s(%s)", builtin.name, builtin.parameters);
         text_add_format(&text, "%-*s  %s\n", BUILTIN_COLUMN, head, builtin.help);
@@ -27,7 +27,7 @@ static int help_builtins(void) {
 
 static void write_attributes(Text *text, size_t kind) {
     PetriNodeAttribute attribute;
-    for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
+    for (size_t i = 0; petri_node_attribute(kind, i, &attribute, sizeof attribute); i++) {
         char head[48];
         snprintf(head, sizeof head, "      %s", attribute.name);
         text_add_format(text, "%-*s  %s", ATTRIBUTE_COLUMN, head, attribute.type);
@@ -44,7 +44,7 @@ static int help_nodes(void) {
     SCOPED_TEXT text = {0};
     PetriNodeKind kind;
     const char *area = "";
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         if (strcmp(kind.area, area) != 0) {
             text_add_format(&text, "%s%s\n", area[0] == '\0' ? "" : "\n", kind.area);
             area = kind.area;

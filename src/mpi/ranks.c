@@ -235,7 +235,8 @@ void ranks_begin(CommandContext *context) {
     int thread_level = 0, level = cpu_detected.level, min_level = level;
     MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &thread_level);
     PetriRanks *options = &ranks.as_options;
-    *options = (PetriRanks){.send = send_numbers,
+    *options = (PetriRanks){.size = sizeof *options,
+                            .send = send_numbers,
                             .receive = receive_numbers,
                             .broadcast = broadcast_numbers,
                             .allgatherv = allgather_numbers,

@@ -35,7 +35,7 @@ static void write_words(Output *output) {
 
 static void write_functions(Output *output) {
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++) {
         char rest[128];
         snprintf(rest, sizeof rest, "(%s)", builtin.parameters);
         roff_item(output, builtin.name, rest);
@@ -46,10 +46,10 @@ static void write_functions(Output *output) {
 
 static void write_attributes(Output *output, size_t kind) {
     PetriNodeAttribute attribute;
-    if (!petri_node_attribute(kind, 0, &attribute))
+    if (!petri_node_attribute(kind, 0, &attribute, sizeof attribute))
         return;
     output_format(output, ".RS\n");
-    for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
+    for (size_t i = 0; petri_node_attribute(kind, i, &attribute, sizeof attribute); i++) {
         roff_item(output, attribute.name, "");
         roff_text(output, attribute.type);
         roff_text(output, attribute.unit[0] != '\0' ? ", in " : "");
@@ -86,7 +86,7 @@ static void write_formula(Output *output, const PetriNodeKind *kind) {
 static void write_nodes(Output *output) {
     PetriNodeKind kind;
     const char *area = "";
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         if (strcmp(kind.area, area) != 0) {
             roff_subheading(output, kind.area);
             area = kind.area;

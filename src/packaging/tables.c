@@ -54,7 +54,7 @@ static void add_words(Text *out) {
 
 static void add_functions(Text *out) {
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++) {
         ROW(out, "name", builtin.name, "parameters", builtin.parameters, "help", builtin.help);
         text_add_c(out, "}");
     }
@@ -62,11 +62,11 @@ static void add_functions(Text *out) {
 
 static void add_nodes(Text *out) {
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         ROW(out, "name", kind.name, "area", kind.area, "help", kind.help, "formula", kind.formula);
         add_list(out, "attributes");
         PetriNodeAttribute attribute;
-        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++) {
             ROW(out, "name", attribute.name, "type", attribute.type, "fallback", attribute.default_value, "unit",
                 attribute.unit, "help", attribute.help);
             text_add_c(out, "}");

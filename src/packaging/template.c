@@ -18,13 +18,13 @@ static void add_unique(TextList *list, const char *name) {
 
 static void list_builtins(TextList *list) {
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++)
         add_unique(list, builtin.name);
 }
 
 static void list_nodes(TextList *list) {
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++)
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++)
         add_unique(list, kind.name);
 }
 

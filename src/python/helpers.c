@@ -49,9 +49,10 @@ PetriStatus petri_python_step(PetriSession *session, size_t count, bool interrup
 }
 
 int petri_python_system(PetriSession *session, int number, const char *name, PetriSystem *system) {
-    if (number >= 0 && petri_system(session, (size_t)number, system) && (!name || strcmp(system->name, name) == 0))
+    if (number >= 0 && petri_system(session, (size_t)number, system, sizeof *system) &&
+        (!name || strcmp(system->name, name) == 0))
         return number;
-    for (int i = 0; name && petri_system(session, (size_t)i, system); i++)
+    for (int i = 0; name && petri_system(session, (size_t)i, system, sizeof *system); i++)
         if (strcmp(system->name, name) == 0)
             return i;
     return -1;

@@ -77,7 +77,7 @@ bool recording_add(Recording *recording, PetriPicture *picture, PetriPainter *pa
     bool good = status == PETRI_OK && !shader_test_interrupted();
     if (status == PETRI_OUT_OF_MEMORY)
         recording->error_text = "out of memory";
-    for (size_t i = 0; good && petri_picture_record(picture, painter, i, &record); i++) {
+    for (size_t i = 0; good && petri_picture_record(picture, painter, i, &record, sizeof record); i++) {
         if (record.denied)
             return false;
         if (!video_has_suffix(record.file)) {

@@ -117,7 +117,7 @@ static void draw_frame(Render *render, bool for_film, const char *file) {
 
 static void output_frame(Render *render) {
     const Options *options = render->frames.options;
-    int64_t number = petri_frame(render->frames.session).number;
+    int64_t number = petri_frame_number(render->frames.session);
     bool wanted = options->frame >= 0 ? number == options->frame
                                       : (number - render->frames.before_first_picture) % options->every == 0;
     if (wanted && render->kind == OUTPUT_FILM) {
@@ -140,7 +140,7 @@ static bool is_before_first_picture(const Render *render) {
 // Draws a single image of the last frame. If --frame was given, the last frame must be that frame.
 static void output_picture(Render *render) {
     const Options *options = render->frames.options;
-    int64_t number = petri_frame(render->frames.session).number;
+    int64_t number = petri_frame_number(render->frames.session);
     if (options->frame >= 0 && number != options->frame) {
         message("nothing to draw: the run ended with frame %" PRId64 ", before frame %" PRId64, number, options->frame);
         render->failed = true;

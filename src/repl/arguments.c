@@ -45,7 +45,7 @@ static bool evaluate_number(Repl *repl, const char *text, double *number) {
     if (petri_parse_number(text, number) && isfinite(*number))
         return true;
     repl_busy(repl);
-    PetriStatus status = petri_evaluate(repl->session, text, PETRI_NUL_TERMINATED, &result, NULL, NULL);
+    PetriStatus status = petri_evaluate(repl->session, text, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
     repl_idle(repl);
     if (!repl_status(repl, status))
         return false;
@@ -166,7 +166,7 @@ static size_t word_length(const char *text) {
 static void compile_names(Repl *repl) {
     PetriEvaluation result;
     repl_busy(repl);
-    petri_evaluate(repl->session, "0", PETRI_NUL_TERMINATED, &result, NULL, NULL);
+    petri_evaluate(repl->session, "0", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
     repl_idle(repl);
 }
 

@@ -50,7 +50,7 @@ static void list_commands(Text *text) {
 static void list_builtins(Text *text) {
     SCOPED_TEXT_TABLE table = text_table_new(2);
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++) {
         char head[128];
         snprintf(head, sizeof head, "%s(%s)", builtin.name, builtin.parameters);
         text_table_add(&table, head);
@@ -62,7 +62,7 @@ static void list_builtins(Text *text) {
 static void list_nodes(Text *text) {
     SCOPED_TEXT_TABLE table = text_table_new(3);
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         char head[80];
         snprintf(head, sizeof head, "!%s", kind.name);
         text_table_add(&table, head);
@@ -129,7 +129,7 @@ static bool time_expression(Repl *repl, const char *expression) {
     repl_busy(repl);
     while (status == PETRI_OK && count < 100000 && (count < 3 || clock_seconds() - start < 0.2)) {
         PetriEvaluation result;
-        status = petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL);
+        status = petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
         best = status == PETRI_OK ? fmin(best, result.seconds) : best;
         count++;
     }

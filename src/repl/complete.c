@@ -40,7 +40,7 @@ static void offer_commands(Search *search) {
 
 static void offer_kinds(Search *search) {
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++)
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++)
         add_candidate(search, kind.name);
 }
 
@@ -50,7 +50,7 @@ static void offer_names(Search *search) {
     const char *name;
     for (size_t i = 0; (name = petri_visible_name(search->repl->session, i)); i++)
         add_candidate(search, name);
-    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++)
         add_candidate(search, builtin.name);
     for (size_t i = 0; search->length > 0 && i < sizeof words / sizeof words[0]; i++)
         add_candidate(search, words[i]);
@@ -60,7 +60,7 @@ static void offer_attributes(Search *search, const char *kind, size_t length) {
     PetriNodeKind node;
     PetriNodeAttribute attribute;
     for (size_t i = 0; topic_find_kind((Str){kind, length}, &i, &node); i++)
-        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++)
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++)
             add_candidate_with(search, "", attribute.name, "=");
 }
 
@@ -81,7 +81,7 @@ static void offer_keys(Search *search) {
 
 static void offer_systems(Search *search) {
     PetriSystem system;
-    for (size_t i = 0; petri_system(search->repl->session, i, &system); i++)
+    for (size_t i = 0; petri_system(search->repl->session, i, &system, sizeof system); i++)
         add_candidate(search, system.name);
 }
 
@@ -155,14 +155,15 @@ static void search_language(Search *search, const char *line, size_t length) {
 
 static void offer_parameters(Search *search) {
     PetriParameter parameter;
-    for (size_t i = 0; petri_parameter(search->repl->session, i, &parameter) && parameter.settable; i++)
+    for (size_t i = 0; petri_parameter(search->repl->session, i, &parameter, sizeof parameter) && parameter.settable;
+         i++)
         add_candidate(search, parameter.name);
 }
 
 static void offer_topics(Search *search) {
     PetriNodeKind kind;
     offer_commands(search);
-    for (size_t i = 0; petri_node_kind(i, &kind); i++)
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++)
         add_candidate_with(search, "!", kind.name, "");
     offer_names(search);
     add_candidate(search, "builtins");

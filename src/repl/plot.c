@@ -129,14 +129,15 @@ static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t f
         PetriEvaluation result = {0};
         status = history_goto(&repl->history, repl->session, first + i, why);
         if (status == PETRI_OK)
-            status = petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL);
+            status =
+                petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
         values[i] = result.number;
     }
     return status;
 }
 
 static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
-    int64_t now = petri_frame(repl->session).number, first = now - count + 1;
+    int64_t now = petri_frame_number(repl->session), first = now - count + 1;
     int64_t min = repl->history.first + 1;
     first = first < min ? min : first;
     if (now < first)
@@ -167,7 +168,8 @@ static bool run_plot(Repl *repl, const char *rest) {
     if (count > MAX_FRAMES)
         return repl_fail(repl, "too many frames: the maximum is %d", MAX_FRAMES);
     PetriEvaluation result; // unused: this only checks the expression
-    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL)) &&
+    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result,
+                                            NULL, NULL)) &&
            plot_frames(repl, expression, count);
 }
 

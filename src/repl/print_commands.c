@@ -132,14 +132,14 @@ static bool print_systems(Repl *repl, const SystemRequest *request,
     const char *wanted = request->system;
     size_t count = 0, shown = 0;
     repl_complete_frame(repl);
-    for (; petri_system(repl->session, count, &system); count++) {
+    for (; petri_system(repl->session, count, &system, sizeof system); count++) {
         if (matches_name(system.name, wanted)) {
             show(repl, count, &system, request);
             shown++;
         }
     }
     if (count == 0) {
-        repl_note(repl, petri_frame(repl->session).number < 0 ? "no particles before the first frame; run .step"
+        repl_note(repl, petri_frame_number(repl->session) < 0 ? "no particles before the first frame; run .step"
                                                               : "no particle system was updated in this frame");
     } else if (shown == 0) {
         return repl_fail(repl, "no such system: '%.40s'", wanted);
@@ -243,7 +243,8 @@ static bool run_watch(Repl *repl, const char *rest) {
     if (rest[0] == '\0')
         return true;
     SCOPED_TEXT value = {0};
-    if (!repl_status(repl, petri_evaluate(repl->session, rest, PETRI_NUL_TERMINATED, &result, text_collect, &value)))
+    if (!repl_status(repl, petri_evaluate(repl->session, rest, PETRI_NUL_TERMINATED, &result, sizeof result,
+                                          text_collect, &value)))
         return false;
     output_format(&repl->output, "%s = %s\n", rest, value.bytes);
     if (!texts_contain(&repl->watched, rest))

@@ -28,14 +28,14 @@ static bool same_folder(const char *a, const char *b) {
 
 static bool can_record(Repl *repl, const char *script) {
     const FrameHistory *history = &repl->history;
-    if (petri_frame(repl->session).number < 0)
+    if (petri_frame_number(repl->session) < 0)
         return repl_fail(repl, "no frames to record; run .step first");
     if (history->first != -1) {
         return repl_fail(repl, "a golden must start at frame 0, but the history starts at frame %" PRId64 "%s%s",
                          history->first, !history->why ? "" : ": ", !history->why ? "" : history->why);
     }
     for (size_t i = 1; i < history->epoch_count; i++) {
-        if (history->epochs[i].start < petri_frame(repl->session).number) {
+        if (history->epochs[i].start < petri_frame_number(repl->session)) {
             return repl_fail(repl,
                              "cannot record changes made at the prompt (frame %" PRId64 "); run .reset and step again",
                              history->epochs[i].start);
@@ -107,7 +107,7 @@ static PetriStatus collect_output(Repl *repl, Text *text, int64_t last, int64_t 
 }
 
 static bool write_golden(Repl *repl, const char *golden, const char *script, int64_t every) {
-    int64_t last = petri_frame(repl->session).number;
+    int64_t last = petri_frame_number(repl->session);
     SCOPED_TEXT text = {0}, why = {0};
     bool good = can_record(repl, script) && add_options(repl, &text, last + 1, every) && write_script(repl, script);
     if (good) {

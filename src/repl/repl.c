@@ -100,7 +100,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
 static void execute_statement(Repl *repl, const char *text, size_t length) {
     PetriPromptResult done;
     repl_busy(repl);
-    PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done);
+    PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done, sizeof done);
     repl_idle(repl);
     if (done.shadowed) {
         SCOPED_STRING name = memory_strdup(done.shadowed);
@@ -132,7 +132,7 @@ static void repl_execute(Repl *repl, const char *text, size_t length) {
 }
 
 static void make_prompt(const Repl *repl, char *prompt, size_t size) {
-    int64_t frame = petri_frame(repl->session).number;
+    int64_t frame = petri_frame_number(repl->session);
     if (frame < 0)
         snprintf(prompt, size, "petri> ");
     else

@@ -237,7 +237,7 @@ static bool run_load(Repl *repl, const char *rest) {
 static bool run_save(Repl *repl, const char *rest) {
     if (!repl_status(repl, petri_save(repl->session, rest)))
         return false;
-    repl_note(repl, "state after frame %" PRId64 " written to %s", petri_frame(repl->session).number, rest);
+    repl_note(repl, "state after frame %" PRId64 " written to %s", petri_frame_number(repl->session), rest);
     return true;
 }
 
@@ -246,7 +246,7 @@ static bool run_restore(Repl *repl, const char *rest) {
         return repl_fail(repl, "cannot read '%s': %s", rest, strerror(errno));
     if (!repl_status(repl, petri_restore(repl->session, rest)))
         return false;
-    repl_note(repl, "restored the state after frame %" PRId64, petri_frame(repl->session).number);
+    repl_note(repl, "restored the state after frame %" PRId64, petri_frame_number(repl->session));
     return history_start(&repl->history, repl->session, "a state was restored") ||
            repl_status(repl, PETRI_OUT_OF_MEMORY);
 }

@@ -117,7 +117,8 @@ static bool show_rate(Repl *repl, const char *rest, const char *name, PetriStatu
             return false;
         repl->rates_changed = true;
     }
-    PetriFrame frame = petri_frame(repl->session);
+    PetriFrame frame;
+    petri_frame(repl->session, &frame, sizeof frame);
     show_number(repl, name, change == petri_set_tempo ? frame.tempo : frame.fps);
     return true;
 }

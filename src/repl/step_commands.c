@@ -20,8 +20,8 @@ static void add_watched(Repl *repl, Text *text) {
         PetriEvaluation result;
         SCOPED_TEXT value = {0};
         const char *expression = repl->watched.items[i];
-        PetriStatus status =
-            petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, text_collect, &value);
+        PetriStatus status = petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result,
+                                            text_collect, &value);
         text_add_format(text, "%s = ", expression);
         text_add(text, (Str){status == PETRI_OK ? value.bytes : "?", status == PETRI_OK ? value.len : 1});
         text_add_c(text, "\n");
@@ -38,7 +38,7 @@ static bool format_frame(Repl *repl, Text *text) {
 // Writes the current frame's `@` line, its log and the watched expressions.
 static void repl_show_frame(Repl *repl) {
     SCOPED_TEXT text = {0};
-    if (petri_frame(repl->session).number < 0) {
+    if (petri_frame_number(repl->session) < 0) {
         repl_note(repl, "this is before the first frame");
         return;
     }
@@ -66,7 +66,8 @@ static Outcome step_once(Repl *repl, const StepRequest *request) {
     PetriEvaluation result = {0};
     PetriStatus status = history_step(&repl->history, repl->session);
     if (status == PETRI_OK && request->until)
-        status = petri_evaluate(repl->session, request->until, PETRI_NUL_TERMINATED, &result, NULL, NULL);
+        status =
+            petri_evaluate(repl->session, request->until, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
     if (status != PETRI_OK && status != PETRI_INTERRUPTED) {
         repl_status(repl, status);
         return ABORTED;
@@ -95,9 +96,9 @@ static bool step_frames(Repl *repl, const StepRequest *request) {
     repl_busy(repl);
     bool shown = true;
     while (made < request->count && outcome == RUNNING && !repl_interrupted() && repl->output.error == 0) {
-        int64_t before = petri_frame(repl->session).number;
+        int64_t before = petri_frame_number(repl->session);
         outcome = step_once(repl, request);
-        if (petri_frame(repl->session).number == before)
+        if (petri_frame_number(repl->session) == before)
             break;
         made++;
         shown = show_step(repl, &progress, made == request->count || outcome != RUNNING);
@@ -129,7 +130,7 @@ static PetriStatus seek_frame(Repl *repl, int64_t frame, Text *why) {
     Progress progress;
     PetriStatus status = history_goto(&repl->history, repl->session, frame < last ? frame : last, why);
     progress_start(&progress, repl->terminal && progress_possible(), frame - last);
-    while (status == PETRI_OK && petri_frame(repl->session).number < frame) {
+    while (status == PETRI_OK && petri_frame_number(repl->session) < frame) {
         status = history_goto(&repl->history, repl->session, last + ++made, why);
         progress_update(&progress, made);
     }
@@ -169,7 +170,9 @@ static bool run_run(Repl *repl, const char *rest) {
         return false;
     if (seconds < 0)
         return repl_fail(repl, "not a time: '%s'; use seconds or a time code such as 1:30", rest);
-    double frames = ceil(seconds * petri_frame(repl->session).fps - 1e-9);
+    PetriFrame frame;
+    petri_frame(repl->session, &frame, sizeof frame);
+    double frames = ceil(seconds * frame.fps - 1e-9);
     bool limited = frames > (double)repl->options->limit;
     return step_frames(repl,
                        &(StepRequest){.count = limited ? repl->options->limit : (int64_t)frames, .limited = limited});
@@ -183,16 +186,17 @@ static bool run_until(Repl *repl, const char *rest) {
     if (expression[0] == '\0')
         return repl_fail(repl, ".until needs an expression");
     PetriEvaluation result; // unused: this only checks the expression
-    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL)) &&
+    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result,
+                                            NULL, NULL)) &&
            step_frames(repl, &(StepRequest){.count = limit, .until = expression});
 }
 
 static bool run_back(Repl *repl, const char *rest) {
-    int64_t count = 1, ago = petri_frame(repl->session).number - repl->history.first;
+    int64_t count = 1, ago = petri_frame_number(repl->session) - repl->history.first;
     if (!argument_count(repl, rest, 1, &count))
         return false;
     if (count <= ago)
-        return go_to(repl, petri_frame(repl->session).number - count);
+        return go_to(repl, petri_frame_number(repl->session) - count);
     SCOPED_TEXT start = {0}; // the reason why the history does not start earlier
     const char *why = repl->history.why;
     text_add_format(&start, !why ? "this is the start" : "the history starts here (%s)", why);
@@ -211,7 +215,7 @@ static bool run_go(Repl *repl, const char *rest) {
 static bool run_reset(Repl *repl, const char *rest) {
     (void)rest;
     PetriStatus status = history_reset(&repl->history, repl->session);
-    if (status == PETRI_OK && petri_frame(repl->session).number < repl->history.first &&
+    if (status == PETRI_OK && petri_frame_number(repl->session) < repl->history.first &&
         !history_start(&repl->history, repl->session, NULL))
         status = PETRI_OUT_OF_MEMORY;
     if (!repl_status(repl, status))

@@ -91,8 +91,8 @@ bool frames_load(Frames *frames) {
 }
 
 double frames_fps(const Frames *frames) {
-    double fps = petri_frame(frames->session).fps;
-    return fps > 0 ? fps : frames->options->fps;
+    PetriFrame frame;
+    return petri_frame(frames->session, &frame, sizeof frame) && frame.fps > 0 ? frame.fps : frames->options->fps;
 }
 
 static void save_state(Frames *frames, bool at_once) {
@@ -164,7 +164,7 @@ static void report_limit(const Frames *frames, int64_t number) {
 
 bool frames_step(Frames *frames) {
     progress_update(&frames->progress, frames->done - frames->before_first_picture);
-    int64_t number = petri_frame(frames->session).number + 1; // read before the step, because the step can fail
+    int64_t number = petri_frame_number(frames->session) + 1; // read before the step, because the step can fail
     frames_set_interruptible(frames, true);
     PetriStatus status = interrupted ? PETRI_INTERRUPTED : petri_step(frames->session);
     frames_set_interruptible(frames, false);
@@ -184,7 +184,7 @@ bool frames_step(Frames *frames) {
 }
 
 void frames_save_state(Frames *frames) {
-    int64_t every = frames->options->save_every, number = petri_frame(frames->session).number;
+    int64_t every = frames->options->save_every, number = petri_frame_number(frames->session);
     save_state(frames, every > 0 && (number + 1) % every == 0);
 }
 

@@ -102,14 +102,15 @@ static void send_head(Output *output, Hdf5Command act, uint64_t bytes) {
 
 bool h5md_add(H5md *file, PetriSession *session, Output *output) {
     SCOPED_TEXT texts = {0};
-    PetriFrame now = petri_frame(session);
+    PetriFrame now;
+    petri_frame(session, &now, sizeof now);
     Hdf5Frame frame = {.number = now.number, .time = now.time, .text_count = file->sent};
     size_t bytes = sizeof frame;
     PetriSystem system;
     file->ids.len = 0;
     text_add_c(&file->ids, "");
     text_add_c(&texts, "");
-    for (; petri_system(session, frame.system_count, &system); frame.system_count++) {
+    for (; petri_system(session, frame.system_count, &system, sizeof system); frame.system_count++) {
         if (!add_ids(file, session, frame.system_count, &system))
             return false;
         bytes += sizeof(Hdf5System) + hdf5_padded(strlen(system.name)) +
@@ -123,7 +124,7 @@ bool h5md_add(H5md *file, PetriSession *session, Output *output) {
     output_write(output, (const char *)&frame, sizeof frame);
     send_text(output, texts.bytes, texts.len);
     const int64_t *ids = (const int64_t *)(const void *)file->ids.bytes;
-    for (size_t s = 0; petri_system(session, s, &system); s++) {
+    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
         send_system(output, &system, ids);
         ids += system.particle_count;
     }

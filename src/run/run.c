@@ -80,7 +80,8 @@ static void output_frame(Run *run) {
 static bool run_frame(Run *run) {
     if (!frames_step(&run->frames))
         return false;
-    PetriFrame frame = petri_frame(run->frames.session);
+    PetriFrame frame;
+    petri_frame(run->frames.session, &frame, sizeof frame);
     stats_count(&run->stats, run->frames.session);
     bool printed = frame.number % run->frames.options->every == 0;
     if (printed)
@@ -126,7 +127,7 @@ static void report_summary(Run *run) {
 static bool open_trajectory(Run *run) {
     Frames *frames = &run->frames;
     const Options *options = frames->options;
-    int64_t after = petri_frame(frames->session).number;
+    int64_t after = petri_frame_number(frames->session);
     Resume resume = {options->state_file, after, after < 0 ? -1 : after - after % options->every};
     if (!options->trajectory)
         return true;

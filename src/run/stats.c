@@ -7,13 +7,14 @@
 #include <stdio.h>
 
 void stats_count(Stats *stats, PetriSession *session) {
-    PetriFrame frame = petri_frame(session);
+    PetriFrame frame;
+    petri_frame(session, &frame, sizeof frame);
     stats->frames++;
     stats->physics_steps += frame.physics_steps;
     stats->evaluation_seconds += frame.evaluation_seconds;
     stats->physics_seconds += frame.physics_seconds;
     PetriSystem system;
-    for (size_t i = 0; frame.physics_steps > 0 && petri_system(session, i, &system); i++)
+    for (size_t i = 0; frame.physics_steps > 0 && petri_system(session, i, &system, sizeof system); i++)
         stats->particle_steps += (double)system.steps * system.particle_count;
 }
 
@@ -24,7 +25,7 @@ static void print_traffic(PetriSession *session, size_t number, const PetriRanks
         "by region"};
     enum { OWN, HALO, BYTES, MESSAGES, FRAME_BYTES, REDUCTIONS, NUMBERS };
     PetriRankStats traffic;
-    if (!ranks || !petri_rank_stats(session, number, &traffic))
+    if (!ranks || !petri_rank_stats(session, number, &traffic, sizeof traffic))
         return;
     double steps = traffic.steps > 0 ? (double)traffic.steps : 1,
            frames = traffic.frames > 0 ? (double)traffic.frames : 1;
@@ -80,7 +81,7 @@ void stats_print(const Stats *stats, PetriSession *session, double seconds, cons
     double rate = stats->physics_seconds > 0 ? stats->particle_steps / stats->physics_seconds : 0;
     fprintf(stderr, "  %-18s%.4g million per second of physics\n", "particle-steps", rate * 1e-6);
     PetriSystem system;
-    for (size_t i = 0; petri_system(session, i, &system); i++) {
+    for (size_t i = 0; petri_system(session, i, &system, sizeof system); i++) {
         print_system(session, i, &system);
         print_traffic(session, i, ranks);
     }

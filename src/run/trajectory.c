@@ -110,17 +110,18 @@ static void add_xyz_vector(Output *output, PetriColumn column, uint32_t particle
 }
 
 static void add_xyz(Output *output, PetriSession *session) {
-    PetriFrame frame = petri_frame(session);
+    PetriFrame frame;
+    petri_frame(session, &frame, sizeof frame);
     PetriSystem system;
     uint64_t count = 0;
-    for (size_t s = 0; petri_system(session, s, &system); s++)
+    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++)
         count += system.particle_count;
     output_format(output,
                   "%" PRIu64 "\nProperties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:charge:R:1:"
                   "id:I:1:system:I:1:anchor:I:1 Time=%.17g Frame=%" PRId64 "\n",
                   count, frame.time, frame.number);
     uint64_t id = 0;
-    for (size_t s = 0; petri_system(session, s, &system); s++) {
+    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
         for (uint32_t i = 0; i < system.particle_count; i++) {
             output_format(output, "X");
             add_xyz_vector(output, system.position, i, system.dimensions);

@@ -187,7 +187,7 @@ static bool evaluate_condition(PetriSession *session, const Design *design, size
         text_add_format(&text, " %s=", design->axes[i].name);
         axis_add_literal(&text, design_value(design, run, i));
     }
-    return petri_evaluate(session, text.bytes, text.len, result, NULL, NULL) == PETRI_OK;
+    return petri_evaluate(session, text.bytes, text.len, result, sizeof *result, NULL, NULL) == PETRI_OK;
 }
 
 // Evaluates the condition as the user wrote it, so that diagnostics show the user's text.
@@ -198,7 +198,7 @@ static void report_condition_error(PetriSession *session, const Design *design, 
         text_add_format(&definition, "%s=%s", design->axes[i].name, design_value(design, run, i));
         petri_define(session, definition.bytes);
     }
-    petri_evaluate(session, where, PETRI_NUL_TERMINATED, &result, NULL, NULL);
+    petri_evaluate(session, where, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
 }
 
 static bool filter_runs(Design *design, const char *where, const CommandContext *host) {

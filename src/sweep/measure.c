@@ -75,8 +75,8 @@ static void add_cell(Text *rows, const char *text, size_t length) {
 static PetriStatus add_metric(Measure *measure, const Metric *metric) {
     SCOPED_TEXT value = {0};
     PetriEvaluation result = {0};
-    PetriStatus status =
-        petri_evaluate(measure->session, metric->expression, PETRI_NUL_TERMINATED, &result, text_collect, &value);
+    PetriStatus status = petri_evaluate(measure->session, metric->expression, PETRI_NUL_TERMINATED, &result,
+                                        sizeof result, text_collect, &value);
     text_add_format(&measure->rows, "\t");
     if (status == PETRI_OK && result.length > 0)
         add_cell(&measure->rows, value.bytes, value.len);
@@ -118,7 +118,8 @@ static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
     *measured = options->row_every > 0 && measure->frames % options->row_every == 0;
     measure->frames++;
     if (options->until)
-        status = petri_evaluate(measure->session, options->until, PETRI_NUL_TERMINATED, &until, NULL, NULL);
+        status =
+            petri_evaluate(measure->session, options->until, PETRI_NUL_TERMINATED, &until, sizeof until, NULL, NULL);
     *ends = until.is_true || measure->frames == options->frames;
     *measured = *measured || *ends;
     return status == PETRI_OK && *measured ? add_row(measure) : status;
@@ -141,7 +142,8 @@ void measure_run(Measure *measure, size_t run) {
 static bool try_expression(Measure *measure, const char *option, const char *expression) {
     PetriEvaluation result = {0};
     uint64_t errors = petri_diagnostic_count(measure->session, PETRI_ERROR);
-    PetriStatus status = petri_evaluate(measure->session, expression, PETRI_NUL_TERMINATED, &result, NULL, NULL);
+    PetriStatus status =
+        petri_evaluate(measure->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
     bool aborted = status == PETRI_OUT_OF_MEMORY || status == PETRI_LIMIT_EXCEEDED || status == PETRI_INTERRUPTED;
     if (aborted || (status != PETRI_INVALID && petri_diagnostic_count(measure->session, PETRI_ERROR) == errors))
         return true;

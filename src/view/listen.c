@@ -80,7 +80,7 @@ void listener_close(Listener *listener) {
 
 static void add_diagnostics(PetriSession *session, Text *out) {
     PetriDiagnostic diagnostic;
-    for (size_t i = 0; petri_diagnostic(session, i, &diagnostic); i++) {
+    for (size_t i = 0; petri_diagnostic(session, i, &diagnostic, sizeof diagnostic); i++) {
         json_add_diagnostic(out, &diagnostic);
         text_add_c(out, "\n");
     }
@@ -142,11 +142,11 @@ static ListenerResult execute_command(LiveScript *live, char *text, Text *out) {
     } else if (strcmp(text, ".drop") == 0) {
         petri_prompt_clear(live->session, true);
     } else {
-        done = petri_prompt(live->session, text, length, text_collect, &output, &prompted) == PETRI_OK;
+        done = petri_prompt(live->session, text, length, text_collect, &output, &prompted, sizeof prompted) == PETRI_OK;
     }
     add_output(&output, out);
     add_diagnostics(live->session, out);
-    add_result_line(out, done, petri_frame(live->session).number, &prompted);
+    add_result_line(out, done, petri_frame_number(live->session), &prompted);
     return result;
 }
 

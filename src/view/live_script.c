@@ -142,7 +142,9 @@ bool live_script_check_drawn(LiveScript *live, PetriStatus status) {
 static void record_frame(LiveScript *live) {
     if (live->awaits_display)
         return;
-    live->recording.fps = petri_frame(live->session).fps;
+    PetriFrame frame;
+    petri_frame(live->session, &frame, sizeof frame);
+    live->recording.fps = frame.fps;
     if (petri_picture_needs_history(live->picture) && !recording_add(&live->recording, live->picture, live->painter))
         live->failed = true;
     petri_picture_report(live->session, live->picture);
@@ -211,7 +213,8 @@ bool live_script_step(LiveScript *live) {
     size_t before = live->error_text.len;
     PetriStatus status =
         live->options->listen ? history_step(&live->history, live->session) : petri_step(live->session);
-    PetriFrame frame = petri_frame(live->session);
+    PetriFrame frame;
+    petri_frame(live->session, &frame, sizeof frame);
     if (status != PETRI_OK) {
         char line[100];
         snprintf(line, sizeof line, "stopped in frame %" PRId64 "%s", frame.number,
@@ -290,7 +293,7 @@ bool live_script_enable_history(LiveScript *live) {
 }
 
 bool live_script_go_back(LiveScript *live, int64_t count, Text *why) {
-    int64_t now = petri_frame(live->session).number, first = live->history.first + 1;
+    int64_t now = petri_frame_number(live->session), first = live->history.first + 1;
     if (now <= first) {
         text_add_format(why, "cannot go back: %s", !live->history.why ? "this is the start" : live->history.why);
         return false;
@@ -328,7 +331,7 @@ static void base_name(const char *script, char *name, size_t size) {
 static bool save_picture(LiveScript *live, const char *name) {
     PetriPictureOptions options = picture_options(live);
     PetriPicture *full = NULL;
-    if (live->detail < 1 && petri_frame(live->session).number == petri_picture_frame(live->picture))
+    if (live->detail < 1 && petri_frame_number(live->session) == petri_picture_frame(live->picture))
         petri_picture(live->session, &options, &full);
     PetriPicture *picture = full ? full : live->picture;
     bool saved = petri_picture_save(picture, live->painter, name) == PETRI_OK;

@@ -67,13 +67,14 @@ void overlay_draw(PetriPainter *painter, const Overlay *overlay, double scale, u
                   int height) {
     Layout layout;
     layout_labels(&layout, overlay, scale, width, height);
-    petri_painter_draw_labels(painter, layout.labels, layout.count, scale, pixels, width, height,
-                              (size_t)width * sizeof *pixels);
+    petri_painter_draw_labels(painter, layout.labels, layout.count, sizeof layout.labels[0], scale, pixels, width,
+                              height, (size_t)width * sizeof *pixels);
 }
 
 PetriStatus overlay_show(PetriPainter *painter, PetriPicture *picture, const Overlay *overlay, double scale, int width,
                          int height) {
     Layout layout;
     layout_labels(&layout, overlay, scale, width, height);
-    return petri_painter_present(painter, picture, layout.labels, layout.count, scale, width, height);
+    return petri_painter_present(painter, picture, layout.labels, layout.count, sizeof layout.labels[0], scale, width,
+                                 height);
 }

@@ -52,14 +52,14 @@ bool parameter_key_repeats(const char *key) {
 static size_t count_parameters(PetriSession *session) {
     PetriParameter parameter;
     size_t count = 0;
-    while (petri_parameter(session, count, &parameter) && parameter.settable)
+    while (petri_parameter(session, count, &parameter, sizeof parameter) && parameter.settable)
         count++;
     return count;
 }
 
 static void describe_parameter(LiveScript *live, size_t chosen, Text *text) {
     PetriParameter parameter;
-    if (petri_parameter(live->session, chosen, &parameter)) {
+    if (petri_parameter(live->session, chosen, &parameter, sizeof parameter)) {
         parameter_describe(text, &parameter);
         text_add_format(text, "%s%s", parameter.comment[0] == '\0' ? "" : "  ", parameter.comment);
     }
@@ -67,7 +67,7 @@ static void describe_parameter(LiveScript *live, size_t chosen, Text *text) {
 
 static ParameterResult set_value(ParameterKeys *keys, LiveScript *live, const char *value, Text *text) {
     PetriParameter parameter;
-    petri_parameter(live->session, keys->chosen, &parameter);
+    petri_parameter(live->session, keys->chosen, &parameter, sizeof parameter);
     SCOPED_STRING name = memory_strdup(parameter.name);
     bool done = live_script_set_parameter(live, name, value);
     describe_parameter(live, keys->chosen, text);
@@ -76,7 +76,7 @@ static ParameterResult set_value(ParameterKeys *keys, LiveScript *live, const ch
 
 static ParameterResult step_value(ParameterKeys *keys, LiveScript *live, int steps, Text *text) {
     PetriParameter parameter;
-    petri_parameter(live->session, keys->chosen, &parameter);
+    petri_parameter(live->session, keys->chosen, &parameter, sizeof parameter);
     double to = parameter_stepped(&parameter, steps);
     if (isnan(to) || to == parameter.number) {
         describe_parameter(live, keys->chosen, text);

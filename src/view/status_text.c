@@ -66,7 +66,8 @@ static void add_parameters(View *view, char *text, size_t size) {
 void view_update_status(View *view) {
     char text[sizeof view->overlay.status] = "";
     if (view->shows_status) {
-        PetriFrame frame = petri_frame(view->live.session);
+        PetriFrame frame;
+        petri_frame(view->live.session, &frame, sizeof frame);
         double seconds = frame.time;
         snprintf(text, sizeof text,
                  "%.1f fps  frame %" PRId64 "  %d:%05.2f  beat %.2f\n"

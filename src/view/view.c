@@ -66,7 +66,9 @@ static void step_script(View *view) {
 }
 
 static bool at_end(const View *view) {
-    return !options_due(view->live.options, view->live.frames, view->start, petri_frame(view->live.session).fps);
+    PetriFrame frame;
+    petri_frame(view->live.session, &frame, sizeof frame);
+    return !options_due(view->live.options, view->live.frames, view->start, frame.fps);
 }
 
 static bool can_step(const View *view) {
@@ -88,7 +90,8 @@ static void report_pointer(View *view, const Event *event) {
     int across, down;
     view->kind->size(view->display, view->width, view->height, &across, &down);
     double scale = fmin((double)across / view->width, (double)down / view->height);
-    PetriPointer pointer = {.x = (event->x - across / 2.0) / (view->width * scale) + 0.5,
+    PetriPointer pointer = {.size = sizeof pointer,
+                            .x = (event->x - across / 2.0) / (view->width * scale) + 0.5,
                             .y = (event->y - down / 2.0) / (view->height * scale) + 0.5,
                             .buttons = event->buttons};
     pointer.inside = event->inside && pointer.x >= 0 && pointer.x <= 1 && pointer.y >= 0 && pointer.y <= 1;
@@ -393,7 +396,7 @@ static int run_view(View *view) {
     bool opened = open_display(view);
     if (opened) {
         live_script_begin(&view->live);
-        petri_report_pointer(view->live.session, &(PetriPointer){.inside = false});
+        petri_report_pointer(view->live.session, &(PetriPointer){.size = sizeof(PetriPointer), .inside = false});
         petri_resync_clock(view->live.session);
         view_hint_keys(view);
         run_loop(view);

@@ -52,7 +52,8 @@ EXPORT(void, web_close, PetriSession *session) {
 }
 
 EXPORT(void, web_frame, const PetriSession *session) {
-    PetriFrame frame = petri_frame(session);
+    PetriFrame frame;
+    petri_frame(session, &frame, sizeof frame);
     host_frame((double)frame.number, frame.time, frame.beat, frame.fps, frame.tempo, (double)frame.physics_steps,
                frame.evaluation_seconds, frame.physics_seconds);
 }
@@ -111,14 +112,14 @@ EXPORT(PetriStatus, web_log, PetriSession *session) {
 
 EXPORT(void, web_parameters, PetriSession *session) {
     PetriParameter p;
-    for (size_t i = 0; petri_parameter(session, i, &p); i++)
+    for (size_t i = 0; petri_parameter(session, i, &p, sizeof p); i++)
         host_parameter(p.name, p.default_value, p.value, p.comment, p.number, p.default_number, p.min, p.max, p.step,
                        p.defined, p.settable, p.line, p.column);
 }
 
 EXPORT(void, web_systems, PetriSession *session) {
     PetriSystem system;
-    for (size_t i = 0; petri_system(session, i, &system); i++) {
+    for (size_t i = 0; petri_system(session, i, &system, sizeof system); i++) {
         const PetriColumn ids = petri_particle_ids(session, i);
         host_system(system.name, system.dimensions, system.particle_count, system.force_count, (double)system.steps);
         host_column("position", system.position.data, system.position.stride);
@@ -153,19 +154,20 @@ EXPORT(bool, web_symbol_name, const PetriSession *session, double number) {
 }
 
 EXPORT(PetriStatus, web_pointer, PetriSession *session, bool inside, double x, double y, unsigned buttons) {
-    return petri_report_pointer(session, &(PetriPointer){.inside = inside, .x = x, .y = y, .buttons = buttons});
+    return petri_report_pointer(
+        session, &(PetriPointer){.size = sizeof(PetriPointer), .inside = inside, .x = x, .y = y, .buttons = buttons});
 }
 
 EXPORT(PetriStatus, web_prompt, PetriSession *session, const char *text, size_t length) {
     PetriPromptResult done;
-    return petri_prompt(session, text, length, write_text, NULL, &done);
+    return petri_prompt(session, text, length, write_text, NULL, &done, sizeof done);
 }
 
 // Evaluates an expression and writes its value as text. Also passes the value to host_entry as one number, which is NaN
 // if the value is not a number.
 EXPORT(PetriStatus, web_evaluate, PetriSession *session, const char *text, size_t length) {
     PetriEvaluation result = {.number = __builtin_nan("")};
-    PetriStatus status = petri_evaluate(session, text, length, &result, write_text, NULL);
+    PetriStatus status = petri_evaluate(session, text, length, &result, sizeof result, write_text, NULL);
     host_entry("", &result.number, 1, NULL);
     return status;
 }
@@ -182,7 +184,7 @@ static const uint32_t *find_image(void *user_data, const char *file, int *width,
 
 // Returns a painter, or NULL if WebGL 2 is not available.
 EXPORT(PetriPainter *, web_painter, void) {
-    const PetriCanvasBackend host = {.draw = draw_canvas, .image = find_image};
+    const PetriCanvasBackend host = {.size = sizeof host, .draw = draw_canvas, .image = find_image};
     PetriPainter *painter = petri_painter_open();
     if (painter && (petri_painter_use_backend(painter, &host) != PETRI_OK || petri_painter_use_gl(painter) != PETRI_OK))
         petri_painter_close(&painter);
@@ -228,7 +230,7 @@ static PetriStatus render_picture(PetriSession *session, PetriPainter *painter, 
     int width, height;
     petri_picture_size(picture, &width, &height);
     host_screen(width, height);
-    PetriStatus status = petri_painter_present(painter, picture, NULL, 0, 1, width, height);
+    PetriStatus status = petri_painter_present(painter, picture, NULL, 0, 0, 1, width, height);
     petri_picture_report(session, picture);
     if (status == PETRI_OK)
         host_shown(petri_picture_title(picture), ready);
@@ -264,13 +266,13 @@ EXPORT(PetriStatus, web_tokens, PetriSession *session, const char *text, size_t 
 
 EXPORT(void, web_help, const PetriSession *session) {
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++)
         host_help("function", builtin.name, builtin.parameters, "", "", builtin.help);
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         host_help("node", kind.name, kind.area, "", "", kind.help);
         PetriNodeAttribute attribute;
-        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++)
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++)
             host_help("attribute", attribute.name, attribute.type, attribute.default_value, attribute.unit,
                       attribute.help);
     }

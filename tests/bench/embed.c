@@ -25,7 +25,7 @@ int main(int argc, char **argv) {
     double sum = 0;
     for (long frame = argc == 3 ? strtol(argv[2], NULL, 10) : 0; frame > 0 && status == PETRI_OK; frame--) {
         status = petri_step(session);
-        sum = petri_system(session, 0, &system) ? speed_sum(&system) / system.particle_count : 0;
+        sum = petri_system(session, 0, &system, sizeof system) ? speed_sum(&system) / system.particle_count : 0;
     }
     printf("%.17g\n", sum);
     petri_close(&session);

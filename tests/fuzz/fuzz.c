@@ -99,7 +99,7 @@ void fuzz_check_frame(PetriSession *session) {
     PetriSystem system;
     PetriForce force;
     PetriParameter parameter;
-    for (size_t i = 0; i < 4 && petri_system(session, i, &system); i++) {
+    for (size_t i = 0; i < 4 && petri_system(session, i, &system, sizeof system); i++) {
         for (uint32_t j = 0; j < MAX_COUNT && j < system.particle_count; j++) {
             PetriValue id = petri_particle_id(session, i, j);
             const char *text = petri_format_value(session, id);
@@ -108,10 +108,10 @@ void fuzz_check_frame(PetriSession *session) {
             seen += petri_find_particle(session, i, id, &found) ? found : 0;
             seen += (size_t)(system.position.data[j * system.position.stride + system.dimensions - 1] > 0);
         }
-        for (uint32_t j = 0; j < MAX_COUNT && petri_system_force(session, i, j, &force); j++)
+        for (uint32_t j = 0; j < MAX_COUNT && petri_system_force(session, i, j, &force, sizeof force); j++)
             seen += strlen(force.kind);
     }
-    for (size_t i = 0; i < MAX_COUNT && petri_parameter(session, i, &parameter); i++)
+    for (size_t i = 0; i < MAX_COUNT && petri_parameter(session, i, &parameter, sizeof parameter); i++)
         seen += strlen(parameter.name) + strlen(parameter.value) + strlen(parameter.comment);
 }
 

@@ -42,8 +42,8 @@ static void list_names(PetriSession *session) {
 }
 
 static void report_input(PetriSession *session, const char *text, size_t length) {
-    PetriPointer pointer = {length > 0, length > 0 ? text[0] / 100.0 : 0, length > 1 ? text[1] / 100.0 : 0,
-                            length > 2 ? (unsigned char)text[2] : 0};
+    PetriPointer pointer = {sizeof pointer, length > 0, length > 0 ? text[0] / 100.0 : 0,
+                            length > 1 ? text[1] / 100.0 : 0, length > 2 ? (unsigned char)text[2] : 0};
     petri_report_pointer(session, length % 7 == 6 ? NULL : &pointer);
     petri_report_key(session, "space", length % 2);
     fuzz_sink(NULL, "", petri_key_is_bound(session, "space"));
@@ -82,7 +82,7 @@ static void perform_action(Host *host, const char *text, size_t length) {
         petri_config_apply(session, host->config);
         break;
     case 6:
-        petri_evaluate(session, text + 1, length - 1, &result, fuzz_sink, NULL);
+        petri_evaluate(session, text + 1, length - 1, &result, sizeof result, fuzz_sink, NULL);
         break;
     case 7:
         petri_reload(session, NULL);
@@ -112,7 +112,7 @@ static void perform_action(Host *host, const char *text, size_t length) {
         break;
     default:
         petri_prompt_check(session, text, length);
-        petri_prompt(session, text, length, fuzz_sink, NULL, &done);
+        petri_prompt(session, text, length, fuzz_sink, NULL, &done, sizeof done);
     }
 }
 

@@ -27,7 +27,7 @@ static void draw_picture(PetriSession *session, PetriPainter *painter, PetriAuto
     petri_picture_draw(picture, painter, pixels, SIDE, SIDE, SIDE * sizeof *pixels);
     petri_picture_report(session, picture);
     PetriRecord record;
-    for (size_t i = 0; petri_picture_record(picture, painter, i, &record); i++)
+    for (size_t i = 0; petri_picture_record(picture, painter, i, &record, sizeof record); i++)
         fuzz_sink(NULL, record.file, 1);
     if (petri_picture_display_list(picture, &numbers, &count) == PETRI_OK)
         fuzz_sink(NULL, (const char *)numbers, count * sizeof *numbers);

@@ -75,11 +75,11 @@ static void write_dictionary(void) {
     PetriBuiltin builtin;
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++)
         add_word(file, builtin.name);
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         fprintf(file, "\"!%s\"\n", kind.name);
-        for (size_t j = 0; petri_node_attribute(i, j, &attribute); j++)
+        for (size_t j = 0; petri_node_attribute(i, j, &attribute, sizeof attribute); j++)
             fprintf(file, "\" %s=\"\n", attribute.name);
     }
     for (size_t i = 0; i < sizeof TOPICS / sizeof TOPICS[0]; i++)
@@ -95,7 +95,7 @@ static void write_dictionary(void) {
 
 static void write_builtins(void) {
     PetriBuiltin builtin;
-    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+    for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++)
         seed("script", builtin.name,
              "let v=3;1;2\n!a x=%s(frame/7) y=%s(v, 0.5) z=%s('a b', 2) w=%s(v, v, 1;2;3) n=%s()\n", builtin.name,
              builtin.name, builtin.name, builtin.name, builtin.name);
@@ -125,11 +125,11 @@ static void write_nodes(void) {
     static const char *const values[] = {"1;2", ":a", "frame/3", "'x'", "0.5", "1e308;0", "0"};
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         char name[80], text[2000];
         int size = 0;
         snprintf(name, sizeof name, "node-%s-%s", kind.area, kind.name);
-        for (size_t j = 0; petri_node_attribute(i, j, &attribute) && size < 1500; j++)
+        for (size_t j = 0; petri_node_attribute(i, j, &attribute, sizeof attribute) && size < 1500; j++)
             size += snprintf(text + size, sizeof text - (size_t)size, " %s=%s", attribute.name,
                              values[(i + j) % (sizeof values / sizeof values[0])]);
         text[size] = 0;

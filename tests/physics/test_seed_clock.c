@@ -44,14 +44,14 @@ static void test_two_steps(void **state) {
         world_open(&world, 60.0 / k, SYSTEM("resolution=1/60"));
         for (int frame = 0; frame < 20; frame++) {
             world_to(&world, frame);
-            assert_int_equal(petri_frame(world.session).physics_steps, frame ? k : 0);
+            assert_int_equal(last_frame(world.session).physics_steps, frame ? k : 0);
         }
         world_close(&world);
     }
     World world;
     world_open(&world, 60, SYSTEM(""));
     world_to(&world, 30);
-    assert_int_equal(petri_frame(world.session).physics_steps, 1);
+    assert_int_equal(last_frame(world.session).physics_steps, 1);
     EXPECT(&world, ":s;:clock", world_number(&world, ":s;:clock"));
     EXPECT_NEAR(&world, ":s;:clock", 1e-15, 0.5);
     world_close(&world);
@@ -68,7 +68,7 @@ static void test_real_time(void **state) {
     world_open_with(&world, options, SYSTEM("resolution=1/1024"));
     for (int frame = 1; frame <= 8; frame++) {
         world_to(&world, frame);
-        assert_int_equal(petri_frame(world.session).physics_steps, 1);
+        assert_int_equal(last_frame(world.session).physics_steps, 1);
         // The step after a late frame may be shorter than `resolution` but not longer.
         double clock = world_number(&world, ":s;:clock");
         assert_true(clock > 0 && clock <= frame / 1024.0);

@@ -177,7 +177,7 @@ static void test_tempo(void **state) {
         world_open(&world, rows[i].fps, script);
         for (int frame = 1; frame <= 30; frame++) {
             world_to(&world, frame);
-            assert_int_equal(petri_frame(world.session).physics_steps, 2); // one step for each of the two systems
+            assert_int_equal(last_frame(world.session).physics_steps, 2); // one step for each of the two systems
         }
         EXPECT_NEAR(&world, ":s;:clock", 1e-12, rows[i].beats);
         world_close(&world);

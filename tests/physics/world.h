@@ -1,7 +1,7 @@
 // world.h: helpers that run a script from a string and read its printed state, with petri.h only.
 #pragma once
 
-#include "petri.h"
+#include "last_frame.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -91,7 +91,7 @@ __attribute__((format(printf, 1, 2))) static inline char *text_of(const char *fo
 
 // Steps until the frame number equals `frame`.
 static inline void world_to(World *world, int64_t frame) {
-    while (petri_frame(world->session).number < frame)
+    while (petri_frame_number(world->session) < frame)
         assert_int_equal(petri_step(world->session), PETRI_OK);
     free(world->text);
     world->text = NULL;

@@ -242,12 +242,12 @@ static int check_complete(void) {
     static const char *const others[] = {"record", "pointer", "key"};
     int missing = 0;
     PetriNodeKind kind;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         bool other = strcmp(kind.area, "canvas") != 0;
         for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
             other |= strcmp(kind.name, others[k]) == 0;
         PetriNodeAttribute attribute;
-        for (size_t k = 0; !other && petri_node_attribute(i, k, &attribute); k++)
+        for (size_t k = 0; !other && petri_node_attribute(i, k, &attribute, sizeof attribute); k++)
             if (!was_seen(kind.name, attribute.name) && !in_common(attribute.name)) {
                 printf("FAIL: no script has !%s with %s\n", kind.name, attribute.name);
                 missing++;
@@ -265,12 +265,12 @@ static int check_scenes(void) {
     int missing = 0;
     PetriNodeKind kind, other;
     PetriNodeAttribute attribute;
-    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         if (strcmp(kind.area, "canvas3d") != 0)
             continue;
-        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++) {
             bool found = strcmp(attribute.name, "hidden") == 0; // every node has this attribute
-            for (size_t o = 0; !found && petri_node_kind(o, &other); o++)
+            for (size_t o = 0; !found && petri_node_kind(o, &other, sizeof other); o++)
                 found = strcmp(other.area, "canvas3d") == 0 && was_seen(other.name, attribute.name);
             if (!found)
                 printf("FAIL: no scene has !%s with %s\n", kind.name, attribute.name);

@@ -97,7 +97,8 @@ static int present_script(const char *script, int frames, size_t labels) {
         glClearColor(1, 0, 1, 1);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         glClear(GL_COLOR_BUFFER_BIT);
-        assert_int_equal(petri_painter_present(painter, picture, &label, labels, 1.5, WIDTH, HEIGHT), PETRI_OK);
+        assert_int_equal(petri_painter_present(painter, picture, &label, labels, sizeof label, 1.5, WIDTH, HEIGHT),
+                         PETRI_OK);
         read_window(seen);
         assert_int_equal(petri_painter_readback_count(painter), 0);
         use_window(false);
@@ -109,9 +110,9 @@ static int present_script(const char *script, int frames, size_t labels) {
     }
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         wanted[i] |= 0xff000000u;
-    assert_int_equal(
-        petri_painter_draw_labels(drawn.painter, &label, labels, 1.5, wanted, WIDTH, HEIGHT, WIDTH * sizeof *wanted),
-        PETRI_OK);
+    assert_int_equal(petri_painter_draw_labels(drawn.painter, &label, labels, sizeof label, 1.5, wanted, WIDTH, HEIGHT,
+                                               WIDTH * sizeof *wanted),
+                     PETRI_OK);
     assert_string_equal(drawn.reported, "");
     petri_painter_close(&painter);
     use_window(false);
@@ -170,17 +171,17 @@ static void test_without_picture(void **state) {
     uint32_t seen[WIDTH * HEIGHT];
     PetriPainter *painter = petri_painter_open();
     use_window(true);
-    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT), PETRI_INVALID);
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 0, 1, WIDTH, HEIGHT), PETRI_INVALID);
     assert_int_equal(petri_painter_use_gl(painter), PETRI_OK);
     assert_int_equal(petri_painter_use_gl(painter), PETRI_INVALID);
-    assert_int_equal(petri_painter_present(painter, NULL, NULL, 1, 1, WIDTH, HEIGHT), PETRI_INVALID);
-    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, 0, HEIGHT), PETRI_INVALID);
-    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT), PETRI_OK);
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 1, 0, 1, WIDTH, HEIGHT), PETRI_INVALID);
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 0, 1, 0, HEIGHT), PETRI_INVALID);
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 0, 1, WIDTH, HEIGHT), PETRI_OK);
     read_window(seen);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         assert_int_equal(seen[i], 0xff000000u);
     use_window(false);
-    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 1, WIDTH, HEIGHT),
+    assert_int_equal(petri_painter_present(painter, NULL, NULL, 0, 0, 1, WIDTH, HEIGHT),
                      PETRI_INVALID); // fails, because no context is current
     petri_painter_close(&painter);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "check.h"
+#include "last_frame.h"
 #include "petri.h"
 
 #include <stdlib.h>

@@ -14,7 +14,7 @@ _END = r"(?![\w'])"
 def _names(make, kind):
     """Yields the names in one of petri's tables."""
     row, number = ffi.new(kind + " *"), 0
-    while make(number, row):
+    while make(number, row, ffi.sizeof(kind)):
         yield ffi.string(row.name).decode()
         number += 1
 

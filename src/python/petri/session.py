@@ -194,13 +194,15 @@ class Session:
     def frame(self) -> Frame:
         """The last computed frame. Before the first frame, its number is -1."""
         with self._lock:
-            frame = lib.petri_frame(self._c)
+            frame = ffi.new("PetriFrame *")
+            lib.petri_frame(self._c, frame, ffi.sizeof(frame[0]))
         return Frame(*(getattr(frame, name) for name in Frame._fields))
 
     def evaluate(self, text: str) -> values.Value:
         """Returns the value of an expression in the last frame."""
         data = text.encode()
-        return values.parse(self._collect(lib.petri_evaluate, data, len(data), ffi.new("PetriEvaluation *")))
+        result = ffi.new("PetriEvaluation *")
+        return values.parse(self._collect(lib.petri_evaluate, data, len(data), result, ffi.sizeof(result[0])))
 
     def interrupt(self) -> None:
         """Aborts the frame that another thread is computing; its step raises InterruptedStep. Thread-safe."""
@@ -209,7 +211,7 @@ class Session:
     def snapshot(self) -> Snapshot:
         """Returns a snapshot of the complete state."""
         with self._lock:
-            return Snapshot(self._c, lib.petri_frame(self._c).number)
+            return Snapshot(self._c, lib.petri_frame_number(self._c))
 
     def rewind(self, snapshot: Snapshot) -> None:
         """Returns to the end of the snapshot's frame. Recomputed frames are bit-identical."""

@@ -79,11 +79,11 @@ static void test_picture_outlives_session(void **state) {
     assert_true(petri_picture_needs_history(second));
     assert_false(petri_picture_needs_history(fifth));
     if (petri_picture_render(second, painter) != PETRI_UNSUPPORTED) {
-        assert_true(petri_picture_record(second, painter, 0, &record));
+        assert_true(petri_picture_record(second, painter, 0, &record, sizeof record));
         assert_string_equal(record.file, "a.png");
-        assert_false(petri_picture_record(second, painter, 1, &record));
-        assert_false(petri_picture_record(fifth, painter, 0, &record)); // fails because another picture was rendered
-                                                                        // last
+        assert_false(petri_picture_record(second, painter, 1, &record, sizeof record));
+        assert_false(petri_picture_record(fifth, painter, 0, &record, sizeof record)); // fails because another picture
+                                                                                       // was rendered last
     }
     petri_painter_close(&painter);
     petri_picture_size(second, &width, &height);
@@ -131,9 +131,12 @@ static void test_sizes_and_options_are_checked(void **state) {
     coarse.detail = 1.5;
     make_picture(player, coarse, PETRI_INVALID);
     options = petri_default_picture_options();
-    options.size++; // a later version of petri-draw.h
+    options.size = SIZE_MAX;
     make_picture(player, options, PETRI_INVALID);
     player_run(player, "!window\n    !canvas\n", 1);
+    options.size = offsetof(PetriPictureOptions, detail); // an earlier version of petri-draw.h
+    options.detail = -1;
+    check_size(player, options, 512, 512);
     check_size(player, petri_default_picture_options(), 512, 512);
     player_run(player, "!window\n    !canvas size=30;20\n", 1);
     check_size(player, petri_default_picture_options(), 512, 512);
@@ -208,7 +211,7 @@ static void test_failed_shader_is_lacking(void **state) {
     player_run(player, "!window size=9\n    !shader fragment='void main() {}'\n", 1);
     PetriShaderProblem problem;
     bool has_opengl = petri_shader_try("#version 300 es\nvoid main() { gl_Position = vec4(1); }",
-                                       "#version 300 es\nvoid main() {}", &problem);
+                                       "#version 300 es\nvoid main() {}", &problem, sizeof problem);
     assert_false(petri_picture_lacks_shader(NULL));
     assert_false(lacks_shader(player, NULL));
     assert_int_equal(lacks_shader(player, player), has_opengl);
@@ -279,7 +282,7 @@ static void test_ready_once_particles_can_be_shown(void **state) {
                 petri_reset(player->session);
             }
             player_step(player, 1);
-            assert_int_equal(petri_frame(player->session).number, frame);
+            assert_int_equal(petri_frame_number(player->session), frame);
             assert_int_equal(petri_picture_ready(player->session, &own), rows[i].ready[frame]);
             assert_true(petri_picture_ready(player->session, &automatic));
         }
@@ -289,7 +292,7 @@ static void test_ready_once_particles_can_be_shown(void **state) {
     snprintf(script, sizeof script, "%s%s", rows[1].system, window);
     player_run(player, script, 5);
     player_run(player, script, 1); // reloaded: frame 0, with the old state
-    assert_int_equal(petri_frame(player->session).number, 0);
+    assert_int_equal(petri_frame_number(player->session), 0);
     assert_true(petri_picture_ready(player->session, &own));
 }
 
@@ -314,7 +317,8 @@ static void test_label_changes_only_its_panel(void **state) {
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
             pixels[y][x] = blue;
-    PetriStatus status = petri_painter_draw_labels(painter, &label, 1, 2, pixels[0], WIDTH, HEIGHT, sizeof pixels[0]);
+    PetriStatus status =
+        petri_painter_draw_labels(painter, &label, 1, sizeof label, 2, pixels[0], WIDTH, HEIGHT, sizeof pixels[0]);
     petri_painter_close(&painter);
     if (status == PETRI_UNSUPPORTED)
         return;
@@ -481,7 +485,7 @@ static void test_host_backend_draws_canvases(void **state) {
     PetriPainter *painter = petri_painter_open();
     int calls = 0;
     uint32_t pixels[8];
-    PetriCanvasBackend host = {.draw = fill_black, .image = provide_pixels, .user_data = &calls};
+    PetriCanvasBackend host = {.size = sizeof host, .draw = fill_black, .image = provide_pixels, .user_data = &calls};
     assert_int_equal(petri_painter_use_backend(NULL, &host), PETRI_INVALID);
     assert_int_equal(petri_painter_use_backend(painter, NULL), PETRI_INVALID);
     PetriStatus status = petri_painter_use_backend(painter, &host);

@@ -16,7 +16,7 @@ static const char *next_tree_line(Player *player) {
 }
 
 static void move_pointer(Player *player, double x, double y, unsigned buttons) {
-    const PetriPointer pointer = {.inside = true, .x = x, .y = y, .buttons = buttons};
+    const PetriPointer pointer = {.size = sizeof pointer, .inside = true, .x = x, .y = y, .buttons = buttons};
     assert_int_equal(petri_report_pointer(player->session, &pointer), PETRI_OK);
 }
 
@@ -48,7 +48,7 @@ static void test_pointer(void **state) {
     assert_text("held", next_tree_line(player), "!see at=0.5;0 left=1 right=0 fourth=1\n");
     move_pointer(player, 7, -7, PETRI_BUTTON_RIGHT);
     assert_text("beyond", next_tree_line(player), "!see at=1;0 left=0 right=1 fourth=0\n");
-    const PetriPointer outside = {.buttons = PETRI_BUTTON_RIGHT};
+    const PetriPointer outside = {.size = sizeof outside, .buttons = PETRI_BUTTON_RIGHT};
     assert_int_equal(petri_report_pointer(player->session, &outside), PETRI_OK);
     assert_text("outside", next_tree_line(player), "!see left=0 right=1 fourth=0\n");
     assert_int_equal(petri_report_pointer(player->session, NULL), PETRI_OK);
@@ -70,11 +70,13 @@ static void test_positions_that_are_not_finite_are_rejected(void **state) {
     player_run(player, POINTER, 1);
     move_pointer(player, 0.5, 0.5, 0);
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
-        const PetriPointer pointer = {.inside = true, .x = bad[i][0], .y = bad[i][1], .buttons = PETRI_BUTTON_LEFT};
+        const PetriPointer pointer = {
+            .size = sizeof pointer, .inside = true, .x = bad[i][0], .y = bad[i][1], .buttons = PETRI_BUTTON_LEFT};
         assert_int_equal(petri_report_pointer(player->session, &pointer), PETRI_INVALID);
         assert_text("unchanged", next_tree_line(player), "!see at=0.5;0.5 left=0 right=0\n");
     }
-    const PetriPointer outside = {.inside = false, .x = NAN, .y = NAN}; // outside the window, x and y are ignored
+    const PetriPointer outside = {
+        .size = sizeof outside, .inside = false, .x = NAN, .y = NAN}; // outside the window, x and y are ignored
     assert_int_equal(petri_report_pointer(player->session, &outside), PETRI_OK);
     assert_text("outside", next_tree_line(player), "!see left=0 right=0\n");
 }

@@ -249,15 +249,15 @@ static void test_steps_are_counted(void **state) {
                "%pragma fps 8\n!physics state=:s dimensions=1 resolution=0.03125\n    !particle id=1\n"
                "!physics state=:t dimensions=1\n    !particle id=1\n",
                1);
-    assert_int_equal(petri_frame(player->session).physics_steps, 0);
+    assert_int_equal(last_frame(player->session).physics_steps, 0);
     player_step(player, 1);
-    assert_int_equal(petri_frame(player->session).physics_steps, 5);
+    assert_int_equal(last_frame(player->session).physics_steps, 5);
 }
 
 static void test_step_limit(void **state) {
     Player *player = *state;
     player_run(player, "!physics state=:s dimensions=1 resolution=1e-9\n", 2);
-    assert_true(petri_frame(player->session).physics_steps <= 1000000);
+    assert_true(last_frame(player->session).physics_steps <= 1000000);
     assert_non_null(strstr(player_diagnostics(player), "[step-limit]"));
 }
 

@@ -66,7 +66,7 @@ static void look_up_everything(PetriSession *session) {
         assert_int_equal(petri_state_set(session, key, value), PETRI_OK);
     }
     assert_int_equal(petri_set_global(session, "given", value), PETRI_OK);
-    for (size_t s = 0; petri_system(session, s, &system); s++) {
+    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
         uint32_t found = 0;
         petri_particle_ids(session, s);
         for (uint32_t i = 0; i < system.particle_count; i++) {

@@ -148,10 +148,11 @@ static void use_session(Life *life, PetriSession *session) {
         return;
     for (int i = 0; i < 2; i++)
         check_status(life, petri_step(session));
-    petri_parameter(session, 0, &parameter);
-    check_status(life, petri_prompt(session, "let more=area(2)", PETRI_NUL_TERMINATED, write_note, life, &done));
+    petri_parameter(session, 0, &parameter, sizeof parameter);
     check_status(life,
-                 petri_evaluate(session, "uniform(:x)[..3];'t'", PETRI_NUL_TERMINATED, &result, write_note, life));
+                 petri_prompt(session, "let more=area(2)", PETRI_NUL_TERMINATED, write_note, life, &done, sizeof done));
+    check_status(life, petri_evaluate(session, "uniform(:x)[..3];'t'", PETRI_NUL_TERMINATED, &result, sizeof result,
+                                      write_note, life));
     PetriSnapshot *snapshot = petri_snapshot(session);
     PetriConfig *config = petri_config_get(session);
     life->short_of |= !snapshot || !config;
@@ -247,7 +248,7 @@ static void test_allocator_in_use_is_not_replaced(void **state) {
     Host other;
     PetriAllocator allocator = allocator_of(&other), wrong = allocator;
     use_host();
-    wrong.size--;
+    wrong.size = 0;
     assert_int_equal(petri_set_allocator(&wrong), PETRI_INVALID);
     wrong = allocator;
     wrong.resize = NULL;

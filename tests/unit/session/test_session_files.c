@@ -222,7 +222,7 @@ static void test_check(void **state) {
     player_step(&desk->player, 1); // the script that was loaded before continues
     assert_text("state of the other session is not used", player_state(&desk->player), "");
     assert_text("still", player_tree(&desk->player), "!a\n");
-    assert_int_equal(petri_frame(session).number, 1);
+    assert_int_equal(petri_frame_number(session), 1);
 }
 
 // A check goes through the script several times, and then reports everything in the order of the text.

@@ -93,7 +93,7 @@ static void test_errors_are_reported(void **state) {
                 "warning t.fl:1:62 twice: the host function returned an invalid value [bad-call]\n");
     assert_text("null", player_tree(player), "!a\n!b\n");
     PetriDiagnostic first;
-    assert_true(petri_diagnostic(player->session, 0, &first));
+    assert_true(petri_diagnostic(player->session, 0, &first, sizeof first));
     assert_non_null(strstr(first.rendered, "did you mean 'total'?"));
 }
 
@@ -115,7 +115,7 @@ static void test_step_within_call_fails(void **state) {
     assert_int_equal(add_function(player, "total", "x", false, sum, &calls), PETRI_OK);
     player_run(player, "!a x=total(1)", 1);
     assert_int_equal(calls.stepped, PETRI_INVALID);
-    assert_int_equal(petri_frame(player->session).number, 0);
+    assert_int_equal(petri_frame_number(player->session), 0);
     assert_int_equal(petri_check_text(player->session, "c.fl", "!window size=total(2);1", PETRI_NUL_TERMINATED),
                      PETRI_OK);
     assert_string_equal(player_diagnostics(player), "");
@@ -132,11 +132,11 @@ static void test_invalid_functions_are_rejected(void **state) {
         assert_int_equal(add_function(player, names[i], "x", false, sum, NULL), PETRI_INVALID);
     for (size_t i = 0; i < COUNT_OF(bad); i++)
         assert_int_equal(add_function(player, "f", bad[i], false, sum, NULL), PETRI_INVALID);
-    assert_false(petri_host_function(player->session, 0, &found));
+    assert_false(petri_host_function(player->session, 0, &found, sizeof found));
     for (size_t i = 0; i < COUNT_OF(good); i++) {
         const char name[] = {(char)('a' + i), 0};
         assert_int_equal(add_function(player, name, good[i], false, sum, NULL), PETRI_OK);
-        assert_true(petri_host_function(player->session, i, &found));
+        assert_true(petri_host_function(player->session, i, &found, sizeof found));
         assert_string_equal(found.name, name);
         assert_string_equal(found.parameters, good[i]);
         assert_string_equal(found.help, "A function of a test.");

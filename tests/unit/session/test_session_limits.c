@@ -35,7 +35,7 @@ static void test_memory_limit_aborts_frame(void **state) {
                 "error t.fl:2:10 the frame exceeded its memory limit of 1 MiB and was aborted [memory-limit]\n");
     assert_text("unchanged", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_text("no tree", player_tree(player), "");
-    assert_int_equal(petri_frame(player->session).number, 1);
+    assert_int_equal(petri_frame_number(player->session), 1);
     assert_int_equal(petri_step(player->session), PETRI_OK); // the next frame is within the limit
     assert_text("after", player_state(player), "$:c = 0.03333333333333333\n$(:c;:time) = 0.03333333333333333\n");
 }

@@ -37,7 +37,7 @@ typedef PetriStatus Act(Stage *stage);
 // continues as usual.
 static void write_frame(Stage *stage, Notebook *book) {
     char line[100];
-    PetriFrame frame = petri_frame(stage->player.session);
+    PetriFrame frame = last_frame(stage->player.session);
     int len = snprintf(line, sizeof line, "%lld %.17g %.17g\n", (long long)frame.number, frame.time, frame.beat);
     note(book, line, (size_t)len);
     assert_int_equal(petri_print(stage->player.session, PETRI_PRINT_STATE, note, book), PETRI_OK);
@@ -47,7 +47,7 @@ static void write_frame(Stage *stage, Notebook *book) {
     }
     for (size_t i = 0; i < 2; i++) {
         PetriParameter parameter = {.name = "", .value = ""};
-        petri_parameter(stage->player.session, i, &parameter);
+        petri_parameter(stage->player.session, i, &parameter, sizeof parameter);
         note(book, parameter.value, strlen(parameter.value));
     }
 }
@@ -67,11 +67,14 @@ static void open_stage(Stage *stage, bool interruptible) {
     player_open_with(&stage->player, &options);
     PetriSession *session = stage->player.session;
     assert_int_equal(petri_load(session, folder_file(&stage->folder, "s.fl")), PETRI_OK);
-    assert_int_equal(petri_prompt(session, "let typed=frame*2", PETRI_NUL_TERMINATED, NULL, NULL, &done), PETRI_OK);
-    assert_int_equal(petri_prompt(session, "!typed x=typed", PETRI_NUL_TERMINATED, NULL, NULL, &done), PETRI_OK);
+    assert_int_equal(petri_prompt(session, "let typed=frame*2", PETRI_NUL_TERMINATED, NULL, NULL, &done, sizeof done),
+                     PETRI_OK);
+    assert_int_equal(petri_prompt(session, "!typed x=typed", PETRI_NUL_TERMINATED, NULL, NULL, &done, sizeof done),
+                     PETRI_OK);
     player_step(&stage->player, 2);
     petri_report_key(session, "space", true);
-    petri_report_pointer(session, &(PetriPointer){.inside = true, .x = 0.5, .y = 0.25, .buttons = 1});
+    petri_report_pointer(
+        session, &(PetriPointer){.size = sizeof(PetriPointer), .inside = true, .x = 0.5, .y = 0.25, .buttons = 1});
     player_step(&stage->player, 1);
     stage->early = petri_snapshot(session);
     stage->config = petri_config_get(session);
@@ -80,7 +83,8 @@ static void open_stage(Stage *stage, bool interruptible) {
     assert_int_equal(petri_save(session, folder_file(&stage->folder, "state")), PETRI_OK);
     player_step(&stage->player, 1);
     petri_report_key(session, "space", false);
-    petri_report_pointer(session, &(PetriPointer){.inside = false}); // the pointer leaves, so its position is removed
+    petri_report_pointer(session, &(PetriPointer){.size = sizeof(PetriPointer),
+                                                  .inside = false}); // the pointer leaves, so its position is removed
     note(&stage->written, "", 0);
 }
 
@@ -192,10 +196,10 @@ static PetriStatus act_systems(Stage *stage) {
     uint32_t particle = 0;
     PetriForce force;
     bool found =
-        petri_system(stage->player.session, 1, &system) &&
+        petri_system(stage->player.session, 1, &system, sizeof system) &&
         petri_find_particle(stage->player.session, 0, petri_particle_id(stage->player.session, 0, 1), &particle) &&
         petri_particle_ids(stage->player.session, 0).data != NULL &&
-        petri_system_force(stage->player.session, 0, 0, &force);
+        petri_system_force(stage->player.session, 0, 0, &force, sizeof force);
     return found ? PETRI_OK : PETRI_OUT_OF_MEMORY;
 }
 
@@ -276,7 +280,8 @@ static PetriStatus act_prompt_check(Stage *stage) {
 
 static PetriStatus prompt(Stage *stage, const char *text) {
     PetriPromptResult done;
-    return petri_prompt(stage->player.session, text, PETRI_NUL_TERMINATED, write_text, &stage->written, &done);
+    return petri_prompt(stage->player.session, text, PETRI_NUL_TERMINATED, write_text, &stage->written, &done,
+                        sizeof done);
 }
 
 static PetriStatus act_prompt_value(Stage *stage) {
@@ -293,8 +298,8 @@ static PetriStatus act_prompt_node(Stage *stage) {
 
 static PetriStatus act_evaluate(Stage *stage) {
     PetriEvaluation result;
-    return petri_evaluate(stage->player.session, "area(typed)", PETRI_NUL_TERMINATED, &result, write_text,
-                          &stage->written);
+    return petri_evaluate(stage->player.session, "area(typed)", PETRI_NUL_TERMINATED, &result, sizeof result,
+                          write_text, &stage->written);
 }
 
 static PetriStatus act_prompt_clear(Stage *stage) {
@@ -308,7 +313,7 @@ static PetriStatus act_preview(Stage *stage) {
 
 static PetriStatus act_parameters(Stage *stage) {
     PetriParameter parameter;
-    return petri_parameter(stage->player.session, 0, &parameter) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
+    return petri_parameter(stage->player.session, 0, &parameter, sizeof parameter) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
 }
 
 static PetriStatus act_texts(Stage *stage) {
@@ -353,7 +358,8 @@ static PetriStatus act_records(Stage *stage) {
         assert_true(ready && !records);
         PetriPainter *painter = petri_painter_open();
         PetriRecord record;
-        assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // the picture was not rendered
+        assert_false(painter &&
+                     petri_picture_record(picture, painter, 0, &record, sizeof record)); // the picture was not rendered
         petri_painter_close(&painter);
         petri_picture_report(stage->player.session, picture);
     }
@@ -374,7 +380,7 @@ static PetriStatus act_paint(Stage *stage) {
         status = petri_picture_draw(picture, painter, pixels, 100, 100, 400);
     const PetriLabel label = {.text = "label", .width = 50, .height = 20, .size = 10, .line_height = 12};
     if (status == PETRI_OK)
-        status = petri_painter_draw_labels(painter, &label, 1, 1, pixels, 100, 100, 400);
+        status = petri_painter_draw_labels(painter, &label, 1, sizeof label, 1, pixels, 100, 100, 400);
     if (status == PETRI_OK)
         status = petri_picture_save(picture, painter, folder_file(&stage->folder, "a.png"));
     petri_painter_close(&painter);

@@ -8,7 +8,7 @@ static const char *list(Player *player) {
     PetriParameter row;
     player->printed.len = 0;
     note(&player->printed, "", 0);
-    for (size_t i = 0; petri_parameter(player->session, i, &row); i++) {
+    for (size_t i = 0; petri_parameter(player->session, i, &row, sizeof row); i++) {
         char line[1000];
         int len = snprintf(line, sizeof line, "%s %s (%s) %g/%g %g..%g|%g '%s' %u:%u%s%s\n", row.name, row.value,
                            row.default_value, row.number, row.default_number, row.min, row.max, row.step, row.comment,

@@ -25,17 +25,19 @@ static void test_texts_stay_valid(void **state) {
     folder_write(&folder, "s.fl", KEYS);
     assert_int_equal(petri_load(session, folder_file(&folder, "s.fl")), PETRI_OK);
     player_step(player, 3);
-    assert_int_equal(petri_prompt(session, "let twice=2*frame", PETRI_NUL_TERMINATED, NULL, NULL, &done), PETRI_OK);
+    assert_int_equal(petri_prompt(session, "let twice=2*frame", PETRI_NUL_TERMINATED, NULL, NULL, &done, sizeof done),
+                     PETRI_OK);
     const char *statement = petri_prompt_statement(session, 0), *name = petri_visible_name(session, 0);
     player_step(player, 1);
     const char *source = petri_source_file(session, 0);
-    assert_true(petri_system(session, 1, &system));
+    assert_true(petri_system(session, 1, &system, sizeof system));
     PetriValue id = petri_particle_id(session, 0, 0);
     for (size_t i = 0; petri_visible_name(session, i); i++) {
     }
     player_state(player);
     player_print(player, 15);
-    assert_int_equal(petri_evaluate(session, "twice", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(session, "twice", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+                     PETRI_OK);
     assert_string_equal(strrchr(source, '/'), "/s.fl");
     assert_string_equal(statement, "let twice=2*frame");
     assert_string_equal(name, "twice");
@@ -67,7 +69,9 @@ static void test_toggles_rewind(void **state) {
     assert_non_null(strstr(wanted, "$(:space;:toggled) = 1\n"));
     press(player, false);
     press(player, true);
-    petri_report_pointer(player->session, &(PetriPointer){.inside = true, .x = 0.5, .y = 0.5, .buttons = 1});
+    petri_report_pointer(
+        player->session,
+        &(PetriPointer){.size = sizeof(PetriPointer), .inside = true, .x = 0.5, .y = 0.5, .buttons = 1});
     player_step(player, 1);
     assert_non_null(strstr(player_state(player), "$(:space;:toggled) = 0\n"));
     assert_int_equal(petri_rewind(player->session, snapshot), PETRI_OK);
@@ -85,14 +89,16 @@ static void test_performance_rewinds(void **state) {
     player_run(player, "!a p=performance", 3);
     PetriSnapshot *snapshot = petri_snapshot(player->session);
     PetriEvaluation before, after;
-    assert_int_equal(petri_evaluate(player->session, "performance", PETRI_NUL_TERMINATED, &before, NULL, NULL),
-                     PETRI_OK);
+    assert_int_equal(
+        petri_evaluate(player->session, "performance", PETRI_NUL_TERMINATED, &before, sizeof before, NULL, NULL),
+        PETRI_OK);
     struct timespec pause = {.tv_nsec = 20000000};
     nanosleep(&pause, NULL);
     player_step(player, 1); // the frame is late, so performance falls
     assert_int_equal(petri_rewind(player->session, snapshot), PETRI_OK);
-    assert_int_equal(petri_evaluate(player->session, "performance", PETRI_NUL_TERMINATED, &after, NULL, NULL),
-                     PETRI_OK);
+    assert_int_equal(
+        petri_evaluate(player->session, "performance", PETRI_NUL_TERMINATED, &after, sizeof after, NULL, NULL),
+        PETRI_OK);
     assert_number("performance", after.number, before.number);
     petri_snapshot_free(snapshot);
 }
@@ -207,12 +213,12 @@ static void test_null_arguments_are_accepted(void **state) {
         petri_bindings(none, "1", 1, player_ignore_name, NULL),
         petri_bindings(session, NULL, 0, player_ignore_name, NULL),
         petri_bindings(session, "1", 1, NULL, NULL),
-        petri_prompt(none, "1", 1, NULL, NULL, &done),
-        petri_prompt(session, NULL, 0, NULL, NULL, &done),
-        petri_prompt(session, "1", 1, NULL, NULL, NULL),
-        petri_evaluate(none, "1", 1, &result, NULL, NULL),
-        petri_evaluate(session, NULL, 0, &result, NULL, NULL),
-        petri_evaluate(session, "1", 1, NULL, NULL, NULL),
+        petri_prompt(none, "1", 1, NULL, NULL, &done, sizeof done),
+        petri_prompt(session, NULL, 0, NULL, NULL, &done, sizeof done),
+        petri_prompt(session, "1", 1, NULL, NULL, NULL, 0),
+        petri_evaluate(none, "1", 1, &result, sizeof result, NULL, NULL),
+        petri_evaluate(session, NULL, 0, &result, sizeof result, NULL, NULL),
+        petri_evaluate(session, "1", 1, NULL, 0, NULL, NULL),
         petri_set_parameter(none, "A", "1"),
         petri_set_parameter(session, NULL, "1"),
     };
@@ -239,9 +245,9 @@ static void test_null_arguments_are_accepted(void **state) {
     assert_false(petri_key_is_bound(NULL, "a"));
     assert_false(petri_key_is_bound(session, NULL));
     petri_keep_columns(NULL, true);
-    assert_false(petri_system(NULL, 0, &system) || petri_system(session, 0, NULL));
+    assert_false(petri_system(NULL, 0, &system, sizeof system) || petri_system(session, 0, NULL, 0));
     PetriRankStats traffic;
-    assert_false(petri_rank_stats(NULL, 0, &traffic) || petri_rank_stats(session, 0, NULL));
+    assert_false(petri_rank_stats(NULL, 0, &traffic, sizeof traffic) || petri_rank_stats(session, 0, NULL, 0));
     assert_int_equal(petri_particle_id(NULL, 0, 0).length, 0);
     assert_null(petri_particle_ids(NULL, 0).data);
     assert_false(petri_find_particle(NULL, 0, (PetriValue){0}, &particle) ||
@@ -249,7 +255,7 @@ static void test_null_arguments_are_accepted(void **state) {
     PetriValue value = {0};
     uint32_t cursor = 0;
     PetriDiagnostic kept;
-    assert_false(petri_diagnostic(NULL, 0, &kept) || petri_diagnostic(session, 0, NULL));
+    assert_false(petri_diagnostic(NULL, 0, &kept, sizeof kept) || petri_diagnostic(session, 0, NULL, 0));
     petri_clear_diagnostics(NULL);
     assert_null(petri_format_value(NULL, value));
     assert_int_equal(petri_state_get(NULL, value).length, 0);
@@ -263,19 +269,19 @@ static void test_null_arguments_are_accepted(void **state) {
     assert_int_equal(petri_tree_get(NULL, "a").length, 0);
     assert_true(isnan(petri_symbol(NULL, "a")) && isnan(petri_symbol(session, NULL)));
     assert_null(petri_symbol_name(NULL, 1));
-    assert_false(petri_system_force(NULL, 0, 0, &force) || petri_system_force(session, 0, 0, NULL));
-    assert_false(petri_parameter(NULL, 0, &parameter) || petri_parameter(session, 0, NULL));
-    assert_false(petri_builtin(0, NULL) || petri_node_kind(0, NULL) || petri_node_attribute(0, 0, NULL));
+    assert_false(petri_system_force(NULL, 0, 0, &force, sizeof force) || petri_system_force(session, 0, 0, NULL, 0));
+    assert_false(petri_parameter(NULL, 0, &parameter, sizeof parameter) || petri_parameter(session, 0, NULL, 0));
+    assert_false(petri_builtin(0, NULL, 0) || petri_node_kind(0, NULL, 0) || petri_node_attribute(0, 0, NULL, 0));
     assert_false(petri_parse_number(NULL, &x) || petri_parse_number("1", NULL));
     assert_true(petri_seconds_until_due(NULL) == 0 && petri_resolution(NULL) == 0);
-    assert_int_equal(petri_frame(NULL).number, -1);
+    assert_int_equal(petri_frame_number(NULL), -1);
     assert_int_equal(petri_prompt_check(NULL, "1", 1), PETRI_COMPLETE);
     assert_int_equal(petri_prompt_check(session, NULL, 1), PETRI_COMPLETE);
     assert_int_equal(petri_prompt_clear(NULL, true), 0);
     assert_int_equal(petri_config_revision(NULL), 0);
     assert_int_equal(petri_snapshot_bytes(NULL), 0);
     assert_int_equal(petri_diagnostic_count(NULL, PETRI_ERROR), 0);
-    assert_int_equal(petri_frame(session).number, 1);
+    assert_int_equal(petri_frame_number(session), 1);
     petri_snapshot_free(snapshot);
 }
 

@@ -14,7 +14,8 @@ static const char *typed(Player *player, const char *text, PetriStatus wanted) {
     PetriPromptResult done;
     player->printed.len = 0;
     note(&player->printed, "", 0);
-    PetriStatus status = petri_prompt(player->session, text, PETRI_NUL_TERMINATED, note, &player->printed, &done);
+    PetriStatus status =
+        petri_prompt(player->session, text, PETRI_NUL_TERMINATED, note, &player->printed, &done, sizeof done);
     if (status != wanted) {
         print_error("%s: status %d\n%s", text, status, player_diagnostics(player));
         fail();
@@ -82,14 +83,15 @@ static void test_result_counts_statements(void **state) {
     Player *player = *state;
     PetriPromptResult done;
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
-    assert_int_equal(
-        petri_prompt(player->session, "1\n2\n3\nlet a=1\nlet b=2\n!node\n", PETRI_NUL_TERMINATED, NULL, NULL, &done),
-        PETRI_OK);
+    assert_int_equal(petri_prompt(player->session, "1\n2\n3\nlet a=1\nlet b=2\n!node\n", PETRI_NUL_TERMINATED, NULL,
+                                  NULL, &done, sizeof done),
+                     PETRI_OK);
     assert_int_equal(done.values, 3);
     assert_int_equal(done.bindings, 2);
     assert_int_equal(done.nodes, 1);
     assert_null(done.shadowed);
-    assert_int_equal(petri_prompt(player->session, "let COUNT=1\n", PETRI_NUL_TERMINATED, NULL, NULL, &done), PETRI_OK);
+    assert_int_equal(
+        petri_prompt(player->session, "let COUNT=1\n", PETRI_NUL_TERMINATED, NULL, NULL, &done, sizeof done), PETRI_OK);
     assert_string_equal(done.shadowed, "COUNT");
 }
 
@@ -213,21 +215,26 @@ static void test_evaluate(void **state) {
     PetriEvaluation result;
     player_run(player, SCRIPT, 2);
     player->printed.len = 0;
-    assert_int_equal(petri_evaluate(player->session, "COUNT*2", PETRI_NUL_TERMINATED, &result, note, &player->printed),
+    assert_int_equal(petri_evaluate(player->session, "COUNT*2", PETRI_NUL_TERMINATED, &result, sizeof result, note,
+                                    &player->printed),
                      PETRI_OK);
     assert_string_equal(player->printed.text, "6");
     assert_true(result.is_true && result.length == 1 && result.number == 6 && result.seconds >= 0);
-    assert_int_equal(petri_evaluate(player->session, "null", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(player->session, "null", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+                     PETRI_OK);
     assert_true(!result.is_true && result.length == 0 && result.number != result.number);
-    assert_int_equal(petri_evaluate(player->session, "1;0", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(player->session, "1;0", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+                     PETRI_OK);
     assert_true(result.is_true && result.length == 2 && result.number != result.number);
-    assert_int_equal(petri_evaluate(player->session, "1\n2", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_INVALID);
+    assert_int_equal(petri_evaluate(player->session, "1\n2", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+                     PETRI_INVALID);
     assert_string_equal(player_diagnostics(player),
                         "error prompt:1:1 the input must be a single expression [syntax]\n");
     static const char *const wrong[] = {"let x=1", "1\n2", "", "1+", "%pragma tempo 1\n"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
-        assert_int_equal(petri_evaluate(player->session, wrong[i], PETRI_NUL_TERMINATED, &result, NULL, NULL),
-                         PETRI_INVALID);
+        assert_int_equal(
+            petri_evaluate(player->session, wrong[i], PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+            PETRI_INVALID);
 }
 
 // Expressions leave nothing in memory.
@@ -239,8 +246,9 @@ static void test_expressions_retain_no_memory(void **state) {
     player_reopen(player, &options);
     player_run(player, SCRIPT, 2);
     for (int i = 0; i < 1000; i++)
-        assert_int_equal(petri_evaluate(player->session, "COUNT;..1000", PETRI_NUL_TERMINATED, &result, NULL, NULL),
-                         PETRI_OK);
+        assert_int_equal(
+            petri_evaluate(player->session, "COUNT;..1000", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+            PETRI_OK);
     for (int i = 0; i < 1000; i++)
         assert_string_equal(typed(player, "len(COUNT;..1000)", PETRI_OK), "1001\n");
     assert_null(petri_prompt_statement(player->session, 0));

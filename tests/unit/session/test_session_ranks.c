@@ -123,7 +123,7 @@ static bool in_common; // true if the ranks share memory
 static void note_forces(PetriSession *session, Notebook *book) {
     PetriSystem system;
     uint64_t sum = 0;
-    if (!petri_system(session, 0, &system) || !system.force.data)
+    if (!petri_system(session, 0, &system, sizeof system) || !system.force.data)
         return;
     for (uint32_t i = 0; i < system.particle_count; i++)
         for (uint32_t k = 0; k < system.dimensions; k++) {
@@ -139,8 +139,17 @@ static void *run_rank(void *context) {
     Rank *rank = context;
     const World *world = rank->world;
     Player player = {0};
-    PetriRanks ranks = {rank->number, world->count, 1,          rank,          send,
-                        receive,      broadcast,    allgatherv, allreduce_max, in_common ? alloc_shared : NULL};
+    PetriRanks ranks = {sizeof ranks,
+                        rank->number,
+                        world->count,
+                        1,
+                        rank,
+                        send,
+                        receive,
+                        broadcast,
+                        allgatherv,
+                        allreduce_max,
+                        in_common ? alloc_shared : NULL};
     PetriOptions options = player_options(&player);
     options.threads = 1;
     options.ranks = &ranks;
@@ -155,7 +164,7 @@ static void *run_rank(void *context) {
             petri_print(player.session, PETRI_PRINT_HASH, note, &rank->output);
     }
     note_forces(player.session, &rank->output);
-    petri_rank_stats(player.session, 0, &rank->stats);
+    petri_rank_stats(player.session, 0, &rank->stats, sizeof rank->stats);
     player_close(&player);
     return NULL;
 }

@@ -44,7 +44,7 @@ static void test_snapshot_restores_session(void **state) {
     snapshots[FRAMES] = petri_snapshot(player->session);
     for (int from = 0; from < FRAMES; from += 4) {
         assert_int_equal(petri_rewind(player->session, snapshots[from]), PETRI_OK);
-        assert_int_equal(petri_frame(player->session).number, from - 1);
+        assert_int_equal(petri_frame_number(player->session), from - 1);
         for (int i = from; i < FRAMES && i < from + 9; i++) {
             player_step(player, 1);
             char *text = frame_text(player);
@@ -70,8 +70,9 @@ static void test_config_restores_script(void **state) {
     player_step(player, 3);
     char *wanted = frame_text(player);
     assert_int_equal(petri_config_revision(player->session), number);
-    assert_int_equal(petri_prompt(player->session, "!typed f=frame", PETRI_NUL_TERMINATED, NULL, NULL, &done),
-                     PETRI_OK);
+    assert_int_equal(
+        petri_prompt(player->session, "!typed f=frame", PETRI_NUL_TERMINATED, NULL, NULL, &done, sizeof done),
+        PETRI_OK);
     assert_true(petri_config_revision(player->session) != number);
     assert_int_equal(petri_define(player->session, "X=5"), PETRI_OK);
     PetriConfig *config = petri_config_get(player->session);
@@ -100,12 +101,12 @@ static void *interrupt_soon(void *session) {
 static void check_interrupted(Player *player) {
     pthread_t thread;
     char *before = frame_text(player);
-    PetriFrame frame = petri_frame(player->session);
+    PetriFrame frame = last_frame(player->session);
     assert_int_equal(pthread_create(&thread, NULL, interrupt_soon, player->session), 0);
     assert_int_equal(petri_step(player->session), PETRI_INTERRUPTED);
     pthread_join(thread, NULL);
-    assert_int_equal(petri_frame(player->session).number, frame.number);
-    assert_true(petri_frame(player->session).time == frame.time && petri_frame(player->session).beat == frame.beat);
+    assert_int_equal(petri_frame_number(player->session), frame.number);
+    assert_true(last_frame(player->session).time == frame.time && last_frame(player->session).beat == frame.beat);
     assert_false(petri_clear_interrupt(player->session));
     assert_non_null(strstr(before, player_state(player)));
     free(before);
@@ -134,11 +135,11 @@ static void test_should_interrupt(void **state) {
     char *before = frame_text(player);
     polls_left = 100;
     assert_int_equal(petri_step(player->session), PETRI_INTERRUPTED);
-    assert_int_equal(petri_frame(player->session).number, 2);
+    assert_int_equal(petri_frame_number(player->session), 2);
     assert_non_null(strstr(before, player_state(player)));
     assert_false(petri_clear_interrupt(player->session));
     player_step(player, 1);
-    assert_int_equal(petri_frame(player->session).number, 3);
+    assert_int_equal(petri_frame_number(player->session), 3);
     free(before);
 
     static const char loop[] = "!a x=sum(i*j for i in ..1000 for j in ..1000)";
@@ -166,10 +167,10 @@ static void test_interrupt_rolls_back(void **state) {
     check_interrupted(player);
     assert_int_equal(petri_set_resolution(player->session, 0.01), PETRI_OK);
     player_step(player, 2);
-    assert_int_equal(petri_frame(player->session).number, 4);
+    assert_int_equal(petri_frame_number(player->session), 4);
     petri_interrupt(player->session); // the interrupt comes before the step
     assert_int_equal(petri_step(player->session), PETRI_INTERRUPTED);
-    assert_int_equal(petri_frame(player->session).number, 4);
+    assert_int_equal(petri_frame_number(player->session), 4);
     player_step(player, 1);
     petri_interrupt(player->session);
     assert_true(petri_clear_interrupt(player->session));
@@ -179,8 +180,9 @@ static void test_interrupt_rolls_back(void **state) {
     assert_int_equal(player_load(player, "func f(n)\n    if n > 0\n        f(n-1)+f(n-1)\n    else\n        1\n!a"),
                      PETRI_OK);
     assert_int_equal(pthread_create(&thread, NULL, interrupt_soon, player->session), 0);
-    assert_int_equal(petri_evaluate(player->session, "f(frame+26)", PETRI_NUL_TERMINATED, &result, NULL, NULL),
-                     PETRI_INTERRUPTED);
+    assert_int_equal(
+        petri_evaluate(player->session, "f(frame+26)", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+        PETRI_INTERRUPTED);
     pthread_join(thread, NULL);
 }
 
@@ -194,23 +196,23 @@ static void test_reload_keeps_clock(void **state) {
     assert_true(strstr(petri_source_file(player->session, 0), "s.fl") != NULL);
     assert_null(petri_source_file(player->session, 1));
     player_step(player, 6);
-    double beat = petri_frame(player->session).beat;
+    double beat = last_frame(player->session).beat;
     folder_write(&folder, "s.fl", "!v x=\n");
     assert_int_equal(petri_reload(player->session, file), PETRI_INVALID);
     player_step(player, 1); // the previously loaded script continues
     assert_string_equal(player_tree(player), "!counter state=:c rate=1\n!v x=1\n");
     folder_write(&folder, "s.fl", "%pragma tempo 180\n!counter state=:c rate=1\n!v x=2\n");
     assert_int_equal(petri_reload(player->session, file), PETRI_OK);
-    assert_int_equal(petri_frame(player->session).number, 6);
+    assert_int_equal(petri_frame_number(player->session), 6);
     player_step(player, 1);
     assert_string_equal(player_tree(player), "!counter state=:c rate=1\n!v x=2\n");
-    assert_int_equal(petri_frame(player->session).number, 7);
-    assert_float_equal(petri_frame(player->session).time, 7 / 60.0, 1e-12);
-    assert_float_equal(petri_frame(player->session).beat, beat + 1 / 60.0 + 3 / 60.0, 1e-12);
+    assert_int_equal(petri_frame_number(player->session), 7);
+    assert_float_equal(last_frame(player->session).time, 7 / 60.0, 1e-12);
+    assert_float_equal(last_frame(player->session).beat, beat + 1 / 60.0 + 3 / 60.0, 1e-12);
     // A reload changes the tempo only if its pragma changed.
     assert_int_equal(petri_set_tempo(player->session, 90), PETRI_OK);
     assert_int_equal(petri_reload(player->session, file), PETRI_OK);
-    assert_float_equal(petri_frame(player->session).tempo, 90, 0);
+    assert_float_equal(last_frame(player->session).tempo, 90, 0);
     // Recompiling the loaded text applies new definitions.
     folder_write(&folder, "s.fl", "!v x=N\n");
     assert_int_equal(petri_load(player->session, file), PETRI_OK);
@@ -219,7 +221,7 @@ static void test_reload_keeps_clock(void **state) {
     assert_int_equal(petri_reload(player->session, NULL), PETRI_OK);
     player_step(player, 1);
     assert_string_equal(player_tree(player), "!v x=7\n");
-    assert_int_equal(petri_frame(player->session).number, 2);
+    assert_int_equal(petri_frame_number(player->session), 2);
     assert_non_null(petri_source_file(player->session, 0));
     folder_close(&folder);
 }
@@ -227,15 +229,15 @@ static void test_reload_keeps_clock(void **state) {
 static void test_clock_changes_do_not_jump(void **state) {
     Player *player = *state;
     player_run(player, "%pragma tempo 60\n!a t=time b=beat", 61);
-    assert_float_equal(petri_frame(player->session).beat, 1, 1e-12);
+    assert_float_equal(last_frame(player->session).beat, 1, 1e-12);
     assert_int_equal(petri_set_tempo(player->session, 120), PETRI_OK);
     player_step(player, 30);
-    assert_float_equal(petri_frame(player->session).beat, 2, 1e-12);
+    assert_float_equal(last_frame(player->session).beat, 2, 1e-12);
     assert_int_equal(petri_set_fps(player->session, 30), PETRI_OK);
     player_step(player, 30);
-    assert_float_equal(petri_frame(player->session).time, 2.5, 1e-12);
-    assert_float_equal(petri_frame(player->session).beat, 4, 1e-12);
-    assert_int_equal(petri_frame(player->session).number, 120);
+    assert_float_equal(last_frame(player->session).time, 2.5, 1e-12);
+    assert_float_equal(last_frame(player->session).beat, 4, 1e-12);
+    assert_int_equal(petri_frame_number(player->session), 120);
     static const double wrong[] = {0, -1, 1.0 / 0.0};
     for (int i = 0; i < 3; i++) {
         assert_int_equal(petri_set_tempo(player->session, wrong[i]), PETRI_INVALID);
@@ -244,8 +246,8 @@ static void test_clock_changes_do_not_jump(void **state) {
     assert_int_equal(petri_set_resolution(player->session, -1), PETRI_INVALID);
     petri_reset(player->session);
     player_step(player, 1);
-    assert_int_equal(petri_frame(player->session).number, 0);
-    assert_float_equal(petri_frame(player->session).tempo, 120, 0);
+    assert_int_equal(petri_frame_number(player->session), 0);
+    assert_float_equal(last_frame(player->session).tempo, 120, 0);
 }
 
 int main(void) {

@@ -22,24 +22,24 @@ static void open_keeping(Player *player, bool keep) {
 static void test_systems(void **state) {
     Player *player = *state;
     PetriSystem system;
-    assert_false(petri_system(player->session, 0, &system));
+    assert_false(petri_system(player->session, 0, &system, sizeof system));
     player_run(player, SCRIPT, 2);
-    assert_true(petri_system(player->session, 0, &system));
+    assert_true(petri_system(player->session, 0, &system, sizeof system));
     assert_string_equal(system.name, ":a");
     assert_int_equal(system.dimensions, 2);
     assert_int_equal(system.particle_count, 3);
     assert_int_equal(system.force_count, 3);
-    assert_true(petri_system(player->session, 1, &system));
+    assert_true(petri_system(player->session, 1, &system, sizeof system));
     assert_string_equal(system.name, ":b");
     assert_int_equal(system.dimensions, 1);
-    assert_false(petri_system(player->session, 2, &system));
+    assert_false(petri_system(player->session, 2, &system, sizeof system));
     player_run(player, "!a", 1); // a removed system is not listed
-    assert_false(petri_system(player->session, 0, &system));
+    assert_false(petri_system(player->session, 0, &system, sizeof system));
 }
 
 static PetriSystem system_of(Player *player, size_t number) {
     PetriSystem system;
-    assert_true(petri_system(player->session, number, &system));
+    assert_true(petri_system(player->session, number, &system, sizeof system));
     return system;
 }
 
@@ -204,18 +204,18 @@ static void test_force_appliers(void **state) {
     Player *player = *state;
     player_run(player, SCRIPT, 2);
     PetriForce force;
-    assert_true(petri_system_force(player->session, 0, 0, &force));
+    assert_true(petri_system_force(player->session, 0, 0, &force, sizeof force));
     assert_string_equal(force.kind, "constant");
     assert_null(force.position);
-    assert_true(petri_system_force(player->session, 0, 1, &force));
+    assert_true(petri_system_force(player->session, 0, 1, &force, sizeof force));
     assert_string_equal(force.kind, "distance");
     assert_int_equal(force.from, 0);
     assert_int_equal(force.to, 1);
-    assert_true(petri_system_force(player->session, 0, 2, &force));
+    assert_true(petri_system_force(player->session, 0, 2, &force, sizeof force));
     assert_string_equal(force.kind, "barrier");
     assert_number("y", force.position[1], -50);
     assert_number("unit normal", force.normal[1], 1);
-    assert_false(petri_system_force(player->session, 0, 3, &force));
+    assert_false(petri_system_force(player->session, 0, 3, &force, sizeof force));
 }
 
 int main(void) {

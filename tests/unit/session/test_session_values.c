@@ -86,7 +86,7 @@ static void test_moved_particle(void **state) {
     assert_int_equal(petri_state_set(session, numbers(key, 2), numbers(there, 2)), PETRI_OK);
     player_step(player, 1);
     PetriSystem system;
-    assert_true(petri_system(session, 0, &system));
+    assert_true(petri_system(session, 0, &system, sizeof system));
     assert_number("x", system.position.data[0], 101);
     assert_number("y", system.position.data[1], 50);
 }
@@ -112,19 +112,23 @@ static void test_globals(void **state) {
     assert_string_equal(heat(player), "8;10;12;'käse';2.5");
     assert_int_equal(petri_config_revision(session), number); // the script is not recompiled
     PetriEvaluation result;
-    assert_int_equal(petri_evaluate(session, "warmth[0]+twice[0]", PETRI_NUL_TERMINATED, &result, NULL, NULL),
-                     PETRI_OK);
+    assert_int_equal(
+        petri_evaluate(session, "warmth[0]+twice[0]", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+        PETRI_OK);
     assert_number("at the prompt", result.number, 12);
     PetriPromptResult done;
-    assert_int_equal(petri_prompt(session, "let both=warmth[1]+twice[1]", PETRI_NUL_TERMINATED, NULL, NULL, &done),
-                     PETRI_OK);
+    assert_int_equal(
+        petri_prompt(session, "let both=warmth[1]+twice[1]", PETRI_NUL_TERMINATED, NULL, NULL, &done, sizeof done),
+        PETRI_OK);
     assert_int_equal(petri_set_global(session, "later", numbers(&one, 1)), PETRI_OK);
     player_step(player, 1);
-    assert_int_equal(petri_evaluate(session, "both", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(session, "both", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+                     PETRI_OK);
     assert_number("typed", result.number, 15);
     assert_int_equal(petri_reload(session, NULL), PETRI_OK);
     player_step(player, 1);
-    assert_int_equal(petri_evaluate(session, "both+later", PETRI_NUL_TERMINATED, &result, NULL, NULL), PETRI_OK);
+    assert_int_equal(petri_evaluate(session, "both+later", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL),
+                     PETRI_OK);
     assert_number("typed, with a new name before it", result.number, 16);
     assert_int_equal(petri_set_global(session, "time", numbers(&one, 1)), PETRI_INVALID);
     assert_int_equal(petri_set_global(session, "a b", numbers(&one, 1)), PETRI_INVALID);
