@@ -4,7 +4,7 @@
 // ways: by region (domain.h), or by blocks of pairs (pair_ranks.c). Results are those of one process, bit for bit.
 #pragma once
 
-#include "petri.h"
+#include "petri-ranks.h"
 #include "physics/division.h"
 
 // A zeroed struct is one process.

@@ -8,7 +8,7 @@
 #include "base/sha256.h"
 #include "builtin/files.h"
 #include "builtin/noise.h"
-#include "petri.h"
+#include "petri-edit.h"
 #include "ranks/ranks.h"
 #include "scene/scene.h"
 #include "session/checkpoint.h"

@@ -4,7 +4,7 @@
 #include "cli/cli.h"
 #include "cli/memory.h"
 #include "cli/output.h"
-#include "petri.h"
+#include "petri-edit.h"
 
 // Returns an output for standard output. It must be closed with help_end.
 Output *help_begin(void);

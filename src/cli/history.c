@@ -1,6 +1,8 @@
 // history.c: see history.h.
 #include "cli/history.h"
 
+#include "petri-edit.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>

@@ -7,6 +7,7 @@
 #include "cli/progress.h"
 #include "cli/script.h"
 #include "petri-draw.h"
+#include "petri-edit.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -6,6 +6,7 @@
 #include "base/str.h"
 #include "cli/cli.h"
 #include "cli/memory.h"
+#include "petri-edit.h"
 
 #include <errno.h>
 #include <glob.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/str.h"
-#include "petri.h"
+#include "petri-edit.h"
 
 // How a token is spaced.
 typedef enum Role {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lsp/rpc.h"
-#include "petri.h"
+#include "petri-edit.h"
 
 // A diagnostic of the document's own text. Diagnostics of included files are published, but not stored here.
 typedef struct DocumentDiagnostic {

@@ -4,7 +4,7 @@
 
 #include "base/cpu.h"
 #include "cli/mpi_channel.h"
-#include "petri.h"
+#include "petri-ranks.h"
 
 #include <fcntl.h>
 #include <mpi.h>

@@ -34,7 +34,7 @@ FNR == 1 {
     gsub(/-/, "\\-", upper)
     printf ".TH %s 3 \"\" \"petri %s\" petri\n.SH NAME\n%s \\- %s\n", upper, version, escaped(name), escaped(summary)
     printf ".SH SYNOPSIS\n.B #include <%s>\n.PP\ncc ... $(pkg\\-config \\-\\-cflags \\-\\-libs %s)\n", escaped(name),
-        escaped(substr(name, 1, length(name) - 2))
+        escaped(name ~ /-draw/ ? "petri-draw" : "petri")
     print ".SH DESCRIPTION"
 }
 /^#(if|ifdef|ifndef|else|endif|pragma|include|error|elif)/ || /\\$/ || /^extern "C"/ || (/^}$/ && !depth) { next }

@@ -1,4 +1,4 @@
-"""The cffi definition of petri._petri: the declarations of petri.h and petri-draw.h, and a few C functions.
+"""The cffi definition of petri._petri: the declarations of the public headers, and a few C functions.
 
 The environment variable PETRI_HEADERS is the folder of the headers, and PETRI_LIBRARIES contains the linker's
 arguments. Without these variables, pkg-config finds an installed libpetri-draw.
@@ -39,7 +39,8 @@ else:
 
 here = Path(__file__).parent
 ffi = cffi.FFI()
-ffi.cdef(declarations(Path(headers) / "petri.h") + declarations(Path(headers) / "petri-draw.h"))
+ffi.cdef("".join(declarations(Path(headers) / name)
+                 for name in ("petri.h", "petri-edit.h", "petri-ranks.h", "petri-draw.h")))
 helpers = (here / "helpers.h").read_text(encoding="utf-8")
 ffi.cdef(re.sub(r"^#.*\n", "", helpers, flags=re.M))
 ffi.cdef("""

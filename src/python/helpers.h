@@ -2,6 +2,8 @@
 #pragma once
 
 #include "petri-draw.h"
+#include "petri-edit.h"
+#include "petri-ranks.h"
 
 // Computes `count` frames, or fewer if a frame fails or a Python function sets *stop. `stop` is NULL if the session has
 // no functions. If `interruptible` is true, Ctrl-C interrupts the step and is then passed to Python's handler.

@@ -6,7 +6,7 @@
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/output.h"
-#include "petri.h"
+#include "petri-edit.h"
 
 typedef struct Repl {
     Options *options;

@@ -5,6 +5,7 @@
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "cli/signal_cleanup.h"
+#include "petri-ranks.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -5,6 +5,8 @@
 #include "cli/output.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
+#include "petri-edit.h"
+#include "petri-ranks.h"
 #include "run/frames.h"
 #include "run/stats.h"
 #include "run/trajectory.h"

@@ -2,6 +2,7 @@
 #include "run/stats.h"
 
 #include "cli/motion.h"
+#include "petri-ranks.h"
 
 #include <inttypes.h>
 #include <stdio.h>

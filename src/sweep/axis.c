@@ -1,5 +1,5 @@
 // axis.c: parser for the values of a name: `1;5;20`, `1..10|0.5`, both mixed, or vectors in parentheses: `(1;2);(3;4)`.
-#include "petri.h"
+#include "petri-edit.h"
 #include "sweep/sweep.h"
 
 #include <math.h>

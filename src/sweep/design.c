@@ -1,6 +1,6 @@
 // design.c: the runs of a sweep: all combinations of values, or a sample of them, each repeated for all seeds.
 #include "base/hash_index.h"
-#include "petri.h"
+#include "petri-edit.h"
 #include "sweep/sweep.h"
 
 #include <inttypes.h>

@@ -2,7 +2,7 @@
 // definitions, its file is read only once. The script is compiled again for each run, with the definitions of that run.
 #pragma once
 
-#include "petri.h"
+#include "petri-edit.h"
 #include "sweep/sweep.h"
 
 typedef struct Measure {

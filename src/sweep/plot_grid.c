@@ -1,6 +1,7 @@
 // plot_grid.c: the plots of a sweep, drawn by a generated script. The grid has one row per metric. It has one column
 // per name with several values and, with --every, one for the frame.
 #include "petri-draw.h"
+#include "petri-edit.h"
 #include "sweep/plot_support.h"
 #include "sweep/table.h"
 

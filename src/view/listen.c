@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "cli/json.h"
+#include "petri-edit.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,6 +4,7 @@
 #include "cli/link_work.h"
 #include "cli/particles.h"
 #include "petri-draw.h"
+#include "petri-edit.h"
 #include "web/host.h"
 
 #include <stdio.h>

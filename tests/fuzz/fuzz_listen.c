@@ -2,6 +2,7 @@
 // separated by a byte 30. A frame is computed after each of them.
 #include "cli/options.h"
 #include "fuzz.h"
+#include "petri-edit.h"
 #include "view/listen.h"
 
 #include <string.h>

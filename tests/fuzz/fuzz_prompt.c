@@ -2,6 +2,7 @@
 // The first byte of an action selects its kind, and the rest is its text. If the first byte is not a control character,
 // the whole action is typed at the prompt.
 #include "fuzz.h"
+#include "petri-edit.h"
 
 #include <string.h>
 

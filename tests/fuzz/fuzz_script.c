@@ -1,5 +1,6 @@
 // fuzz_script.c: fuzzes scripts. Runs three frames, prints everything, and dumps the syntax tree and the code.
 #include "fuzz.h"
+#include "petri-edit.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     PetriSession *session = fuzz_open(NULL);

@@ -3,7 +3,7 @@
 #include "cli/cli.h"
 #include "cli/hdf5.h"
 #include "petri-draw.h"
-#include "petri.h"
+#include "petri-edit.h"
 #include "repl/repl.h"
 
 #include <errno.h>

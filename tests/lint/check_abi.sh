@@ -26,14 +26,14 @@ check() {
     compare "$library" "$scratch/$name" "$scratch/found"
 }
 
-grep '^petri ' "$listed" | sed 's/.* //' | sort >"$scratch/petri"
+grep -v -e '^petri-draw ' -e '^#' "$listed" | sed 's/.* //' | sort >"$scratch/petri"
 sed -n 's/^petri[a-z-]* //p' "$listed" | sort >"$scratch/draw"
 check petri lib/session/libpetri.so -D
 check draw lib/draw/libpetri-draw.so -D
 check petri src/packaging/libpetri.a -g
 check draw src/packaging/libpetri-draw.a -g
 
-for header in petri petri-draw; do
+for header in petri petri-edit petri-ranks petri-draw; do
     awk 'match($0, /[ *]petri_[a-z_]+\(/) && /^PETRI_API/ { print substr($0, RSTART + 1, RLENGTH - 2) }' \
         "$headers/$header.h" | sort >"$scratch/declared"
     grep "^$header " "$listed" | sed 's/.* //' | sort >"$scratch/wanted"

@@ -48,6 +48,7 @@ ninja -t deps | awk "$component_of"'
         print component, target, object, "reads " target "/" part[count]
     }' objects="$scratch/objects" >"$scratch/headers"
 xargs nm -gA <"$scratch/objects" | awk "$component_of"'
+    FNR == NR { header[$2] = $1; next }
     {
         object = $1
         sub(/:.*/, "", object)
@@ -56,9 +57,9 @@ xargs nm -gA <"$scratch/objects" | awk "$component_of"'
     $(NF - 1) == "U" { used[++count] = object " " name; next }
     !(name in owner) {
         owner[name] = component_of(object)
-        # Public functions belong to the components petri and petri-draw.
-        if (name ~ /^petri_/ && owner[name] ~ /^(session|draw)$/)
-            owner[name] = owner[name] == "draw" ? "petri-draw" : "petri"
+        # Public functions belong to the component of their header.
+        if (name in header)
+            owner[name] = header[name]
     }
     END {
         for (i = 1; i <= count; i++) {
@@ -66,7 +67,7 @@ xargs nm -gA <"$scratch/objects" | awk "$component_of"'
             if (use[2] in owner)
                 print component_of(use[1]), owner[use[2]], use[1], "calls " use[2]
         }
-    }' >"$scratch/symbols"
+    }' "$root/tests/lint/abi.txt" - >"$scratch/symbols"
 
 status=0
 for found in lines headers symbols; do

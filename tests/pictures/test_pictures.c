@@ -7,6 +7,7 @@
 // Scripts that need OpenGL are skipped where it is not available. --update stores the drawn pictures; --write stores
 // them elsewhere. The scripts of the folder with gallery.fl must use all nodes.
 #include "petri-draw.h"
+#include "petri-edit.h"
 
 #include <cairo.h>
 #include <dirent.h>

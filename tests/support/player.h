@@ -3,7 +3,7 @@
 
 #include "check.h"
 #include "last_frame.h"
-#include "petri.h"
+#include "petri-edit.h"
 
 #include <stdlib.h>
 

@@ -68,7 +68,7 @@ export const GENERATED = {
 
     // Generates the page of the C headers. Comments at the start of a line become text; declarations between them are shown as code.
     headers({ root, text: { md } }, env) {
-        return ['petri.h', 'petri-draw.h'].map(name => {
+        return ['petri.h', 'petri-draw.h', 'petri-edit.h', 'petri-ranks.h'].map(name => {
             const [, ...lines] = readFileSync(join(root, 'lib/include', name), 'utf8').split('\n');
             let html = section(env, 2, slug(name), name), text = [], shown = [];
             const end = () => {

@@ -49,7 +49,7 @@ export const GROUPS = [
             parts: [['src/manual/editors.md']] },
         { name: 'playground', title: 'The playground', about: 'The page, and <petri-dish> in any page',
             parts: [['src/manual/playground.md']] },
-        { name: 'c', title: 'From C and C++', about: 'All of petri.h and petri-draw.h',
+        { name: 'c', title: 'From C and C++', about: 'All public headers',
             parts: [['src/manual/embedding.md']], made: 'headers' },
         { name: 'python', title: 'From Python', about: 'Sessions, numpy, sweeps, notebooks', parts: [['src/python/TUTORIAL.md']] },
         { name: 'javascript', title: 'From JavaScript', about: 'The npm package', parts: [['src/web/engine/README.md']] },

@@ -1,5 +1,6 @@
 // test_session_promises.c: tests that lifetimes, snapshots and NULL arguments are as documented in petri.h.
 #include "folder.h"
+#include "petri-ranks.h"
 #include "player.h"
 #include "session/session.h"
 

@@ -1,5 +1,6 @@
 // test_session_versions.c: hosts that were compiled with an older or newer petri.h, whose structs are shorter or longer
 // than those of the library.
+#include "petri-ranks.h"
 #include "player.h"
 
 #define SCRIPT                                                                                                         \
