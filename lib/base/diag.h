@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/hash_index.h"
+#include "base/private_api.h"
 #include "base/source.h"
 
 typedef enum DiagLevel { DIAG_ERROR, DIAG_WARNING, DIAG_NOTE } DiagLevel;
@@ -29,12 +30,12 @@ typedef struct DiagSink {
     uint32_t dropped; // number of diagnostics beyond `limit`
 } DiagSink;
 
-DiagSink diag_sink_new(Arena *arena, uint32_t limit);
+DiagSink diag_sink_new(Arena *arena, uint32_t limit) PRIVATE_API(diag_sink_new);
 // Frees the index. The entries are freed with the arena.
-void diag_sink_free(DiagSink *sink);
+void diag_sink_free(DiagSink *sink) PRIVATE_API(diag_sink_free);
 // Stores a copy of `diag` and returns true. Returns false if the same text at the same location is already stored, or
 // if the sink is full. The source must outlive the sink.
-bool diag_report(DiagSink *sink, const Diag *diag);
+bool diag_report(DiagSink *sink, const Diag *diag) PRIVATE_API(diag_report);
 // Returns the text of a diagnostic, truncated to 400 bytes.
 Str diag_text(const Diag *diag);
 // Appends `FILE:LINE:COLUMN: level: text`, the source line, a caret line and the hint (spec cli.md 3.5). Every line

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/file_access.h"
+#include "base/private_api.h"
 
 #include <sys/types.h>
 
@@ -11,7 +12,7 @@
 // *version to a string that changes when the file changes. file_access restricts which files can be read; NULL: no
 // restriction.
 bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
-               Str *version, const char **problem);
+               Str *version, const char **problem) PRIVATE_API(file_read);
 // Calls read, and repeats it if interrupted by a signal.
 ssize_t file_read_some(int file, void *bytes, size_t len);
 // Reads exactly `len` bytes. Returns false if the file ends earlier, or with errno set on failure.
@@ -28,13 +29,14 @@ const char *text_read_file(Text *text, const char *path, size_t limit);
 const char *text_read_regular(Text *text, int file, size_t limit);
 bool file_exists(const char *path);
 // Sets *version to the same string as file_read would. Returns false if the file does not exist or cannot be accessed.
-bool file_version(Arena *arena, const FileAccess *file_access, const char *path, Str *version);
+bool file_version(Arena *arena, const FileAccess *file_access, const char *path, Str *version)
+    PRIVATE_API(file_version);
 // Replaces the contents of a file by `bytes` atomically. `flags` are ReplaceFlags. Returns NULL on success, else the
 // reason for the failure.
 const char *file_replace(const char *path, Str bytes, unsigned flags);
 // Writes `bytes` to a replacement and commits it. Returns NULL on success. On failure aborts the replacement and
 // returns the reason.
-const char *file_finish(Replacement *replacement, Str bytes);
+const char *file_finish(Replacement *replacement, Str bytes) PRIVATE_API(file_finish);
 // Calls openat with O_CLOEXEC and O_NOCTTY, and retries if interrupted by a signal. `folder` may be AT_FDCWD.
 int file_open_at(int folder, const char *name, int flags, mode_t mode);
 // Writes all bytes to an open file. On failure returns false with errno set.

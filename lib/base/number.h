@@ -1,6 +1,7 @@
 // number.h: locale-independent conversion between doubles and text.
 #pragma once
 
+#include "base/private_api.h"
 #include "base/str.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@ size_t number_format(double x, char text[NUMBER_TEXT]);
 size_t number_format_short(double x, char text[NUMBER_TEXT]);
 // Parses a well-formed decimal number with optional sign, point and exponent. Underscores are skipped. The result is
 // correctly rounded; NaN if out of memory.
-double number_parse(Str digits);
+double number_parse(Str digits) PRIVATE_API(number_parse);
 
 // Returns floor(x), which is -0 for x = -0. Faster than the C library's floor, which is a function call if the compiler
 // cannot use SSE4.1.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/arena.h"
+#include "base/private_api.h"
 
 #include <stdarg.h>
 #include <stdbool.h>
@@ -17,22 +18,22 @@ typedef struct Str {
 // Arguments for the format %.*s.
 #define STR_ARGS(str) (int)(str).len, (str).bytes
 
-Str str_from(const char *text);
-bool str_equal(Str a, Str b);
+Str str_from(const char *text) PRIVATE_API(str_from);
+bool str_equal(Str a, Str b) PRIVATE_API(str_equal);
 // Returns -1, 0 or 1. Compares bytes, which for UTF-8 is the order of code points. A prefix sorts before
 // the longer string.
 int str_compare(Str a, Str b);
 // str_copy and str_to_c return a copy that is followed by a NUL byte.
-Str str_copy(Arena *arena, Str text);
-char *str_to_c(Arena *arena, Str text);
-bool str_starts_with(Str text, Str prefix);
-bool str_ends_with(Str text, Str suffix);
+Str str_copy(Arena *arena, Str text) PRIVATE_API(str_copy);
+char *str_to_c(Arena *arena, Str text) PRIVATE_API(str_to_c);
+bool str_starts_with(Str text, Str prefix) PRIVATE_API(str_starts_with);
+bool str_ends_with(Str text, Str suffix) PRIVATE_API(str_ends_with);
 // Returns the longest prefix of at most max_bytes bytes that does not end within a character.
 Str str_truncate(Str text, size_t max_bytes);
 // Returns the index of a word in a space-separated list, or -1 if the list does not contain it.
 int str_word_number(Str word, const char *list);
 // Returns the text without white space (space, tab, CR, LF, VT, FF) at both ends.
-Str str_trim(Str text);
+Str str_trim(Str text) PRIVATE_API(str_trim);
 
 // Returns the number of edits (insertion, deletion, replacement, swap of adjacent bytes) that turn a into b, for
 // "did you mean" hints. Returns 64 if a or b is longer than 64 bytes.
@@ -58,17 +59,19 @@ typedef struct Text {
     size_t capacity; // of `bytes`
 } Text;
 
-Text text_new(Arena *arena);
+Text text_new(Arena *arena) PRIVATE_API(text_new);
 void text_free(Text *text); // frees a text on the heap; it is then empty
 // Ensures space for `more` bytes and a NUL after text->len. Returns the address of that space.
 char *text_reserve(Text *text, size_t more);
-void text_add(Text *text, Str part);
-void text_add_c(Text *text, const char *part);
+void text_add(Text *text, Str part) PRIVATE_API(text_add);
+void text_add_c(Text *text, const char *part) PRIVATE_API(text_add_c);
 void text_add_char(Text *text, char c);
 void text_add_code_point(Text *text, uint32_t code_point);
-void text_add_format(Text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void text_add_va(Text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
-Str text_str(const Text *text);
+void text_add_format(Text *text, const char *format, ...) PRIVATE_API(text_add_format)
+    __attribute__((format(printf, 2, 3)));
+void text_add_va(Text *text, const char *format, va_list args) PRIVATE_API(text_add_va)
+    __attribute__((format(printf, 2, 0)));
+Str text_str(const Text *text) PRIVATE_API(text_str);
 
 // Returns the value of a hexadecimal digit, or -1.
 int str_hex_digit(char c);
@@ -78,12 +81,12 @@ int str_hex_digit(char c);
 bool text_add_hex_colour(Text *text, Str hex);
 
 // Returns a formatted string in the arena. It is followed by a NUL byte.
-Str str_format(Arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
+Str str_format(Arena *arena, const char *format, ...) PRIVATE_API(str_format) __attribute__((format(printf, 2, 3)));
 
 enum { UTF8_MAX = 4 };
 // Decodes the code point at *at and advances *at. For ill-formed UTF-8, including surrogates and overlong forms,
 // returns -1 and advances by one byte.
-int32_t utf8_next(Str text, size_t *at);
+int32_t utf8_next(Str text, size_t *at) PRIVATE_API(utf8_next);
 // Returns true for control characters and for -1, the result of utf8_next for ill-formed bytes. None of these must
 // reach a terminal.
 bool utf8_is_control(int32_t code_point);

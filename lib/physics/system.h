@@ -9,6 +9,7 @@
 
 #include "base/budget.h"
 #include "base/cpu.h"
+#include "base/private_api.h"
 #include "physics/force_list.h"
 
 #include <stdbool.h>
@@ -197,11 +198,11 @@ typedef struct PhysColumns {
     const bool *anchor; // true for anchors; the values of two handles are `anchor_stride` bytes apart
     size_t anchor_stride;
 } PhysColumns;
-PhysColumns phys_columns(const PhysSystem *system);
+PhysColumns phys_columns(const PhysSystem *system) PRIVATE_API(phys_columns);
 static inline const double *phys_at_particle(PhysColumn column, uint32_t particle) {
     return column.numbers + particle * column.stride;
 }
-uint32_t phys_force_count(const PhysSystem *system);
+uint32_t phys_force_count(const PhysSystem *system) PRIVATE_API(phys_force_count);
 // Copies force applier or barrier `number`, counted from 0 in the order of the calls. Returns false if there is no such
 // force.
-bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force);
+bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force) PRIVATE_API(phys_get_force);

@@ -4,6 +4,7 @@
 // the state dictionary. In `!window` nodes, only the bindings of user input are read.
 #pragma once
 
+#include "base/private_api.h"
 #include "physics/system.h"
 #include "scene/input_bind.h"
 
@@ -58,7 +59,7 @@ typedef struct SceneView {
     PhysicsSystem *system;
 } SceneView;
 // Fills the view of a system. `number` counts from 0. Returns false if there is no such system.
-bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view);
+bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view) PRIVATE_API(scene_view);
 // Returns the id of a particle: its state key without the prefix.
 Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle);
 // Sets *ids to all ids if each is a single number, else to NULL. Returns false if out of memory. *ids is valid until

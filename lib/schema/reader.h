@@ -7,6 +7,7 @@
 
 #include "base/diag.h"
 #include "base/file_access.h"
+#include "base/private_api.h"
 #include "schema/records.h"
 #include "schema/table.h"
 #include "value/node.h"
@@ -56,10 +57,10 @@ static inline NodeKind schema_kind(const Schema *schema, const Node *node) {
     return KIND_COUNT;
 }
 // Returns the first kind in windows with the node's name. Returns KIND_COUNT if there is none.
-NodeKind schema_window_kind(const Schema *schema, const Node *node);
+NodeKind schema_window_kind(const Schema *schema, const Node *node) PRIVATE_API(schema_window_kind);
 // Returns the kind of a node whose parent accepts `children`. Returns KIND_COUNT if the parent does not accept the
 // node.
-NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind children);
+NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind children) PRIVATE_API(schema_kind_in);
 
 // The node being read, with its context.
 typedef struct Reader {
@@ -81,7 +82,7 @@ void reader_report_at(const Reader *reader, const char *code, Origin place, Str 
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after);
 
 // Stores the defaults of a kind in its record. Vectors become NULL.
-void schema_defaults(NodeKind kind, void *record);
+void schema_defaults(NodeKind kind, void *record) PRIVATE_API(schema_defaults);
 // Reads the attributes into a record that contains the defaults. Unknown or malformed attributes are reported and keep
 // the default. Vectors are borrowed from the node or allocated from the reader's arena.
 void reader_fill(const Reader *reader, void *record);
@@ -105,4 +106,4 @@ typedef struct AttrValue {
 // false if a required attribute has numbers that are not finite or outside the limits.
 bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count);
 // Stores an attribute in the record of its kind. Does nothing if its row names no field.
-void schema_store(const AttrValue *attr, void *record);
+void schema_store(const AttrValue *attr, void *record) PRIVATE_API(schema_store);

@@ -1,6 +1,7 @@
 // table.h: the rows of schema_list.h as tables: kinds of nodes, attributes, types and words.
 #pragma once
 
+#include "base/private_api.h"
 #include "base/str.h"
 #include "physics/system.h"
 
@@ -150,14 +151,14 @@ typedef struct WordRow {
     Str text;
 } WordRow;
 
-extern const KindRow schema_kinds[KIND_COUNT];
-extern const char *const schema_names[ATTR_COUNT];
-extern const TypeRow schema_types[TYPE_COUNT];
-extern const SchemaRow schema_rows[ROW_COUNT];
+extern const KindRow schema_kinds[KIND_COUNT] PRIVATE_API(schema_kinds);
+extern const char *const schema_names[ATTR_COUNT] PRIVATE_API(schema_names);
+extern const TypeRow schema_types[TYPE_COUNT] PRIVATE_API(schema_types);
+extern const SchemaRow schema_rows[ROW_COUNT] PRIVATE_API(schema_rows);
 extern const WordRow schema_words[WORD_COUNT];
 
 // Returns the row of an attribute, or NULL if the kind has no such attribute.
-const SchemaRow *schema_row(NodeKind kind, AttrName name);
+const SchemaRow *schema_row(NodeKind kind, AttrName name) PRIVATE_API(schema_row);
 // Returns the force that nodes of a kind describe, or PHYS_FORCE_KINDS if the kind is not a force.
 PhysForceKind schema_force(NodeKind kind);
 // Returns the formula of a force, with line breaks; "" for other nodes.

@@ -3,6 +3,7 @@
 
 #include "base/diag.h"
 #include "base/hash_index.h"
+#include "base/private_api.h"
 #include "petri.h"
 
 enum { MAX_RETAINED = 100 };
@@ -35,6 +36,7 @@ void session_report(PetriSession *session, const Diag *diag);
 // empty, uses the rendered text.
 void session_report_keyed(PetriSession *session, const Diag *diag, Str key);
 // Reports a diagnostic without a position.
-void session_report_text(PetriSession *session, DiagLevel level, const char *code, Str text);
+void session_report_text(PetriSession *session, DiagLevel level, const char *code, Str text)
+    PRIVATE_API(session_report_text);
 // Reports all diagnostics of a sink.
-void session_report_all(PetriSession *session, const DiagSink *sink);
+void session_report_all(PetriSession *session, const DiagSink *sink) PRIVATE_API(session_report_all);

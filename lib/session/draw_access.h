@@ -1,6 +1,7 @@
 // draw_access.h: the internal interface through which lib/draw reads the last frame.
 #pragma once
 
+#include "base/private_api.h"
 #include "canvas/read.h"
 #include "petri.h"
 #include "scene/scene.h"
@@ -21,34 +22,36 @@ typedef struct DrawAccess {
 } DrawAccess;
 
 // Returns access to the last frame.
-DrawAccess session_draw_access(PetriSession *session);
+DrawAccess session_draw_access(PetriSession *session) PRIVATE_API(session_draw_access);
 
 // Stores the names that have numeric values in `names`, and these values in `numbers`, for shaders. The names of the
 // engine, such as `beat`, come first, then those of the definitions. If a name is defined more than once, its newest
 // definition comes first. Stores at most `capacity` names and returns how many it stored. Allocates the names of
 // definitions in `arena`.
 uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[],
-                               uint32_t capacity);
+                               uint32_t capacity) PRIVATE_API(session_frame_numbers);
 
 // Returns true if the source of a diagnostic still exists. A reload may have freed the source.
-bool session_has_source(const PetriSession *session, const Diag *fault);
+bool session_has_source(const PetriSession *session, const Diag *fault) PRIVATE_API(session_has_source);
 
 // Adds the work of drawing to the result of petri_work.
-void session_add_work(PetriSession *session, uint64_t work);
+void session_add_work(PetriSession *session, uint64_t work) PRIVATE_API(session_add_work);
 
 // Returns memory for lib/draw that lives as long as the session and is zeroed before frame 0. All calls must pass the
 // same size. Called within a protected call.
-void *session_draw_memory(PetriSession *session, size_t size);
+void *session_draw_memory(PetriSession *session, size_t size) PRIVATE_API(session_draw_memory);
 
 // Runs `call` as a protected call: it is aborted if memory runs out, a limit is exceeded or the session is interrupted.
 // This applies to allocations in the arenas of the session and in `extra`, which may be NULL. Returns the status that
 // `call` returns, or the reason for the abort: PETRI_OUT_OF_MEMORY, PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED.
 // Resources that `call` acquires must be reachable from `context`, so that the caller can free them after an abort.
 typedef PetriStatus SessionCall(PetriSession *session, void *context);
-PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context);
+PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context)
+    PRIVATE_API(session_protect);
 // Handles the status of a protected call. If the call ran out of memory or exceeded a limit, reports that `what` (such
 // as "the frame") was aborted. For a limit, the report gives the position in the script, if known. If the call was
 // interrupted, clears the interrupt. Returns `status`.
-PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what);
+PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what)
+    PRIVATE_API(session_report_abort);
 // Calls session_protect, then session_report_abort.
 PetriStatus session_run(PetriSession *session, SessionCall *call, void *context, const char *what);

@@ -4,6 +4,7 @@
 // the children of a node, use node_children (value/node_batch.h), because some children may be stored as batches.
 #pragma once
 
+#include "base/private_api.h"
 #include "base/source.h"
 #include "value/value.h"
 
@@ -83,7 +84,7 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 // Sets program_lifetime for all nodes of a value and their descendants.
 void value_mark_program_lifetime(Value v);
 // Returns the attribute's value, or null.
-Value node_get(const Node *node, const Symbol *name);
+Value node_get(const Node *node, const Symbol *name) PRIVATE_API(node_get);
 // Returns the location of an attribute. If that is unknown, returns the location of the node. If that is
 // unknown too, the source of the result is NULL.
 Origin node_origin(const Node *node, const Symbol *attr);

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "base/arena.h"
+#include "base/private_api.h"
 #include "base/str.h"
 #include "value/symbol.h"
 
@@ -128,7 +129,7 @@ Value value_copy(Arena *arena, Value v);
 
 enum { VALUE_TEXT_WORK = 16 }; // work units per element converted to text
 // Returns the elements converted to text and concatenated (L6).
-Str value_text(Arena *arena, const SymbolTable *symbols, Value v);
+Str value_text(Arena *arena, const SymbolTable *symbols, Value v) PRIVATE_API(value_text);
 
 // A builder that concatenates values, its parts, into a vector (L4.7). A stream is kept only if nothing else is added,
 // not even null.

@@ -17,21 +17,37 @@ compare() {
     fi
 }
 
-# check NAME LIBRARY nm-options...: compares exported names, except those of the linker and of sanitizers.
+# check NAME LIBRARY nm-options...: compares exported names, except private ones, versions, and those of the linker and of
+# sanitizers.
 check() {
     name=$1 library=$2
     shift 2
     [ -e "$library" ] || { echo "skipped: this build has no $library"; return; }
-    nm "$@" --defined-only "$library" | awk 'NF == 3 && $3 !~ /^_|^\.|@/ { print $3 }' | sort -u >"$scratch/found"
+    nm "$@" --defined-only "$library" |
+        awk '{ sub(/@@PETRI_[0-9.]*$/, "") } NF == 3 && $2 != "A" && $3 !~ /^_|^\.|@/ { print $3 }' | sort -u >"$scratch/found"
     compare "$library" "$scratch/$name" "$scratch/found"
 }
 
+# can_draw LIBRARY: succeeds if it was built with Cairo and OpenGL.
+can_draw() { [ "$(nm -D "$1" | grep -c -e ' U cairo_create$' -e ' epoxy_glClear$')" -eq 2 ]; }
+
 grep -v -e '^petri-draw ' -e '^#' "$listed" | sed 's/.* //' | sort >"$scratch/petri"
-sed -n 's/^petri[a-z-]* //p' "$listed" | sort >"$scratch/draw"
+sed -n "s/^petri-draw //p" "$listed" | sort >"$scratch/draw"
 check petri lib/session/libpetri.so -D
 check draw lib/draw/libpetri-draw.so -D
 check petri src/packaging/libpetri.a -g
 check draw src/packaging/libpetri-draw.a -g
+
+# The private names of libpetri.so are those that libpetri-draw.so needs. The linker has reported missing ones.
+private() { nm -D "$2" | sed -n "s/.* $1 \(_petri_[a-z0-9_]*\)@.*/\1/p" | sort; }
+if [ -e lib/draw/libpetri-draw.so ]; then
+    private '[TDRBV]' lib/session/libpetri.so >"$scratch/exported"
+    private U lib/draw/libpetri-draw.so >"$scratch/used"
+    if [ ! -s "$scratch/used" ] || { can_draw lib/draw/libpetri-draw.so && ! cmp -s "$scratch/exported" "$scratch/used"; }; then
+        echo "PRIVATE_API that libpetri-draw does not need:" $(comm -23 "$scratch/exported" "$scratch/used")
+        faults=1
+    fi
+fi
 
 for header in petri petri-edit petri-ranks petri-draw; do
     awk 'match($0, /[ *]petri_[a-z_]+\(/) && /^PETRI_API/ { print substr($0, RSTART + 1, RLENGTH - 2) }' \

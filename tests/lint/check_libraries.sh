@@ -39,11 +39,11 @@ else
     echo "libpetri does not link by itself"
     faults=1
 fi
-# A shared library that contains libpetri.a exports only public functions.
+# A shared library that contains libpetri.a exports only public functions, and private ones with their prefix.
 # shellcheck disable=SC2086
 ${CC:-cc} $options -shared -o "$scratch/all.so" -Wl,--whole-archive lib/session/libpetri.a -Wl,--no-whole-archive -lm -lpthread
 shown=$(nm -D --defined-only "$scratch/all.so" | awk '{ print $NF }' | grep -v '^__')
-for name in $(echo "$shown" | grep -v '^petri_'); do
+for name in $(echo "$shown" | grep -v '^_\{0,1\}petri_'); do
     echo "libpetri.so exports $name"
     faults=1
 done

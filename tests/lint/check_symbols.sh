@@ -6,10 +6,10 @@ table=$1/tests/lint/symbols.txt
 cd "$2"
 faults=0
 
-# Names of the linker and of sanitizers (`__…`, or with a dot) are not checked.
+# Names of the linker and of sanitizers (`__…`, or with a dot) are not checked. PRIVATE_API adds `_petri_`.
 while read -r library folder prefixes; do
     case $library in '#'* | '') continue ;; esac
-    names=$(nm -g --defined-only "$folder"/*.o | awk 'NF == 3 && $3 !~ /^__|\./ { print $3 }')
+    names=$(nm -g --defined-only "$folder"/*.o | awk 'NF == 3 && $3 !~ /^__|\./ { sub(/^_petri_/, "", $3); print $3 }')
     if [ -z "$names" ]; then
         echo "$library: no names in $folder"
         faults=1
