@@ -53,6 +53,7 @@ command -v openbox        : openbox
 command -v cmake          : cmake make
 command -v c++            : g++
 command -v mandoc         : mandoc
+command -v abidiff        : abigail-tools
 command -v zsh            : zsh
 command -v fish           : fish
 command -v desktop-file-validate : desktop-file-utils
