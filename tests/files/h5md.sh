@@ -74,6 +74,7 @@ with h5py.File("linked.h5", "r+") as file:
         min_frames=$(($1 - 1))
         shift
         rm -f run.h5
+        : >err # the frames of an earlier run must not be counted
         env --default-signal=HUP,INT,TERM "$petri" run w.fl --frames 100000000 --trace --trajectory run.h5 "$@" 2>err </dev/null &
         job=$!
         while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -le $min_frames ]; do :; done
