@@ -49,7 +49,8 @@ struct Job {
     PetriPicture *picture;
     bool for_film;
     bool needs_history;
-    char *file; // name of the image file, owned by the job; NULL: none
+    bool records; // true if the files of `!record` nodes are written
+    char *file;   // name of the image file, owned by the job; NULL: none
     Replacement target;
     bool target_open; // true if `target` is in use
     bool failed;
@@ -199,7 +200,7 @@ static bool run_job(FrameWriter *writer, Job *job, PetriPainter *painter) {
     bool good = !job->for_film || add_to_film(writer, job->picture, painter);
     if (job->file)
         good = good && write_file(writer, job, painter);
-    if (good && job->needs_history) {
+    if (good && job->records) {
         good = recording_add(&writer->recording, job->picture, painter);
         if (!good && writer->recording.error_text)
             set_error_text(writer, writer->recording.error_text);
@@ -349,9 +350,10 @@ static void wait_briefly(FrameWriter *writer) {
     pthread_cond_timedwait(&writer->changed, &writer->lock, &until);
 }
 
-bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file) {
+bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file, bool repeats) {
     Job *job = memory_calloc(sizeof *job);
     *job = (Job){.picture = picture, .for_film = for_film, .needs_history = petri_picture_needs_history(picture)};
+    job->records = job->needs_history && !repeats;
     job->file = !file ? NULL : memory_strdup(file);
     pthread_mutex_lock(&writer->lock);
     job->number = writer->added++;

@@ -14,10 +14,11 @@ typedef struct FrameWriter FrameWriter;
 // Videos of `!record` nodes have `fps` frames per second. Returns NULL after a message.
 FrameWriter *frame_writer_start(const char *film, double film_fps, double fps);
 // Adds a picture to the queue and takes ownership of it. A thread adds the picture to the video if `for_film` is true,
-// and writes it to `file` if that is not NULL. The thread also writes the files of the picture's `!record` nodes. The
-// file name is copied. Pictures that need history (petri_picture_needs_history) must be added for every frame. Waits
-// while the queue is full, unless a signal arrives. Returns false if writing has failed before.
-bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file);
+// and writes it to `file` if that is not NULL. The thread also writes the files of the picture's `!record` nodes,
+// unless `repeats` is true: a picture of the same frame was added before. The file name is copied. Pictures that need
+// history (petri_picture_needs_history) must be added for every frame. Waits while the queue is full, unless a signal
+// arrives. Returns false if writing has failed before.
+bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file, bool repeats);
 // Reports the diagnostics of finished pictures to the session's callback and frees the pictures.
 void frame_writer_report(FrameWriter *writer, PetriSession *session);
 // Waits for all pictures and completes the video. If `abandon` is true, discards unfinished pictures. After a signal,

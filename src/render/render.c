@@ -23,6 +23,7 @@ typedef struct Render {
     FrameWriter *writer;
     int64_t drawn;            // number of frames drawn for the output
     bool thread_running;      // true if a thread is still drawing an abandoned picture
+    int64_t last_drawn;       // number of the frame that was drawn last; -1: none
     bool failed;              // true after a failure: no more frames are drawn
     StdoutFile stdout_file;   // temporary file, for output to standard output
     const char *display_name; // name of the output in messages
@@ -111,7 +112,10 @@ static void draw_frame(Render *render, bool for_film, const char *file) {
         progress_erase(&render->frames.progress);
         message("out of memory");
     }
-    render->failed = status != PETRI_OK || !frame_writer_add(render->writer, picture, for_film, file);
+    int64_t number = petri_frame(render->frames.session).number;
+    bool repeats = number == render->last_drawn; // a single picture of a frame that was drawn for its history
+    render->last_drawn = number;
+    render->failed = status != PETRI_OK || !frame_writer_add(render->writer, picture, for_film, file, repeats);
     render->drawn += for_film || file;
 }
 
@@ -251,7 +255,7 @@ static int render_script(Render *render) {
 }
 
 static int render_run(const CommandContext *context, Options *options) {
-    Render render = {.failed = false};
+    Render render = {.last_drawn = -1};
     int status = frames_open(&render.frames, context, options);
     if (status == OPTIONS_READ)
         status = render_script(&render);

@@ -388,6 +388,31 @@ END
         check "a video has the requested number of frames" [ "${frames%%,*}" = 10 ]
         ffmpeg -v error -i early.mp4 -frames:v 1 -pix_fmt rgb24 -f rawvideo - </dev/null | od -An -N3 -tu1 >colour
         check "a video starts with the first frame that shows its particles" awk '{ exit !($1 < 50 && $2 > 200) }' colour
+        frame_count() { ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 "$1" | tr -d ,; }
+        cat >record.fl <<'END'
+!window size=40;40
+    !record filename="films/whole.mp4"
+        !canvas
+            !rect size=40;40 fill=true
+    !record filename="part.gif" limit=0.1
+        !canvas
+            !rect size=40;40 fill=true
+    !record filename="growing.mp4" size=((40;40) if frame < 3 else (20;20))
+        !canvas
+            !rect size=40;40 fill=true
+END
+        petri render record.fl -o last.png --frames 12
+        check "!record writes videos" status_is 0
+        check "a video of !record has a frame for each frame of the script" [ "$(frame_count films/whole.mp4)" = 12 ]
+        check "a video of !record ends at its limit" [ "$(frame_count part.gif)" = 6 ]
+        check "a video of !record leaves out frames of another size" [ "$(frame_count growing.mp4)" = 3 ]
+        rm -rf films part.gif growing.mp4
+        printf '!window size=40;40\n    !record filename="absent.mp4/x.mp4"\n        !canvas\n' >record.fl
+        : >absent.mp4
+        petri render record.fl -o last.png --frames 2
+        check "a video of !record that cannot be written is an error" status_is 1
+        check "the message names the video of !record" has err "absent.mp4"
+        rm absent.mp4 last.png
         petri render disc.fl -o odd.mp4 --frames 2 --size 41x31
         check "a video can have an odd size" status_is 0
         for name in file:film.mp4 at:12.gif; do
