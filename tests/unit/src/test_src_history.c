@@ -132,6 +132,31 @@ static void test_goto_before_start_is_rejected(void **state) {
     history_free(&history);
 }
 
+// Each change needs its own keyframe, so that the oldest frames are dropped if there are more changes than keyframes.
+static void test_many_changes_drop_the_oldest_frames(void **state) {
+    enum { CHANGES = HISTORY_MAX + 100 };
+    Player *player = *state;
+    Text why = {0};
+    start_history(player);
+    for (int i = 0; i < CHANGES; i++) {
+        assert_int_equal(petri_set_tempo(player->session, 60 + i), PETRI_OK);
+        step(player, 2);
+    }
+    assert_true(history.keyframe_count <= HISTORY_MAX);
+    assert_true(history.epoch_count <= HISTORY_MAX);
+    assert_in_range(history.first, 2 * 100 - 2, 2 * 100 + 20);
+    assert_int_equal(history_goto(&history, player->session, history.first - 1, &why), PETRI_INVALID);
+    assert_non_null(strstr(why.bytes, "earlier frames were dropped to save memory"));
+    go_to(player, history.first);
+    go_to(player, history.first + 1);
+    go_to(player, 2 * CHANGES - 1);
+    go_to(player, CHANGES);
+    assert_int_equal(history_reset(&history, player->session), PETRI_OK); // the first frame itself is kept
+    assert_int_equal(petri_frame(player->session).number, -1);
+    text_free(&why);
+    history_free(&history);
+}
+
 // Drops all data except the state of the current frame, as after an interrupted step.
 static void lose_systems(Player *player) {
     PetriSystem system;
@@ -174,9 +199,8 @@ static void test_recompute_restores_whole_frame(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_goto_any_frame_gives_same_bits),
-        PLAYER_TEST(test_change_applies_to_later_frames),
-        PLAYER_TEST(test_goto_before_start_is_rejected),
+        PLAYER_TEST(test_goto_any_frame_gives_same_bits), PLAYER_TEST(test_change_applies_to_later_frames),
+        PLAYER_TEST(test_goto_before_start_is_rejected),  PLAYER_TEST(test_many_changes_drop_the_oldest_frames),
         PLAYER_TEST(test_recompute_restores_whole_frame),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
