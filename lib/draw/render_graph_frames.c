@@ -1,0 +1,96 @@
+// render_graph_frames.c: the state of a render graph that is kept from frame to frame; see render_graph_walk.h.
+#include "base/heap.h"
+#include "draw/render_graph_walk.h"
+#include "gl/functions.h"
+
+#include <string.h>
+
+RenderGraph *render_graph_new(void) {
+    RenderGraph *pictures = heap_calloc(1, sizeof *pictures);
+    for (int i = 0; pictures && i < 2; i++)
+        arena_init(&pictures->frames[i].arena, "pictures", SIZE_MAX);
+    return pictures;
+}
+
+static void release_node(GraphNode *made) {
+    texture_free(made->picture);
+    for (uint32_t i = 0; i < made->count; i++)
+        release_node(&made->children[i]);
+}
+
+void render_graph_clear_frame(Frame *frame) {
+    release_node(&frame->top);
+    Arena arena = frame->arena;
+    arena_reset(&arena);
+    *frame = (Frame){.arena = arena};
+}
+
+void render_graph_clear(PetriPainter *painter) {
+    const char *problem;
+    bool gpu = painter->gl && gl_call.enter(painter->gl, &problem);
+    for (int i = 0; painter->render_graph && i < 2; i++)
+        render_graph_clear_frame(&painter->render_graph->frames[i]);
+    if (gpu)
+        gl_call.leave(painter->gl);
+}
+
+void render_graph_free(PetriPainter *painter) {
+    render_graph_clear(painter);
+    for (int i = 0; painter->render_graph && i < 2; i++)
+        arena_free(&painter->render_graph->frames[i].arena);
+    heap_free(painter->render_graph);
+    painter->render_graph = NULL;
+}
+
+const Recorded *render_graph_records(const RenderGraph *pictures, uint32_t *count) {
+    const Frame *frame = &pictures->frames[pictures->now];
+    *count = frame->record_count;
+    return frame->records;
+}
+
+static Texture *find_known(const Frame *frame, Str id) {
+    for (uint32_t i = frame->known_count; i-- > 0;)
+        if (str_equal(frame->known[i].id, id))
+            return frame->known[i].picture;
+    return NULL;
+}
+
+Texture *render_graph_find(const RenderGraph *pictures, Str id) {
+    Texture *found = find_known(&pictures->frames[pictures->now], id);
+    return found ? found : find_known(&pictures->frames[!pictures->now], id);
+}
+
+Texture *render_graph_find_named(const Walk *walk, Str id) {
+    Texture *found = find_known(walk->frame, id);
+    return found ? found : find_known(walk->before, id);
+}
+
+void render_graph_name(Walk *walk, Str id, Texture *picture) {
+    Frame *frame = walk->frame;
+    if (frame->known_count == frame->known_capacity) {
+        uint32_t capacity = frame->known_capacity ? 2 * frame->known_capacity : 8;
+        frame->known = arena_grow(&frame->arena, frame->known, frame->known_capacity * sizeof *frame->known,
+                                  capacity * sizeof *frame->known);
+        frame->known_capacity = capacity;
+    }
+    frame->known[frame->known_count++] = (NamedPicture){id, picture};
+}
+
+const GraphNode *render_graph_find_past(const GraphNode *past, const GraphNode *made) {
+    for (uint32_t i = 0; past && i < past->count; i++) {
+        GraphNode *other = &past->children[i];
+        if (!other->matched && other->kind == made->kind && str_equal(other->tags, made->tags) &&
+            str_equal(other->id, made->id) &&
+            (made->kind != KIND_PICTURE_IMAGE || str_equal(other->file, made->file))) {
+            other->matched = true;
+            return other;
+        }
+    }
+    return NULL;
+}
+
+void render_graph_alloc_children(Walk *walk, GraphNode *made, uint32_t count) {
+    made->children = arena_alloc_array(&walk->frame->arena, count, sizeof *made->children);
+    memset(made->children, 0, count * sizeof *made->children);
+    made->count = count;
+}
