@@ -61,16 +61,21 @@ static void find_source(const DisplayList *list, uint32_t number, double x, doub
     const DisplaySource *source = &list->sources.at[number];
     const double *ends = source->ends, dx = ends[2] - ends[0], dy = ends[3] - ends[1];
     const DisplayMatrix *m = &source->matrix;
-    if (source->kind == SOURCE_LINEAR) {
+    switch (source->kind) {
+    case SOURCE_LINEAR:
         find_stop(list, source, ((x - ends[0]) * dx + (y - ends[1]) * dy) / (dx * dx + dy * dy), color);
-    } else if (source->kind == SOURCE_RADIAL) {
+        break;
+    case SOURCE_RADIAL: {
         double size = m->xx * m->yy - m->xy * m->yx, u = x - m->x0, v = y - m->y0;
         find_stop(list, source, maths_hypot((m->yy * u - m->xy * v) / size, (m->xx * v - m->yx * u) / size), color);
-    } else if (source->kind == SOURCE_COLOR) {
+        break;
+    }
+    case SOURCE_COLOR:
         color[3] = (float)fmin(fmax(source->color[3], 0), 1);
         for (int k = 0; k < 3; k++)
             color[k] = (float)source->color[k] * color[3];
-    } else {
+        break;
+    case SOURCE_BLEND: {
         float second[4], fraction = (float)source->ratio;
         find_source(list, source->first_stop, x, y, color);
         find_source(list, source->stop_count, x, y, second);
@@ -78,6 +83,11 @@ static void find_source(const DisplayList *list, uint32_t number, double x, doub
             blend_colors((CompositeMode)source->mode, second, color, color);
         for (int k = 0; k < 4 && !isnan(source->ratio); k++)
             color[k] += fraction * (second[k] - color[k]);
+        break;
+    }
+    case SOURCE_PATTERN:
+    case SOURCE_NOISE:
+        break; // is_supported returns false
     }
 }
 
