@@ -81,6 +81,12 @@ typedef enum DisplayFilterKind {
 #include "draw/display_list_rows.h"
 } DisplayFilterKind;
 
+enum {
+    FILTER_COUNT = 0
+#define FILTER_KIND(name, operands) +1
+#include "draw/display_list_rows.h"
+};
+
 typedef struct DisplayFilter {
     DisplayFilterKind kind;
     double radius[2]; // for blur and shadow: standard deviation; for dilate and erode: reach

@@ -116,7 +116,7 @@ static FloatImage take_operands(FilterReader *reader, DisplayFilter filter) {
 
 static FloatImage take_filter(FilterReader *reader) {
     FloatImage result = {0};
-    int kind = take_integer(reader, 0, FILTER_SOURCE);
+    int kind = take_integer(reader, 0, FILTER_COUNT - 1);
     reader->failed |= reader->depth == MAX_DEPTH;
     reader->depth++;
     if (!reader->failed)
