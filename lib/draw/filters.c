@@ -70,12 +70,6 @@ static void apply_color_matrix(const FilterTask *task, FloatImage *image) {
     float_image_recolor(image, task->table);
 }
 
-static void apply_invert(const FilterTask *task, FloatImage *image) {
-    static const double complement[20] = {-1, 0, 0, 0, 1, 0, -1, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 1, 0};
-    (void)task;
-    float_image_recolor(image, complement);
-}
-
 static void apply_blend(const FilterTask *task, FloatImage *image) {
     float_image_combine(image, task->other, task->table, (CompositeMode)task->filter->mode);
     if (!task->other->pixels)

@@ -285,7 +285,6 @@ enum {
     // + d instead. Operands: mode, factors (4), first filter, second filter
     PETRI_FILTER_BLEND,
     PETRI_FILTER_SOURCE, // the unfiltered drawing
-    PETRI_FILTER_INVERT, // replaces colours by their complements: filter
 };
 
 // Sets *numbers to the display list of a picture, and *count to its length. Works without Cairo. For a window, it

@@ -446,8 +446,6 @@ ATTR(FILTER_COLOUR_MATRIX, BRIGHTNESS, FINITE, NOWHERE, IS(0), "", "added to red
 ATTR(FILTER_COLOUR_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "factor for the difference of red, green and blue from 0.5")
 ATTR(FILTER_COLOUR_MATRIX, SATURATION, FINITE, NOWHERE, IS(1), "", "factor for the saturation; 0 is grey")
 
-FILTER(INVERT, invert, nothing, FILTER, 1, "replace the colours of nodes drawn after it by their complements")
-
 FILTER(SOURCE, source, nothing, NOTHING, 0, "the unfiltered drawing, as input to another filter")
 
 FILTER(PAINT, paint, paint, NOTHING, 0, "an area filled with a colour or the current source, as input to another filter")
