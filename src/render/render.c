@@ -112,7 +112,7 @@ static void draw_frame(Render *render, bool for_film, const char *file) {
         progress_erase(&render->frames.progress);
         message("out of memory");
     }
-    int64_t number = petri_frame(render->frames.session).number;
+    int64_t number = petri_frame_number(render->frames.session);
     bool repeats = number == render->last_drawn; // a single picture of a frame that was drawn for its history
     render->last_drawn = number;
     render->failed = status != PETRI_OK || !frame_writer_add(render->writer, picture, for_film, file, repeats);

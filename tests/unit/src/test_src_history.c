@@ -152,7 +152,7 @@ static void test_many_changes_drop_the_oldest_frames(void **state) {
     go_to(player, 2 * CHANGES - 1);
     go_to(player, CHANGES);
     assert_int_equal(history_reset(&history, player->session), PETRI_OK); // the first frame itself is kept
-    assert_int_equal(petri_frame(player->session).number, -1);
+    assert_int_equal(petri_frame_number(player->session), -1);
     text_free(&why);
     history_free(&history);
 }
