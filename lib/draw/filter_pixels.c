@@ -1,4 +1,5 @@
 // filter_pixels.c: the public functions that compute pixels of noise and filters for hosts that draw display lists.
+#include "base/host_struct.h"
 #include "draw/filters.h"
 #include "draw/noise.h"
 #include "petri-draw.h"
@@ -125,12 +126,14 @@ static FloatImage take_filter(FilterReader *reader) {
     return result;
 }
 
-PetriStatus petri_filter_measure(const double *filter, size_t count, const double matrix[6], PetriFilterNeeds *needs) {
+PetriStatus petri_filter_measure(const double *filter, size_t count, const double matrix[6], PetriFilterNeeds *needs,
+                                 size_t size) {
     if (!filter || !matrix || !needs)
         return PETRI_INVALID;
-    *needs = (PetriFilterNeeds){0};
-    FilterReader reader = {.at = filter, .end = filter + count, .matrix = matrix_from(matrix), .wanted = needs};
+    PetriFilterNeeds found = {0};
+    FilterReader reader = {.at = filter, .end = filter + count, .matrix = matrix_from(matrix), .wanted = &found};
     take_filter(&reader);
+    host_struct_write(needs, size, &found, sizeof found);
     return reader.failed ? PETRI_INVALID : PETRI_OK;
 }
 

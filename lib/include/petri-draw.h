@@ -311,7 +311,7 @@ typedef struct PetriFilterNeeds {
 // Stores what a filter, the operand of PETRI_DRAW_FILTER, needs. `matrix` maps the coordinates of the list to pixels.
 // Returns PETRI_INVALID if an argument is NULL or the numbers are not a filter.
 PETRI_API PetriStatus petri_filter_measure(const double *filter, size_t count, const double matrix[6],
-                                           PetriFilterNeeds *needs);
+                                           PetriFilterNeeds *needs, size_t size);
 
 // Fills pixels with the paint that the commands set. Returns false on failure.
 typedef bool PetriPaintCallback(void *user_data, const double *commands, size_t count, uint32_t *pixels);

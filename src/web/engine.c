@@ -314,7 +314,7 @@ EXPORT(PetriStatus, web_noise, const double *operands, const double *matrix, uin
 // Stores the members of PetriFilterNeeds in `out`.
 EXPORT(PetriStatus, web_filter_measure, const double *filter, size_t count, const double *matrix, double *out) {
     PetriFilterNeeds needs = {0};
-    PetriStatus status = petri_filter_measure(filter, count, matrix, &needs);
+    PetriStatus status = petri_filter_measure(filter, count, matrix, &needs, sizeof needs);
     out[0] = needs.margin;
     out[1] = needs.everywhere;
     return status;

@@ -94,13 +94,16 @@ static void test_needs_are_in_pixels(void **state) {
     (void)state;
     PetriFilterNeeds needs;
     const double blur[] = {PETRI_FILTER_OFFSET, 1, 4, PETRI_FILTER_BLUR, 2, 3, PETRI_FILTER_SOURCE};
-    assert_int_equal(petri_filter_measure(blur, 7, DOUBLE, &needs), PETRI_OK);
+    assert_int_equal(petri_filter_measure(blur, 7, DOUBLE, &needs, sizeof needs), PETRI_OK);
     assert_true(needs.margin == 2 * 4 + 3 * 2 * 3 && !needs.everywhere);
     const double paint[] = {PETRI_FILTER_PAINT, 0};
-    assert_int_equal(petri_filter_measure(paint, 2, DOUBLE, &needs), PETRI_OK);
+    assert_int_equal(petri_filter_measure(paint, 2, DOUBLE, &needs, sizeof needs), PETRI_OK);
     assert_true(needs.margin == 0 && needs.everywhere);
-    assert_int_equal(petri_filter_measure(blur, 6, DOUBLE, &needs), PETRI_INVALID);
-    assert_int_equal(petri_filter_measure(NULL, 0, DOUBLE, &needs), PETRI_INVALID);
+    needs.everywhere = true;
+    assert_int_equal(petri_filter_measure(blur, 7, DOUBLE, &needs, offsetof(PetriFilterNeeds, everywhere)), PETRI_OK);
+    assert_true(needs.margin == 2 * 4 + 3 * 2 * 3 && needs.everywhere); // an older host lacks the second field
+    assert_int_equal(petri_filter_measure(blur, 6, DOUBLE, &needs, sizeof needs), PETRI_INVALID);
+    assert_int_equal(petri_filter_measure(NULL, 0, DOUBLE, &needs, sizeof needs), PETRI_INVALID);
 }
 
 static void test_noise_repeats_in_tiles(void **state) {
