@@ -29,7 +29,7 @@ check() {
 }
 
 # can_draw LIBRARY: succeeds if it was built with Cairo and OpenGL.
-can_draw() { [ "$(nm -D "$1" | grep -c -e ' U cairo_create$' -e ' epoxy_glClear$')" -eq 2 ]; }
+can_draw() { [ "$(nm -D "$1" | grep -c -e ' U cairo_create$' -e ' U epoxy_eglBindAPI$')" -eq 2 ]; }
 
 grep -v -e '^petri-draw ' -e '^#' "$listed" | sed 's/.* //' | sort >"$scratch/petri"
 sed -n "s/^petri-draw //p" "$listed" | sort >"$scratch/draw"

@@ -24,7 +24,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 abidw --headers-dir "$headers" --suppressions "$rules" --drop-private-types --drop-undefined-syms --exported-interfaces-only \
     --no-architecture --no-comp-dir-path --no-corpus-path --no-elf-needed --no-show-locs --no-write-default-sizes \
-    --out-file "$scratch/found" "$library"
+    --type-id-style hash --out-file "$scratch/found" "$library"
 if [ -n "$update" ]; then
     cp "$scratch/found" "$reference"
 elif ! abidiff --no-added-syms "$reference" "$scratch/found"; then
