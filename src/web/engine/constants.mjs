@@ -1,4 +1,4 @@
-// constants.mjs: generated from petri.h and petri-draw.h by src/web/constants.sh.
+// constants.mjs: generated from petri.h, petri-edit.h and petri-draw.h by src/web/constants.sh.
 export const STATUSES = ['ok', 'invalid', 'limit_exceeded', 'out_of_memory', 'unsupported', 'interrupted'];
 export const LEVELS = ['error', 'warning', 'note'];
 export const SECTIONS = { tree: 1, state: 2, log: 4, error: 8, hash: 16 };
