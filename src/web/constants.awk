@@ -1,5 +1,5 @@
-# constants.awk: generates names of enumerators as JavaScript, from petri.h, petri-edit.h and the rows of composite_list.h. Arrays are
-# indexed by the enumerators' values; in objects, names are mapped to values.
+# constants.awk: generates names of enumerators as JavaScript, from petri.h, petri-edit.h and the rows of
+# composite_list.h. Arrays are indexed by the values; in objects, names are mapped to values.
 BEGIN {
     arrays["PetriStatus"] = "STATUSES"; prefixes["PetriStatus"] = "PETRI_"
     arrays["PetriLevel"] = "LEVELS"; prefixes["PetriLevel"] = "PETRI_"
