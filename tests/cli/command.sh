@@ -34,6 +34,27 @@ for topic in '' view sweep particle builtins --frames; do
     check "help${topic:+ $topic} is wrapped at 80 columns without a terminal" fits 80
 done
 check "wrapped lines of a list are indented to the column of its texts" grep -Eq '^ {30}[a-z]' run_help
+petri help --help
+check "help has help" has out "usage: petri help [TOPIC]"
+petri help run sin
+check "help on two topics is a usage error" status_is 2
+check "the message names the second topic" has err "too many arguments: 'sin'"
+petri send --help
+check "send has help" has out "usage: petri send SOCKET TEXT"
+for arguments in '' socket 'socket text more'; do
+    petri send $arguments
+    check "send needs a socket and code, not '$arguments'" status_is 2
+    check "send reports what it needs, not '$arguments'" has err "expected a socket and code, as in: petri send"
+done
+mkdir -p no-scripts
+petri fmt no-scripts
+check "fmt of a folder without scripts is an error" one_message "no script found: no file is named *.fl"
+petri sweep x.fl --metric n=1 --shard 1/2
+check "a shard without a table is a usage error" status_is 2
+check "the message names the option for the table" has err "option '--shard' needs a file for the table; add -o FILE.csv"
+petri sweep x.fl --metric n=1 --plot x.txt -o t.csv
+check "a plot of an unknown format is a usage error" status_is 2
+check "the message lists the formats of plots" has err "expects a file name that ends in .svg, .png or .pdf, not 'x.txt'"
 petri test --help
 check "test has help" has out "--update"
 petri check --help
