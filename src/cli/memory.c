@@ -65,7 +65,9 @@ void text_add_uri(Text *text, const char *path) {
 }
 
 void texts_add(TextList *list, const char *text) {
-    list->items = memory_realloc(list->items, (list->count + 2) * sizeof *list->items);
+    // There is room for the lowest power of two that is greater than `count`.
+    if ((list->count & (list->count + 1)) == 0)
+        list->items = memory_realloc(list->items, 2 * (list->count + 1) * sizeof *list->items);
     list->items[list->count++] = memory_strdup(text);
     list->items[list->count] = NULL;
 }
