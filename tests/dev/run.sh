@@ -79,6 +79,7 @@ case " $* " in
         debhelper) package=dh ;;
         dh-python) package=dh_python3 ;;
         xz-utils) package=xz ;;
+        abigail-tools) package=abidiff ;;
         python3-*) package=python3 ;;
         fonts-dejavu-core) touch "$WORK/fonts/truetype/dejavu/DejaVuSans.ttf" ;;
         fonts-liberation) mkdir -p "$WORK/fonts/truetype/liberation" ;;
