@@ -139,6 +139,7 @@ test('pages are accessible, in light and dark, on a phone, and offline', ways, a
             while (!await (await caches.open('petri')).match('functions.html'))
                 await new Promise(resolve => setTimeout(resolve, 20));
         });
+        await page.waitForLoadState('networkidle'); // requests that are under way would fail
         await context.setOffline(true);
         await page.goto(`${world.server.url}manual/functions.html`);
         await page.fill('#find', 'hypot');
