@@ -209,7 +209,9 @@ static void add_pattern(DisplayListExport *numbers, const DisplaySource *source,
 // The recursion is bounded because display_list_build_source limits the depth of blends.
 static void add_source(DisplayListExport *numbers, const DisplaySource *source, double alpha) {
     const DisplayList *list = numbers->list;
-    StopList stops = {list->stops.at + source->first_stop, source->stop_count};
+    StopList stops = {NULL, 0};
+    if (source->kind == SOURCE_LINEAR || source->kind == SOURCE_RADIAL)
+        stops = (StopList){list->stops.at + source->first_stop, source->stop_count};
     switch (source->kind) {
     case SOURCE_COLOR:
         WRITE(COLOR, .colour = source->color);
