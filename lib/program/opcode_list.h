@@ -2,8 +2,8 @@
 //
 // OPCODE(ID, "name in --dump=code", "operands", BATCH): the VM has special code for the instruction.
 // FUNCTION(ID, "name", "operands", BATCH, function): d is the result of vm_FUNCTION (vm/machine.h).
-// NUMBERS(ID, "name", "operands", formula, function): if the operands are single numbers, d is the value of the formula,
-// in which x is operand a and y is operand b; otherwise d is the result of vm_FUNCTION. BATCH is PURE.
+// NUMBERS(ID, "name", "operands", formula, function): if the operands are single numbers, d is the value of the
+// formula, in which x is operand a and y is operand b; otherwise d is the result of vm_FUNCTION. BATCH is PURE.
 //
 // Each letter of the operands is one operand, in the order in which --dump=code prints them. d: register written; a, b,
 // c: operands read; l: list of operands read; j: jump target; s: registers bound; o: loop; i: number (Instr.target);
