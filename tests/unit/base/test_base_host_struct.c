@@ -60,9 +60,15 @@ static void test_reads_longer_structs_unless_unknown_fields_are_set(void **state
 static void test_rejects_structs_without_a_size(void **state) {
     (void)state;
     static const size_t sizes[] = {0, sizeof(size_t) - 1, MAX_HOST_STRUCT_SIZE + 1, SIZE_MAX};
+    static union {
+        Current current;
+        char bytes[MAX_HOST_STRUCT_SIZE];
+    } given;
     Current found = defaults;
-    for (size_t i = 0; i < COUNT_OF(sizes); i++)
-        assert_false(host_struct_read(&found, sizeof found, &(Current){.size = sizes[i]}));
+    for (size_t i = 0; i < COUNT_OF(sizes); i++) {
+        given.current.size = sizes[i];
+        assert_false(host_struct_read(&found, sizeof found, &given));
+    }
     assert_false(host_struct_read(&found, sizeof found, NULL));
     assert_current(&found, 1, 2, 3);
 }
