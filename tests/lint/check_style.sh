@@ -1,6 +1,6 @@
 #!/bin/sh
 # check_style.sh SOURCE_ROOT: sources have no trailing blanks, no tabs in C, at most 700 lines (except generated tables), a
-# line feed at the end, and no reminders of unfinished work.
+# line feed at the end, and no reminders of unfinished work. The root has only the files and folders of CONTRIBUTING.md.
 set -eu
 cd "$1"
 sources=$(mktemp)
@@ -41,6 +41,13 @@ xargs -0 awk -v max_lines=700 -v reminder='TO''DO|FIX''ME' '
 unfinished=$(xargs -0 grep -LPz '\n\z' <"$sources") || true
 if [ "$unfinished" ]; then
     printf 'no line feed at the end of:\n%s\n' "$unfinished"
+    status=1
+fi
+# Tests that ran in the root may have left files, which a commit then added.
+strays=$(git ls-files 2>/dev/null | sed 's|/.*||' | sort -u | grep -vxE '\..*|grammar|lib|samples|src|tests|dev|meson.*|LICENSE|[A-Z]+\.md') ||
+    true
+if [ "$strays" ]; then
+    printf 'unknown in the root:\n%s\n' "$strays"
     status=1
 fi
 exit $status
