@@ -1,7 +1,6 @@
 // test_draw_painter.c: tests of what a painter draws for which options, of its caches and files, and of its estimates
 // of work.
-#include "petri-draw.h"
-#include "player.h"
+#include "drawing.h"
 
 #include <unistd.h>
 
@@ -9,35 +8,6 @@ enum { WIDTH = 8, HEIGHT = 4 };
 
 static const char RED_COLUMN[] =
     "!window size=8;4\n    !canvas\n        !rect size=1;4 fill=true color=1;0;0\n    !canvas\n";
-
-static PetriPicture *picture_of(Player *player, const char *script, double detail) {
-    PetriPictureOptions options = petri_default_picture_options();
-    options.detail = detail;
-    PetriPicture *picture = NULL;
-    player_run(player, script, 1);
-    assert_int_equal(petri_picture(player->session, &options, &picture), PETRI_OK);
-    return picture;
-}
-
-// Draws a picture. Skips the test if this build cannot draw.
-static void draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height) {
-    PetriStatus status = petri_picture_draw(picture, painter, pixels, width, height, (size_t)width * sizeof *pixels);
-    if (status == PETRI_UNSUPPORTED) {
-        petri_picture_free(&picture);
-        petri_painter_close(&painter);
-        skip();
-    }
-    assert_int_equal(status, PETRI_OK);
-}
-
-static void draw_script(Player *player, const char *script, uint32_t *pixels, int width, int height) {
-    PetriPicture *picture = picture_of(player, script, 1);
-    PetriPainter *painter = petri_painter_open();
-    draw(picture, painter, pixels, width, height);
-    petri_picture_report(player->session, picture);
-    petri_painter_close(&painter);
-    petri_picture_free(&picture);
-}
 
 static void test_bars_beside_picture_are_black(void **state) {
     uint32_t pixels[WIDTH * 2 * HEIGHT];
