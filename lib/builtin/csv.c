@@ -164,7 +164,7 @@ static Value row_value(BuiltinContext *context, const CsvFile *file, uint32_t ro
 // Reads a row number. It is either a number, which is rounded down, or a string that contains an integer. Returns false
 // if it is invalid or negative. Symbols are negative numbers, so they match no row.
 static bool read_row_number(Value v, double *row) {
-    if (is_scalar(v))
+    if (value_is_number(v))
         *row = floor(v.as.number);
     else if (v.len != 1 || v.as.items[0].type != ITEM_STRING || !builtin_is_integer(v.as.items[0].as.string->text) ||
              !read_number(v.as.items[0].as.string->text, row))

@@ -11,11 +11,6 @@
 static const double BUILTIN_PI = 3.141592653589793;
 static const double BUILTIN_TAU = 6.283185307179586;
 
-// Returns true if v is numeric with exactly one element (B0.1).
-static inline bool is_scalar(Value v) {
-    return v.kind == VALUE_NUMBERS && v.len == 1;
-}
-
 static inline bool is_absent(Value v) {
     return v.kind == VALUE_ABSENT;
 }

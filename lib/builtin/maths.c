@@ -67,7 +67,7 @@ Value builtin_tan(BuiltinContext *context, const Value *args, uint32_t count) {
 // Computes roundhalfaway(x * s) / s (B1.4). For d decimals, s is 10^d, or 0 if d < 0.
 Value builtin_round(BuiltinContext *context, const Value *args, uint32_t count) {
     Value xs = args[0], ys = value_or(args[1], value_number(0));
-    if (!value_is_numeric(xs) || !is_scalar(ys))
+    if (!value_is_numeric(xs) || !value_is_number(ys))
         return VALUE_NULL;
     double digits = floor(ys.as.number);
     if (digits > 18)

@@ -148,7 +148,7 @@ static void grid_double(Arena *arena, Grid *grid, bool own) {
 
 Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) {
     uint8_t local[256];
-    if (count == 3 && is_scalar(args[1]) && is_scalar(args[2])) { // a single point, the usual case in loops
+    if (count == 3 && value_is_number(args[1]) && value_is_number(args[2])) { // a single point, the usual case in loops
         const double c[2] = {args[1].as.number, args[2].as.number};
         return value_number(
             noise_point_2(permutation_get(context->noise, value_seed_hash(context->arena, args[0]), local), c));
@@ -205,7 +205,7 @@ static void sum_octaves(BuiltinContext *context, Grid *grid, uint64_t seed, uint
 }
 
 Value builtin_octnoise(BuiltinContext *context, const Value *args, uint32_t count) {
-    if (!is_scalar(args[1]) || !is_scalar(args[2]))
+    if (!value_is_number(args[1]) || !value_is_number(args[2]))
         return VALUE_NULL;
     double octaves = trunc(args[1].as.number);
     Grid grid;

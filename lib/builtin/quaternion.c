@@ -20,7 +20,7 @@ static Value quaternion_value(Arena *arena, Quaternion q) {
 
 // Returns the quaternion cos(h); k*axis, where h is half the angle and k = sin(h)/|axis| (B5.1).
 Value builtin_quaternion(BuiltinContext *context, const Value *args, uint32_t count) {
-    if (!is_numeric_of(args[0], 3) || !is_scalar(args[1]))
+    if (!is_numeric_of(args[0], 3) || !value_is_number(args[1]))
         return VALUE_NULL;
     const double *axis = args[0].as.numbers;
     double x = axis[0], y = axis[1], z = axis[2], h = args[1].as.number / 2;
@@ -91,7 +91,7 @@ Value builtin_qbetween(BuiltinContext *context, const Value *args, uint32_t coun
 
 // Computes (b a^-1)^t a (B5.4).
 Value builtin_slerp(BuiltinContext *context, const Value *args, uint32_t count) {
-    if (!is_scalar(args[0]) || !is_numeric_of(args[1], 4) || !is_numeric_of(args[2], 4))
+    if (!value_is_number(args[0]) || !is_numeric_of(args[1], 4) || !is_numeric_of(args[2], 4))
         return VALUE_NULL;
     Quaternion a = quaternion_of(args[1]), b = quaternion_of(args[2]);
     double n = 1 / (a.x * a.x + a.y * a.y + a.z * a.z + a.w * a.w);

@@ -110,7 +110,7 @@ static bool is_shown(const Subtitle *subtitle, double time) {
 }
 
 Value builtin_srt(BuiltinContext *context, const Value *args, uint32_t count) {
-    if (!is_scalar(args[1]))
+    if (!value_is_number(args[1]))
         return VALUE_NULL;
     const SrtFile *file = file_cache_get(context, "srt", parse_srt, args[0]);
     if (!file)

@@ -50,7 +50,7 @@ Value builtin_zip(BuiltinContext *context, const Value *args, uint32_t count) {
 // least 1. Sets *width to the truncated width, which may be infinite. Returns false if an argument is invalid.
 static bool sum_arguments(const Value *args, double *width) {
     Value w = value_or(args[1], value_number(1));
-    if (args[0].kind == VALUE_MIXED || !is_scalar(w))
+    if (args[0].kind == VALUE_MIXED || !value_is_number(w))
         return false;
     *width = trunc(w.as.number);
     return *width >= 1;

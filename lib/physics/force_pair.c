@@ -73,15 +73,10 @@ static void run_wavefront(const Pass *pass, const PairRegion *region, int thread
     move->done = true;
 }
 
-// Divides a region among processes. Returns false if this does not pay off.
-static bool divide_region(const Pass *pass, const PairRegion *region) {
-    const PhysDivision *division = pass->system->options.division;
-    return division && division->compute_pairs(pass->system, region);
-}
-
-// Computes a region with the kernel of the pass.
+// Computes a region with the kernel of the pass, divided among processes if this pays off.
 static void compute_region(const Pass *pass, const PairRegion *region) {
-    if (divide_region(pass, region))
+    const PhysDivision *division = pass->system->options.division;
+    if (division && division->compute_pairs(pass->system, region))
         return;
     int threads = phys_wavefront_threads(pass->system, phys_region_pairs(region));
     if (threads)

@@ -105,7 +105,7 @@ typedef struct Columns {
 //      ▲                                  ▲                   ▲                              │ │ │
 //      │                                  │                   └── a radius changes ──────────┘ │ │
 //      │                                  └── phys_begin_forces ──────────────────────────────┘ │
-//      └── phys_begin; the first `force` attribute; a frame was aborted (phys_discard_columns) ──┘
+//      └── phys_begin; own_forces increases; a frame was aborted (phys_discard_columns) ─────────┘
 //
 //   An event that leads to a state has no effect in earlier states. Only in READY can the system take a step.
 //

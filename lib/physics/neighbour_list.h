@@ -52,7 +52,8 @@ typedef struct PassRanges {
 //   halo (phys_lists_drop) leads to DUE.
 //
 //   DUE     The lists must be built before use.
-//   PAUSED  The pass computes all pairs.
+//   PAUSED  The pass computes all pairs; in a local system, until the halo is rebuilt. Other systems with
+//           PHYS_NEIGHBOURS_ALWAYS never pause: a list that cannot be built stays DUE.
 //   BUILT   The lists can be used after a refresh, unless it finds that a particle has moved by half the skin.
 //   AHEAD   As BUILT. If nothing else moves particles (next_motion_version), `next_packed` replaces a refresh.
 //   SPENT   As AHEAD, but a particle in `next_packed` has moved by half the skin.

@@ -1,7 +1,7 @@
 // domain.c: decides on domain decomposition (domain.h) in each frame, and takes the steps of frames that use it.
 #include "ranks/domain.h"
 
-#include <time.h>
+#include "base/clock.h"
 
 enum {
     MIN_PARTICLES = 8000, // with fewer particles, communication costs more than it saves
@@ -205,12 +205,6 @@ static bool update_halo(PhysSystem *system, Domain *domain) {
     return !(votes[0] > 0) || rebuild_local(system, domain);
 }
 
-static double cpu_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 // Takes a step of the local system.
 static bool step_local(PhysSystem *system, Domain *domain, double clock, double delta, double speed_of_light) {
     enum { ENTRIES_A_UNIT = 4, NUMBERS_A_UNIT = 32, STEP_WORK = 64, GROUP_WORK = 2 };
@@ -218,9 +212,9 @@ static bool step_local(PhysSystem *system, Domain *domain, double clock, double 
     work += system->particle_count * (2 + system->dimensions / NUMBERS_A_UNIT) + domain->padded / ENTRIES_A_UNIT;
     if (!phys_charge(system, work) || !update_halo(system, domain))
         return false;
-    double start = cpu_seconds();
+    double start = clock_read(CLOCK_THREAD_CPUTIME_ID);
     phys_step(domain->local, clock, delta, speed_of_light);
-    domain->seconds += cpu_seconds() - start;
+    domain->seconds += clock_read(CLOCK_THREAD_CPUTIME_ID) - start;
     domain->age++;
     domain->steps++;
     uint32_t own = domain_own_count(system, domain);

@@ -22,7 +22,8 @@
 //      └────────────────────────────────────────────────────────────────┘
 //        domain_begin: the frame is not divided, or the columns were filled again
 //
-//   NONE       There is no valid local system. The columns of the whole system are current.
+//   NONE       There is no valid local system. The columns of the whole system are current, unless the frame was
+//              aborted: then they are filled again before the next frame.
 //   STEPPING   A frame is divided. The local system has the current values of its owned particles.
 //   COLLECTED  As STEPPING, and all rows are current. In the columns of the whole system, positions and velocities are
 //              out of date.

@@ -12,7 +12,7 @@ const PhysDivision *ranks_init(Ranks *ranks, const PetriRanks *calls) {
 
 PetriRankStats ranks_stats(const PhysSystem *system) {
     const Domain *domain = system->division.bytes;
-    PetriRankStats stats = domain ? domain->stats : (PetriRankStats){.decomposition = PETRI_REPLICATED};
+    PetriRankStats stats = domain ? domain->stats : (PetriRankStats){0};
     stats.frames = system->frame;
     stats.steps = system->steps;
     return stats;

@@ -91,8 +91,7 @@ void input_release_all(Input *input) {
 
 // Returns the number of the key that a `!key` names with a symbol or a string.
 static int named_key(const SymbolTable *symbols, Value name) {
-    const Symbol *symbol =
-        name.kind == VALUE_NUMBERS && name.len == 1 ? symbol_of_number(symbols, name.as.number) : NULL;
+    const Symbol *symbol = value_is_number(name) ? symbol_of_number(symbols, name.as.number) : NULL;
     Str word = {0};
     if (symbol)
         word = symbol->name;

@@ -108,7 +108,7 @@ static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *ro
     if (tree->dimensions > 1)
         *in_sync = *in_sync && state_slot_references(state, slot, tree->system->mirror.owner);
     else
-        *in_sync = *in_sync && v.len == 1 && v.kind == VALUE_NUMBERS && !memcmp(&v.as.number, row, sizeof *row);
+        *in_sync = *in_sync && value_is_number(v) && !memcmp(&v.as.number, row, sizeof *row);
     return false;
 }
 

@@ -16,7 +16,7 @@ Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last) {
 
 static double scene_number(const State *state, StateSlot slot, double default_value) {
     Value v = state_slot_get(state, slot);
-    return v.kind == VALUE_NUMBERS && v.len == 1 && isfinite(v.as.number) ? v.as.number : default_value;
+    return value_is_number(v) && isfinite(v.as.number) ? v.as.number : default_value;
 }
 
 // Returns a system with this prefix that has not been updated in this frame, or NULL. Sets *occurrence to the number of

@@ -35,7 +35,7 @@ static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
     const Scene *scene = tree->scene;
     const Symbol *const reserved[] = {scene->key_last, scene->key_clock, scene->key_run, scene->key_iteration};
     for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++)
-        if (id.len == 1 && id.kind == VALUE_NUMBERS && id.as.number == reserved[i]->number) {
+        if (value_is_number(id) && id.as.number == reserved[i]->number) {
             reader_report(reader, "reserved-id", "",
                           STR("the system itself stores a value under this id; use another id"));
             tree->keys_collide = true;

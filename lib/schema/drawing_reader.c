@@ -47,7 +47,7 @@ static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *at
 // Reads a word, which the script gives as a symbol or as a string.
 static bool read_word(const Reader *reader, Value v, AttrType type, int *word) {
     bool text = v.len == 1 && v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING;
-    if (!text && !is_number(v))
+    if (!text && !value_is_number(v))
         return false;
     for (int i = 0; i < WORD_COUNT; i++)
         if (schema_words[i].type == type && (text ? str_equal(schema_words[i].text, v.as.items[0].as.string->text)

@@ -133,7 +133,7 @@ static bool store_checked(const Reader *reader, const SchemaRow *row, const Valu
             return false;
         *(PhysVector *)field = shape == SHAPE_NORMAL ? unit_vector(reader, vector) : vector;
     } else {
-        if (!is_number(*v) || (isnan(v->as.number) && shape != SHAPE_TIME))
+        if (!value_is_number(*v) || (isnan(v->as.number) && shape != SHAPE_TIME))
             return false;
         *(double *)field = shape == SHAPE_INTEGER ? floor(v->as.number) : clamp_to_limits(reader, row, *v);
     }

@@ -14,10 +14,6 @@ static inline bool is_in_window(PlaceKind place) {
     return place >= PLACE_TOP;
 }
 
-static inline bool is_number(Value v) {
-    return v.kind == VALUE_NUMBERS && v.len == 1;
-}
-
 // Returns the slot of an attribute, or `end` if there is none. Searches from `guess`, the slot after that of the
 // previous attribute, and then from `first`.
 static inline const SchemaSlot *reader_find_slot(const SchemaSlot *first, const SchemaSlot *end,

@@ -13,7 +13,7 @@ enum { TEMPO = 120, QUANTUM = 4 }; // values for scripts without these pragmas
 static double pragma_number(PetriSession *session, const Pragma *pragma, bool positive, double default_value) {
     Value v = pragma->value;
     double number = NAN;
-    if (v.kind == VALUE_NUMBERS && v.len == 1 && !symbol_of_number(&session->symbols, v.as.number))
+    if (value_is_number(v) && !symbol_of_number(&session->symbols, v.as.number))
         number = v.as.number;
     else if (v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING)
         petri_parse_number(str_to_c(&session->text_arena, v.as.items[0].as.string->text), &number);

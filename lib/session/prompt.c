@@ -387,7 +387,7 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
         diag_sink_free(&job.log);
     }
     if (status == PETRI_OK) {
-        bool one = job.value.kind == VALUE_NUMBERS && job.value.len == 1;
+        bool one = value_is_number(job.value);
         const PetriEvaluation found = {.is_true = value_true(job.value),
                                        .length = job.value.len,
                                        .number = one ? job.value.as.number : NAN,

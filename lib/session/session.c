@@ -106,8 +106,8 @@ static PetriStatus init_components(PetriSession *session, void *context) {
         (options->profile && !session->vm.profile))
         return PETRI_OUT_OF_MEMORY;
     PhysOptions physics = physics_options(options, &session->ranks);
-    session->options.cpu = NULL; // like `ranks`, it pointed to the host's memory
-    session->options.ranks = NULL;
+    session->options.cpu = NULL;   // pointed to the host's memory
+    session->options.ranks = NULL; // pointed to a local variable of petri_open
     scene_set_physics(session->scene, &physics);
     return PETRI_OK;
 }

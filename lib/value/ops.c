@@ -100,7 +100,7 @@ Value op_plus(Value v) {
 // for other values.
 static bool range_bound(Value v, double fallback, double *x) {
     *x = v.len == 0 ? fallback : v.as.number;
-    return v.len == 0 || (v.len == 1 && v.kind == VALUE_NUMBERS);
+    return v.len == 0 || value_is_number(v);
 }
 
 OpRange op_range_bounds(Value start, Value stop, Value step, bool *too_long) {

@@ -101,6 +101,10 @@ static inline Item value_at(const Value *v, uint32_t i) {
 
 // Returns true if v is true as a condition (L4.6).
 bool value_true(Value v);
+// Returns true if v is a single number.
+static inline bool value_is_number(Value v) {
+    return v.len == 1 && v.kind == VALUE_NUMBERS;
+}
 // Comparisons (compare.c) charge their work to the arena and leave no allocations in it. The arena may be NULL
 // only if the values contain no nodes and the caller has charged the work.
 //

@@ -63,7 +63,7 @@ void vector_add(Vector *vector, Value part) {
     }
     if (vector->parts == 2)
         append_elements(vector, vector->first);
-    if (part.len == 1 && part.kind == VALUE_NUMBERS && !vector->mixed && vector->len < vector->capacity)
+    if (value_is_number(part) && !vector->mixed && vector->len < vector->capacity)
         vector->as.numbers[vector->len++] = part.as.number;
     else
         append_elements(vector, part);
