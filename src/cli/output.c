@@ -77,6 +77,13 @@ int output_finish(Output *output, int status) {
     return STATUS_FAILED;
 }
 
+bool output_file(const char *path, Str text) {
+    const char *problem = file_replace(path, text, 0);
+    if (problem)
+        message("cannot write %s: %s", path, problem);
+    return !problem;
+}
+
 int output_text(const char *text, size_t length, int status) {
     Output *output = memory_calloc(sizeof *output);
     output_start(output, STDOUT_FILENO);

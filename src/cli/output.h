@@ -4,6 +4,8 @@
 // reader of its output has closed the pipe.
 #pragma once
 
+#include "base/str.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -28,5 +30,7 @@ bool output_flush(Output *output);
 // Flushes the buffer. Returns `status`, or STATUS_FAILED after a message if an error has occurred. A closed pipe is not
 // an error, because its reader needs no more output.
 int output_finish(Output *output, int status);
+// Replaces a file atomically. If that fails, prints a message and returns false.
+bool output_file(const char *path, Str text);
 // Writes text to standard output and returns the result of output_finish.
 int output_text(const char *text, size_t length, int status);

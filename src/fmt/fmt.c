@@ -6,7 +6,6 @@
 #include "fmt/layout.h"
 #include "petri.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,18 +33,9 @@ static bool format_text(Formatting *formatting, const char *name, const Text *or
     if (petri_load_text(formatting->session, shown, text.bytes, text.len) != PETRI_OK)
         return false;
     bool done = layout_text(formatting->session, text, out);
-    Str formatted = {out->bytes, out->len};
+    Str formatted = text_str(out);
     if (!done || (!str_equal(formatted, text) && !layout_same(formatting->session, shown, text, formatted))) {
         message("cannot format %s: its compiled code would change; please report this bug in petri", shown);
-        return false;
-    }
-    return true;
-}
-
-static bool write_script(const char *name, const Text *out) {
-    const char *problem = file_replace(name, (Str){out->bytes, out->len}, 0);
-    if (problem) {
-        message("cannot write %s: %s", name, problem);
         return false;
     }
     return true;
@@ -74,7 +64,7 @@ static void format_script(Formatting *formatting, const char *name) {
     } else if (script_is_stdin(name)) {
         formatting->failed += write_stdout(&out) == STATUS_DONE ? 0 : 1;
     } else if (changed) {
-        formatting->failed += write_script(name, &out) ? 0 : 1;
+        formatting->failed += output_file(name, text_str(&out)) ? 0 : 1;
     }
 }
 

@@ -4,7 +4,6 @@
 #include "base/file.h"
 #include "cli/cli.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

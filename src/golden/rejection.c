@@ -3,7 +3,6 @@
 #include "cli/subprocess.h"
 #include "golden/golden.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

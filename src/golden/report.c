@@ -52,8 +52,5 @@ bool report_junit(const char *path, Result *const *results, size_t count) {
     for (size_t i = 0; i < count; i++)
         add_result(&out, results[i]);
     text_add_format(&out, "</testsuite>\n");
-    const char *problem = file_replace(path, text_str(&out), 0);
-    if (problem)
-        message("cannot write %s: %s", path, problem);
-    return !problem;
+    return output_file(path, text_str(&out));
 }

@@ -4,7 +4,6 @@
 #include "cli/script.h"
 #include "link/link_session.h"
 
-#include <errno.h>
 #include <string.h>
 #include <unistd.h>
 

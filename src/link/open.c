@@ -56,11 +56,8 @@ static int show_picture(PetriSession *session, PetriPainter *painter, const Opti
 static int write_script(const CommandContext *context, const Linked *linked, const char *file) {
     if (strcmp(file, "-") == 0)
         return output_text(linked->text.bytes, linked->text.len, STATUS_DONE);
-    const char *problem = file_replace(file, text_str(&linked->text), 0);
-    if (problem) {
-        message("cannot write %s: %s", file, problem);
+    if (!output_file(file, text_str(&linked->text)))
         return STATUS_FAILED;
-    }
     SCOPED_TEXT changes = {0};
     for (size_t i = 0; i < linked->change_count; i++) {
         const LinkedChange *change = &linked->changes[i];

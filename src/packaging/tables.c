@@ -6,13 +6,12 @@
 #include "petri.h"
 #include "repl/repl.h"
 
-// Adds a JSON object without its closing brace. `texts` alternates names and values and ends with NULL.
-static void add_row(Text *out, const char *const texts[]) {
+static void begin_row(Text *out) {
     text_add_c(out, out->bytes[out->len - 1] == '}' ? ",\n{" : "\n{");
-    json_add_members(out, texts);
 }
 
-#define ROW(out, ...) add_row(out, (const char *const[]){__VA_ARGS__, NULL})
+// Adds a JSON object without its closing brace: names and values in turn.
+#define ROW(out, ...) (begin_row(out), JSON_ADD(out, __VA_ARGS__))
 
 static const char *or_none(const char *text) {
     return !text ? "" : text;

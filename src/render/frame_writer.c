@@ -73,10 +73,10 @@ struct FrameWriter {
     uint64_t added;
     uint64_t next_committed; // number of the first job that is not committed: its file is not renamed yet
     Job *done;               // jobs to be reported and freed
-    int started;             // number of workers that have started
+    bool begun;              // true if the first worker has started
     bool ending;             // true if no more jobs will be added
     bool drawing;            // true while a frame of the video is drawn; such a frame can be abandoned
-    uint64_t film_frames;    // number of frames in the video
+    bool has_frame;          // true if the video has a frame
     int unfinished;          // number of abandoned jobs
     double seconds;          // time that all threads together spent on jobs
     const char *film;        // `film` to `recording` are used by the first worker only
@@ -153,7 +153,7 @@ static bool add_to_film(FrameWriter *writer, PetriPicture *picture, PetriPainter
         set_error_text(writer, video->error_text);
         return false;
     }
-    writer->film_frames++;
+    writer->has_frame = true;
     return true;
 }
 
@@ -283,7 +283,8 @@ static void *run_worker(void *context) {
     if (!painter)
         set_error_text(writer, "out of memory");
     pthread_mutex_lock(&writer->lock);
-    bool first = writer->started++ == 0;
+    bool first = !writer->begun;
+    writer->begun = true;
     for (Job *job = pop_job(writer, first); job; job = pop_job(writer, first)) {
         bool good = painter && !has_failed(writer);
         pthread_mutex_unlock(&writer->lock);
@@ -420,7 +421,7 @@ bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abando
         writer->ready = NULL;
     }
     frame_writer_report(writer, session);
-    if (has_failed(writer) || (writer->state == WRITER_CUT && writer->film_frames == 0)) {
+    if (has_failed(writer) || (writer->state == WRITER_CUT && !writer->has_frame)) {
         video_abandon(&writer->video);
     } else if (writer->video.open) {
         double start = clock_seconds();

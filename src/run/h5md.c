@@ -3,7 +3,6 @@
 
 #include "run/frames.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

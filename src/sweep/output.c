@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "cli/hdf5.h"
 #include "sweep/plot_support.h"
+#include "sweep/sweep.h"
 #include "sweep/table.h"
 #include "sweep/worker_pool.h"
 
@@ -12,13 +13,6 @@ bool sweep_can_write(const Sweep *sweep) {
     Hdf5 writer;
     return !output || !hdf5_has_suffix(output) ||
            (hdf5_start(&writer, "table", output, NULL, NULL) && hdf5_end(&writer));
-}
-
-static bool write_file(const char *path, const Text *text) {
-    const char *problem = file_replace(path, (Str){text->bytes, text->len}, 0);
-    if (problem)
-        message("cannot write %s: %s", path, problem);
-    return !problem;
 }
 
 static bool write_table(const Sweep *sweep) {
@@ -30,8 +24,8 @@ static bool write_table(const Sweep *sweep) {
         return output_text(table.bytes, table.len, STATUS_DONE) == STATUS_DONE;
     table_commands(sweep, &commands);
     text_add_format(&path, "%s.runs", output);
-    return write_file(path.bytes, &commands) &&
-           (csv ? write_file(output, &table)
+    return output_file(path.bytes, text_str(&commands)) &&
+           (csv ? output_file(output, text_str(&table))
                 : hdf5_table(output, table_width(sweep), text_str(&table), worker_pool_signal));
 }
 
@@ -40,7 +34,7 @@ bool sweep_write_all(const Sweep *sweep) {
     bool good = true;
     if (sweep->options->summary) {
         summary_make(sweep, &summary);
-        good = write_file(sweep->options->summary, &summary);
+        good = output_file(sweep->options->summary, text_str(&summary));
     }
     good = (!sweep->options->plot || sweep->host->plot_support->plot_grid_draw(sweep, sweep->options->plot)) && good;
     return write_table(sweep) && good;

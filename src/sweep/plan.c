@@ -4,7 +4,6 @@
 #include "cli/script.h"
 #include "sweep/plot_support.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 

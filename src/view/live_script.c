@@ -4,7 +4,6 @@
 #include "cli/parameters.h"
 #include "cli/script.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>

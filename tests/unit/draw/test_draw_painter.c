@@ -1,8 +1,7 @@
 // test_draw_painter.c: tests of what a painter draws for which options, of its caches and files, and of its estimates
 // of work.
 #include "drawing.h"
-
-#include <unistd.h>
+#include "folder.h"
 
 enum { WIDTH = 8, HEIGHT = 4 };
 
@@ -68,27 +67,26 @@ static void test_older_picture_is_drawn_again(void **state) {
 
 static void test_record_is_saved_as_jpeg(void **state) {
     Player *player = *state;
-    char folder[] = "/tmp/petri-record-XXXXXX", script[400], path[100];
+    Folder folder;
+    char script[800];
     unsigned char start[3] = {0};
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/a.jpg", folder);
+    folder_open(&folder);
     PetriOptions options = player_options(player);
-    const char *folders[] = {folder, NULL};
+    const char *folders[] = {folder.path, NULL};
     options.write_folders = folders;
     player_reopen(player, &options);
     snprintf(script, sizeof script,
              "!window size=8;4\n    !record filename=\"%s\"\n        !canvas\n            !rect size=8;4 fill=true\n",
-             path);
+             folder_file(&folder, "a.jpg"));
     PetriPicture *picture = picture_of(player, script, 1);
     PetriPainter *painter = petri_painter_open();
     PetriStatus rendered = petri_picture_render(picture, painter);
     PetriStatus saved = rendered == PETRI_OK ? petri_record_save(picture, painter, 0) : rendered;
-    FILE *file = fopen(path, "rb");
+    FILE *file = fopen(folder_file(&folder, "a.jpg"), "rb");
     size_t length = file ? fread(start, 1, sizeof start, file) : 0;
     if (file)
         fclose(file);
-    unlink(path);
-    rmdir(folder);
+    folder_close(&folder);
     petri_picture_free(&picture);
     petri_painter_close(&painter);
     if (rendered == PETRI_UNSUPPORTED)
