@@ -5,8 +5,6 @@
 
 #include <math.h>
 
-enum { MAX_PIXELS = 1 << 26 }; // maximum number of pixels of a filtered image
-
 // The inputs of a filter.
 typedef struct FilterContext {
     Canvas *canvas;
@@ -127,7 +125,7 @@ static bool find_box(Canvas *canvas, const DisplayCommand *command, const Displa
 
 // Charges the cost of the filter. If the cost exceeds a limit, reports this and returns false.
 static bool can_filter(Canvas *canvas, const DisplayFilter *filter, const Box *box, const FilterNeeds *needs) {
-    double pixels = box->width * box->height, work = pixels <= MAX_PIXELS ? pixels * needs->work : INFINITY;
+    double pixels = box->width * box->height, work = pixels <= DRAW_MAX_PIXELS ? pixels * needs->work : INFINITY;
     return draw_charge(canvas, &filter->place, work, "the content is drawn without the filter");
 }
 

@@ -2,19 +2,22 @@
 #include "base/host_struct.h"
 #include "draw/filters.h"
 #include "draw/noise.h"
+#include "draw/painter.h"
 #include "petri-draw.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
-enum { MAX_PIXELS = 1 << 28, MAX_DEPTH = 1000 };
+// display_list_filters.c nests at most 100 filters. PETRI_FILTER_SOURCE is one more.
+enum { MAX_DEPTH = 101 };
 
 static DisplayMatrix matrix_from(const double m[6]) {
     return (DisplayMatrix){m[0], m[1], m[2], m[3], m[4], m[5]};
 }
 
 static bool is_valid_size(int width, int height) {
-    return width > 0 && height > 0 && (double)width * height <= MAX_PIXELS;
+    return width > 0 && height > 0 && (double)width * height <= DRAW_MAX_PIXELS;
 }
 
 PetriStatus petri_noise_draw(const double operands[8], const double matrix[6], uint32_t *pixels, int width,
@@ -67,9 +70,7 @@ static int take_integer(FilterReader *reader, int min, int max) {
 
 // Reads the commands of a paint. Returns the picture that the host fills with this paint.
 static FloatImage take_paint(FilterReader *reader) {
-    double length = *take(reader, 1);
-    size_t left = (size_t)(reader->end - reader->at),
-           count = length >= 0 && length <= (double)left ? (size_t)length : 0;
+    size_t count = (size_t)take_integer(reader, 0, INT_MAX);
     const double *commands = take(reader, count);
     FloatImage none = {0};
     if (reader->wanted || reader->failed)

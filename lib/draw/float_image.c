@@ -38,7 +38,8 @@ void float_image_release(FloatImagePool *pool, size_t bytes) {
 
 FloatImage float_image_new(FloatImagePool *pool, int width, int height) {
     size_t bytes = sizeof(FloatImageMemory) + (size_t)width * (size_t)height * 4 * sizeof(float);
-    FloatImageMemory *memory = float_image_reserve(pool, bytes) ? heap_calloc(1, bytes) : NULL;
+    bool fits = (double)width * height * 4 * sizeof(float) < (double)(SIZE_MAX - sizeof(FloatImageMemory)); // 32-bit
+    FloatImageMemory *memory = fits && float_image_reserve(pool, bytes) ? heap_calloc(1, bytes) : NULL;
     if (!memory)
         return (FloatImage){.width = width, .height = height};
     memory->bytes = bytes;
@@ -214,7 +215,8 @@ void float_image_blur(FloatImagePool *pool, FloatImage *image, const double sigm
 void float_image_morphology(FloatImagePool *pool, FloatImage *image, const double radius[2], bool erode) {
     for (int axis = 0; axis < 2; axis++) {
         double max = axis ? image->height : image->width;
-        LineFilter filter = {.apply = find_extremes, .erode = erode, .reach = (int)fmin(rint(radius[axis]), max)};
+        LineFilter filter = {
+            .apply = find_extremes, .erode = erode, .reach = (int)fmin(fmax(rint(radius[axis]), 0), max)};
         if (filter.reach > 0)
             change_lines(pool, image, axis, &filter);
     }

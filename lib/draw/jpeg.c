@@ -9,7 +9,7 @@
 
 #include <jpeglib.h>
 
-enum { MAX_SIDE = 16384, MAX_PIXELS = 1 << 26, MAX_SCANS = 100 };
+enum { MAX_SIDE = DRAW_MAX_SIDE, MAX_PIXELS = DRAW_MAX_PIXELS, MAX_SCANS = 100 };
 
 static const char EXCEEDS_MEMORY[] = "it exceeds the memory limit (--memory)";
 

@@ -298,7 +298,7 @@ PETRI_API bool petri_picture_is_display_list(const PetriPicture *picture);
 
 // Fills pixels with the noise of a PETRI_DRAW_NOISE command, for hosts that draw display lists. `matrix` maps pixels to
 // the coordinates of the list. Pixels are rows without gaps, in the format of petri_picture_draw. Returns PETRI_INVALID
-// if an argument is NULL or the size is not valid.
+// if an argument is NULL, a side is less than 1, or there are more than 2^26 pixels.
 PETRI_API PetriStatus petri_noise_draw(const double operands[8], const double matrix[6], uint32_t *pixels, int width,
                                        int height);
 
@@ -318,7 +318,8 @@ typedef bool PetriPaintCallback(void *user_data, const double *commands, size_t 
 
 // Applies a filter to a drawing. `pixels` has the drawing, and receives the result. For filters of the kind
 // PETRI_FILTER_PAINT, calls `paint` with `pixels`. Returns PETRI_INVALID, with the content of `pixels` undefined, if an
-// argument is NULL, the numbers are not a filter or `paint` returned false.
+// argument is NULL, the numbers are not a filter, `paint` returned false, or the size is not one that petri_noise_draw
+// accepts. Returns PETRI_OUT_OF_MEMORY, with the content of `pixels` undefined, if out of memory.
 PETRI_API PetriStatus petri_filter_draw(const double *filter, size_t count, const double matrix[6], uint32_t *pixels,
                                         int width, int height, PetriPaintCallback *paint, void *user_data);
 

@@ -70,6 +70,11 @@ static void test_blend_composites_the_first_filter(void **state) {
                      PETRI_INVALID);
 }
 
+static bool accept_all(void *user_data, const double *commands, size_t count, uint32_t *pixels) {
+    (void)user_data, (void)commands, (void)count, (void)pixels;
+    return true;
+}
+
 static void test_invalid_filters_are_rejected(void **state) {
     (void)state;
     uint32_t pixels[SIDE * SIDE];
@@ -77,6 +82,12 @@ static void test_invalid_filters_are_rejected(void **state) {
     assert_int_equal(DRAW(NULL, pixels, 0.0 / 0.0), PETRI_INVALID);
     assert_int_equal(DRAW(NULL, pixels, PETRI_FILTER_BLUR, 1), PETRI_INVALID);
     assert_int_equal(DRAW(NULL, pixels, PETRI_FILTER_PAINT, 5, 0), PETRI_INVALID);
+    assert_int_equal(DRAW(accept_all, pixels, PETRI_FILTER_PAINT, 0), PETRI_OK);
+    assert_int_equal(DRAW(accept_all, pixels, PETRI_FILTER_PAINT, 5, 0), PETRI_INVALID);
+    assert_int_equal(DRAW(accept_all, pixels, PETRI_FILTER_PAINT, -3), PETRI_INVALID);
+    assert_int_equal(DRAW(accept_all, pixels, PETRI_FILTER_PAINT, 0.0 / 0.0), PETRI_INVALID);
+    // A radius that an int cannot hold has no effect, or covers everything.
+    assert_int_equal(DRAW(NULL, pixels, PETRI_FILTER_DILATE, -1e300, 1e300, PETRI_FILTER_SOURCE), PETRI_OK);
     assert_int_equal(DRAW(NULL, pixels, PETRI_FILTER_PAINT, 0), PETRI_INVALID); // there is no callback
     assert_int_equal(DRAW(NULL, pixels, PETRI_FILTER_BLEND, 99, 0, 0, 0, 0, PETRI_FILTER_SOURCE, PETRI_FILTER_SOURCE),
                      PETRI_INVALID);
@@ -86,7 +97,15 @@ static void test_invalid_filters_are_rejected(void **state) {
         deep[3 * i] = PETRI_FILTER_OFFSET;
     deep[3 * DEPTH] = PETRI_FILTER_SOURCE;
     assert_int_equal(draw(deep, 3 * DEPTH + 1, NULL, pixels), PETRI_INVALID);
+    // petri nests at most 100 filters.
+    assert_int_equal(draw(deep + 3 * (DEPTH - 100), 301, NULL, pixels), PETRI_OK);
+    assert_int_equal(draw(deep + 3 * (DEPTH - 101), 304, NULL, pixels), PETRI_INVALID);
+    assert_int_equal(petri_filter_draw(deep, 1, IDENTITY, pixels, 1 << 20, 1 << 7, NULL, NULL), PETRI_INVALID);
     assert_int_equal(petri_filter_draw(deep, 1, IDENTITY, NULL, SIDE, SIDE, NULL, NULL), PETRI_INVALID);
+    // petri nests at most 100 filters.
+    assert_int_equal(draw(deep + 3 * (DEPTH - 100), 301, NULL, pixels), PETRI_OK);
+    assert_int_equal(draw(deep + 3 * (DEPTH - 101), 304, NULL, pixels), PETRI_INVALID);
+    assert_int_equal(petri_filter_draw(deep, 1, IDENTITY, pixels, 1 << 20, 1 << 7, NULL, NULL), PETRI_INVALID);
     assert_int_equal(petri_filter_draw(deep, 1, IDENTITY, pixels, 0, SIDE, NULL, NULL), PETRI_INVALID);
 }
 
@@ -96,7 +115,8 @@ static void test_needs_are_in_pixels(void **state) {
     const double blur[] = {PETRI_FILTER_OFFSET, 1, 4, PETRI_FILTER_BLUR, 2, 3, PETRI_FILTER_SOURCE};
     assert_int_equal(petri_filter_measure(blur, 7, DOUBLE, &needs, sizeof needs), PETRI_OK);
     assert_true(needs.margin == 2 * 4 + 3 * 2 * 3 && !needs.everywhere);
-    const double paint[] = {PETRI_FILTER_PAINT, 0};
+    const double paint[] = {PETRI_FILTER_PAINT, 0}, longer[] = {PETRI_FILTER_PAINT, 5, 0};
+    assert_int_equal(petri_filter_measure(longer, 3, DOUBLE, &needs, sizeof needs), PETRI_INVALID);
     assert_int_equal(petri_filter_measure(paint, 2, DOUBLE, &needs, sizeof needs), PETRI_OK);
     assert_true(needs.margin == 0 && needs.everywhere);
     needs.everywhere = true;
