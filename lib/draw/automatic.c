@@ -10,7 +10,7 @@ typedef struct Colour {
     double r, g, b;
 } Colour;
 
-static const Colour GROUND = {0.06, 0.07, 0.09}; // as AUTO_GROUND
+static const Colour GROUND = {AUTO_GROUND};
 // Minimum radii of bodies: in panel pixels, and in pixels of the target. The larger of the two applies.
 static const double MIN_RADIUS = 2, MIN_DEVICE_RADIUS = 1.5;
 // The camera is 0.45 radians to the right of the front view and 0.35 radians above it.

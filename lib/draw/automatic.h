@@ -89,8 +89,7 @@ typedef struct AutoShape {
     const AutoGradient *gradient; // NULL: use `color`
 } AutoShape;
 
-#define AUTO_GROUND                                                                                                    \
-    { 0.06, 0.07, 0.09, 1 } // colour of the background
+#define AUTO_GROUND 0.06, 0.07, 0.09 // colour of the background
 
 // What the picture is drawn on. The caller fills it with AUTO_GROUND first.
 typedef struct AutoTarget {

@@ -2,8 +2,7 @@
 #include "draw/draw.h"
 
 static void set_ground(cairo_t *cr) {
-    static const double ground[] = AUTO_GROUND;
-    cairo_set_source_rgba(cr, ground[0], ground[1], ground[2], ground[3]);
+    cairo_set_source_rgb(cr, AUTO_GROUND);
 }
 
 static void clip(void *context, const double *box) {

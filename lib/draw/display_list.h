@@ -7,7 +7,6 @@
 #pragma once
 
 #include "canvas/drawing.h"
-#include "petri-draw.h"
 
 #define DISPLAY_NONE UINT32_MAX
 

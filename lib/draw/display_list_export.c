@@ -20,7 +20,8 @@ typedef struct DisplayListExport {
     uint32_t paint;           // index of the paint written last; DISPLAY_NONE: none
     uint32_t effect_elements; // path elements created by effects so far
     double scale;             // of the automatic picture: pixels per unit
-    AutoShape shape;          // of the automatic picture: the previous shape with the current line width
+    double color[4];          // of the automatic picture: the current colour; NaN: none
+    double line;              // of the automatic picture: the current line width; 0: none
 } DisplayListExport;
 
 static void add(DisplayListExport *numbers, const double *values, uint32_t count) {
@@ -400,7 +401,8 @@ static void clip_shapes(void *context, const double *box) {
     WRITE(SAVE, );
     WRITE(MATRIX, .matrix = &identity);
     WRITE(CLIP, .path.elements = {path, sizeof path / sizeof *path});
-    numbers->shape = (AutoShape){.color = {NAN}};
+    numbers->color[0] = NAN;
+    numbers->line = 0;
 }
 
 // Adds a shape of the automatic picture, and the attributes in which it differs from the previous one.
@@ -412,19 +414,20 @@ static void add_shape(void *context, const AutoShape *shape) {
         const double start[] = {(from[0] - to[0]) / to[2], (from[1] - to[1]) / to[2], from[2] / to[2]};
         WRITE(RADIAL, .matrix = &(DisplayMatrix){to[2], 0, 0, to[2], to[0], to[1]}, .inner = start, .alpha = 1,
               .stops = {gradient->stops, 3});
-    } else if (numbers->shape.gradient || memcmp(shape->color, numbers->shape.color, sizeof shape->color) != 0) {
+        numbers->color[0] = NAN;
+    } else if (memcmp(shape->color, numbers->color, sizeof numbers->color) != 0) {
         WRITE(COLOR, .colour = shape->color);
+        memcpy(numbers->color, shape->color, sizeof numbers->color);
     }
-    double line = shape->line > 0 ? shape->line : numbers->shape.line;
-    if (line != numbers->shape.line)
-        WRITE(STROKE_STYLE, .width = line, .mode = COMPOSITE_OVER, .antialias = true);
+    if (shape->line > 0 && shape->line != numbers->line) {
+        WRITE(STROKE_STYLE, .width = shape->line, .mode = COMPOSITE_OVER, .antialias = true);
+        numbers->line = shape->line;
+    }
     WRITE(PATH, .fill = shape->line == 0, .stroke = shape->line > 0, .path.elements = {shape->path, shape->length});
-    numbers->shape = *shape;
-    numbers->shape.line = line;
 }
 
 static void add_automatic(DisplayListExport *numbers, const CanvasPicture *picture) {
-    WRITE(BACKGROUND, .colour = (const double[])AUTO_GROUND);
+    WRITE(BACKGROUND, .colour = (const double[]){AUTO_GROUND, 1});
     auto_draw(&(AutoTarget){.arena = numbers->arena,
                             .width = picture->width,
                             .height = picture->height,
@@ -460,6 +463,7 @@ static void add_canvas(DisplayListExport *numbers, const DrawNode *canvas) {
     DisplayListSizes sizes = {0};
     if (draw_flag(canvas, ATTR_LINEAR) && draw_number(canvas, ATTR_COLORBITS) > 8)
         add_unsupported(numbers, "HDR canvas (colorbits)");
+    numbers->matrix = numbers->paint = DISPLAY_NONE;
     numbers->list = display_list_build(numbers->arena, canvas, &sizes);
     for (uint32_t i = 0; i < numbers->list->commands.count; i++)
         add_command(numbers, &numbers->list->commands.at[i]);
@@ -480,8 +484,7 @@ static void export_picture(void *context) {
 
 const double *draw_canvas_display_list(PetriPainter *painter, const DrawNode *canvas, double width, double height,
                                        size_t *count) {
-    DisplayListExport made = {
-        .painter = painter, .arena = &painter->arena, .matrix = DISPLAY_NONE, .paint = DISPLAY_NONE};
+    DisplayListExport made = {.painter = painter, .arena = &painter->arena};
     DisplayListExport *numbers = &made;
     ADD(width, height, false);
     add_canvas(numbers, canvas);
@@ -490,8 +493,7 @@ const double *draw_canvas_display_list(PetriPainter *painter, const DrawNode *ca
 }
 
 const double *draw_picture_display_list(Arena *arena, const CanvasPicture *picture, double scale, size_t *count) {
-    DisplayListExport made = {
-        .picture = picture, .arena = arena, .matrix = DISPLAY_NONE, .paint = DISPLAY_NONE, .scale = scale};
+    DisplayListExport made = {.picture = picture, .arena = arena, .scale = scale};
     export_picture(&made);
     *count = made.out.count;
     return made.out.at;
@@ -504,11 +506,8 @@ bool petri_picture_is_display_list(const PetriPicture *picture) {
 PetriStatus petri_picture_display_list(PetriPicture *picture, const double **numbers, size_t *count) {
     if (!picture || !numbers || !count)
         return PETRI_INVALID;
-    DisplayListExport made = {.picture = &picture->picture,
-                              .arena = &picture->arena,
-                              .matrix = DISPLAY_NONE,
-                              .paint = DISPLAY_NONE,
-                              .scale = picture->width / picture->picture.width};
+    DisplayListExport made = {
+        .picture = &picture->picture, .arena = &picture->arena, .scale = picture->width / picture->picture.width};
     Arena *arenas[] = {&picture->arena};
     bool done = arena_protect(arenas, 1, export_picture, &made) == ARENA_OK;
     *numbers = done ? made.out.at : NULL;

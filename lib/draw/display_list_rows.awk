@@ -1,9 +1,11 @@
 # display_list_rows.awk: generates rows from the lists in petri-draw.h, which describe the format of display lists: for
-# language=c, macros as COMMAND(PATH, NUMBER(fill) NUMBER(stroke) NUMBER(rule) PATH(path)); for language=js, functions that
-# read the operands of commands with a reader r and pass them to a painter p, and the numbers of operands of path elements. A row is the name of a command (PETRI_DRAW_), path element (PETRI_PATH_) or filter (PETRI_FILTER_),
-# and its operands, which follow the colon in the comment.
+# language=c, macros as COMMAND(PATH, NUMBER(fill) NUMBER(stroke) NUMBER(rule) PATH(path)); for language=js, functions
+# that read the operands of commands with a reader r and pass them to a painter p, and the numbers of operands of path
+# elements. A row is the name of a command (PETRI_DRAW_), path element (PETRI_PATH_) or filter (PETRI_FILTER_), and its
+# operands, which follow the colon in the comment.
 BEGIN {
-    MACROS = "COMMAND ELEMENT FILTER_KIND NUMBER NUMBERS TABLE MATRIX COLOUR PATH STOPS STRING PIXELS FILTER PAINT DASHES COMMANDS"
+    MACROS = "COMMAND ELEMENT FILTER_KIND NUMBER NUMBERS TABLE MATRIX COLOUR PATH STOPS STRING PIXELS FILTER PAINT " \
+        "DASHES COMMANDS"
     if (language == "c")
         print_defaults()
     types["matrix"] = types["colour"] = types["path"] = types["stops"] = types["string"] = types["pixels"] = 1

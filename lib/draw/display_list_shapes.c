@@ -11,9 +11,9 @@ const DisplayPath display_list_build_no_path = {DISPLAY_NONE, DISPLAY_NONE, 0, F
 
 // Adds an element to the last run of the path. If elements of other paths were added after this run, begins another
 // run.
-static void add_element(DisplayListBuild *build, DisplayPath *path, PathElement kind, uint32_t count,
-                        const double *numbers) {
+static void add_element(DisplayListBuild *build, DisplayPath *path, PathElement kind, const double *numbers) {
     DisplayList *list = build->list;
+    uint32_t count = display_path_sizes[kind];
     bool continues = path->first != DISPLAY_NONE && path->end == list->numbers.count;
     if (!continues) {
         DisplayRun *run = DISPLAY_ADD(build->arena, list->runs, 1);
@@ -32,7 +32,7 @@ static void add_element(DisplayListBuild *build, DisplayPath *path, PathElement 
 }
 
 static void move_to(DisplayListBuild *build, DisplayPath *path, double x, double y) {
-    add_element(build, path, PATH_MOVE, 2, (const double[]){x, y});
+    add_element(build, path, PATH_MOVE, (const double[]){x, y});
 }
 
 // If the path is empty, starts it at 0;0. Must be called before a line or curve is added, because these start at the
@@ -43,12 +43,12 @@ static void begin_path(DisplayListBuild *build, DisplayPath *path) {
 }
 
 static void line_to(DisplayListBuild *build, DisplayPath *path, double x, double y) {
-    add_element(build, path, PATH_LINE, 2, (const double[]){x, y});
+    add_element(build, path, PATH_LINE, (const double[]){x, y});
 }
 
 static void close_path(DisplayListBuild *build, DisplayPath *path) {
     if (path->first != DISPLAY_NONE)
-        add_element(build, path, PATH_CLOSE, 0, (const double[]){0});
+        add_element(build, path, PATH_CLOSE, (const double[]){0});
 }
 
 static void add_close(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
@@ -73,7 +73,7 @@ static void add_line_to(DisplayListBuild *build, DisplayPath *path, const DrawNo
 static void add_arc_element(DisplayListBuild *build, DisplayPath *path, double x, double y, double rx, double ry,
                             double start, double sweep, bool on) {
     bool joined = on && path->first != DISPLAY_NONE;
-    add_element(build, path, joined ? PATH_ARC_ON : PATH_ARC, 6, (const double[]){x, y, rx, ry, start, sweep});
+    add_element(build, path, joined ? PATH_ARC_ON : PATH_ARC, (const double[]){x, y, rx, ry, start, sweep});
 }
 
 static void add_curve_to(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
@@ -82,9 +82,9 @@ static void add_curve_to(DisplayListBuild *build, DisplayPath *path, const DrawN
         return;
     begin_path(build, path);
     if (draw_pair(node, ATTR_C2, c2))
-        add_element(build, path, PATH_CUBIC, 6, (const double[]){c1[0], c1[1], c2[0], c2[1], p[0], p[1]});
+        add_element(build, path, PATH_CUBIC, (const double[]){c1[0], c1[1], c2[0], c2[1], p[0], p[1]});
     else
-        add_element(build, path, PATH_QUADRATIC, 4, (const double[]){c1[0], c1[1], p[0], p[1]});
+        add_element(build, path, PATH_QUADRATIC, (const double[]){c1[0], c1[1], p[0], p[1]});
 }
 
 static void add_arc(DisplayListBuild *build, DisplayPath *path, const DrawNode *node) {
@@ -103,7 +103,7 @@ static void add_arc_to(DisplayListBuild *build, DisplayPath *path, const DrawNod
     if (!draw_pair(node, ATTR_POINT, p) || !draw_pair(node, ATTR_RADIUS, r))
         return;
     begin_path(build, path);
-    add_element(build, path, PATH_ARC_TO, 7,
+    add_element(build, path, PATH_ARC_TO,
                 (const double[]){r[0], r[1], turns - floor(turns), draw_flag(node, ATTR_LARGE),
                                  !draw_flag(node, ATTR_CCW), p[0], p[1]});
 }
@@ -163,7 +163,7 @@ static void add_corner(DisplayListBuild *build, DisplayPath *path, const double 
     double a[2] = {(before[0] + p[0]) / 2, (before[1] + p[1]) / 2};
     double b[2] = {(p[0] + after[0]) / 2, (p[1] + after[1]) / 2};
     if (curve >= 0.5 || turn_at(a, p, b) <= curve) {
-        add_element(build, path, PATH_QUADRATIC, 4, (const double[]){p[0], p[1], b[0], b[1]});
+        add_element(build, path, PATH_QUADRATIC, (const double[]){p[0], p[1], b[0], b[1]});
     } else {
         line_to(build, path, p[0], p[1]);
         line_to(build, path, b[0], b[1]);

@@ -42,7 +42,7 @@ static Texture *make_effect_node(Walk *walk, const DrawNode *node, GraphNode *ma
 }
 
 static Texture *find_reference(Walk *walk, Str id) {
-    Texture *found = render_graph_find_named(walk, id);
+    Texture *found = render_graph_find(walk->painter->render_graph, id);
     return found ? texture_retain(found) : NULL;
 }
 
@@ -78,7 +78,7 @@ static Texture *make_node(Walk *walk, const DrawNode *node, GraphNode *made, con
         break;
     default:
         render_graph_node_size(node, &width, &height);
-        if (!render_graph_check_size(walk, (NodeKind)node->kind, node->origin, width, height))
+        if (!render_graph_check_size(walk, node, width, height))
             break;
         made->picture = node->kind == KIND_CANVAS     ? render_graph_draw_canvas(walk, node, width, height)
                         : node->kind == KIND_CANVAS3D ? render_graph_draw_scene(walk, node, made, width, height)

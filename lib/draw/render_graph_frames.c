@@ -60,11 +60,6 @@ Texture *render_graph_find(const RenderGraph *pictures, Str id) {
     return found ? found : find_known(&pictures->frames[!pictures->now], id);
 }
 
-Texture *render_graph_find_named(const Walk *walk, Str id) {
-    Texture *found = find_known(walk->frame, id);
-    return found ? found : find_known(walk->before, id);
-}
-
 void render_graph_name(Walk *walk, Str id, Texture *picture) {
     Frame *frame = walk->frame;
     if (frame->known_count == frame->known_capacity) {

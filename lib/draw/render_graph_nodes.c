@@ -153,18 +153,18 @@ Texture *render_graph_run_effect(Walk *walk, const DrawNode *node, const GraphNo
                                           : composite_on_cpu(walk, node, inputs, count, width, height);
 }
 
-bool render_graph_check_size(Walk *walk, NodeKind kind, Origin place, int width, int height) {
+bool render_graph_check_size(Walk *walk, const DrawNode *node, int width, int height) {
     if (width >= 1 && height >= 1 && width <= PETRI_MAX_PICTURE_SIDE && height <= PETRI_MAX_PICTURE_SIDE)
         return true;
-    Str text = str_format(walk->faults->arena, "!%s: a picture can have 1 to %d pixels in width and height",
-                          schema_kinds[kind].name, PETRI_MAX_PICTURE_SIDE);
-    diag_report(walk->faults, &(Diag){DIAG_WARNING, place, text, .code = "bad-size"});
+    draw_report(walk->faults, &node->origin, DIAG_WARNING, "bad-size",
+                "!%s: a picture can have 1 to %d pixels in width and height", schema_kinds[node->kind].name,
+                PETRI_MAX_PICTURE_SIDE);
     return false;
 }
 
 static GlImage find_texture(void *user_data, Str id) {
     Walk *walk = user_data;
-    Texture *found = render_graph_find_named(walk, id);
+    Texture *found = render_graph_find(walk->painter->render_graph, id);
     if (found && !texture_upload(walk->painter->gl, found)) {
         if (!walk->painter->budget.memory_refused)
             arena_exhausted(&walk->frame->arena);
@@ -176,8 +176,7 @@ static GlImage find_texture(void *user_data, Str id) {
 // Renders the view of a camera. If that is not possible, reports this and returns NULL.
 static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *camera) {
     Gl *gl = walk->painter->gl;
-    if (!render_graph_check_size(walk, (NodeKind)camera->node->kind, camera->node->origin, camera->width,
-                                 camera->height))
+    if (!render_graph_check_size(walk, camera->node, camera->width, camera->height))
         return NULL;
     GlImage image = gl_call.scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
     if (walk->painter->budget.memory_refused) {

@@ -55,8 +55,6 @@ typedef struct Walk {
 
 // render_graph_frames.c
 void render_graph_clear_frame(Frame *frame);
-// Returns the picture with this id in the current frame or, if there is none, in the previous frame; NULL: none.
-Texture *render_graph_find_named(const Walk *walk, Str id);
 void render_graph_name(Walk *walk, Str id, Texture *picture);
 // Returns the child of `past` that the state `made` continues, and marks it as matched. Returns NULL if there is none.
 const GraphNode *render_graph_find_past(const GraphNode *past, const GraphNode *made);
@@ -67,7 +65,7 @@ void render_graph_alloc_children(Walk *walk, GraphNode *made, uint32_t count);
 // Returns the bits per channel that a node sets, or else `bits`.
 int render_graph_bits(const DrawNode *node, int bits);
 // Returns true if a picture can have this size. If not, reports it.
-bool render_graph_check_size(Walk *walk, NodeKind kind, Origin place, int width, int height);
+bool render_graph_check_size(Walk *walk, const DrawNode *node, int width, int height);
 // These functions return a new picture. If there is none, they report this and return NULL.
 Texture *render_graph_draw_canvas(Walk *walk, const DrawNode *node, int width, int height);
 // Composites the inputs, with the node's effect if there is a GPU. `past` is the node's state in the previous frame.

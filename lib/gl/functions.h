@@ -11,8 +11,8 @@
     ROW(scene) ROW(shader_work) ROW(test_shaders) ROW(upload_bytes) ROW(upload_linear)
 // clang-format on
 
-// `gl_call.enter` is gl_enter, and so on. Without OpenGL, all are NULL, and gl_open and
-// gl_adopt fail, so no caller has a Gl.
+// `gl_call.enter` is gl_enter, and so on. Without OpenGL, all are NULL, and gl_open and gl_adopt fail, so no caller has
+// a Gl.
 typedef struct GlFunctions {
 #define MEMBER(name) __typeof__(gl_##name) *name;
     GL_FUNCTIONS(MEMBER)

@@ -15,9 +15,6 @@ const GlFunctions gl_call = {
 };
 
 static void read_limits(Gl *gl) {
-    GLint max_size = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size);
-    gl->max_size = max_size;
     gl->retains_fences = gl_context_is(gl, "llvmpipe");
     gl->floats = gl_context_has(gl, "GL_EXT_color_buffer_float");
     gl->halves = gl->floats || gl_context_has(gl, "GL_EXT_color_buffer_half_float");
@@ -94,8 +91,4 @@ uint64_t gl_shader_work(const Gl *gl) {
 void gl_test_shaders(Gl *gl, GlShaderTest *test, void *user_data) {
     gl->shader_test = test;
     gl->shader_test_data = user_data;
-}
-
-int gl_max_size(const Gl *gl) {
-    return gl->max_size;
 }

@@ -52,7 +52,6 @@ typedef struct GlImage {
 // Returns the format for this number of bits per channel: 8, 16 or 32. If the GPU does not support it, returns a format
 // with fewer bits.
 GlFormat gl_format(const Gl *gl, int bits);
-int gl_max_size(const Gl *gl); // maximum width and height of a picture
 // Returns an image with undefined content. Freed images are reused for images of the same size and format. The
 // `texture` of the result is 0 if the GPU is out of memory.
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format);

@@ -15,11 +15,10 @@ typedef struct GpuCache GpuCache; // GPU resources of scenes, defined in gpu_cac
 enum { GL_SPARE_IMAGES = 32, GL_MAX_FENCES = 16 };
 
 struct Gl {
-    void *display; // EGLDisplay
-    void *context; // EGLContext; NULL: not opened
-    bool adopted;  // true if the context belongs to the host
-    bool lost;     // true if the context is lost: its objects no longer exist, so only memory is freed
-    int max_size;
+    void *display;     // EGLDisplay
+    void *context;     // EGLContext; NULL: not opened
+    bool adopted;      // true if the context belongs to the host
+    bool lost;         // true if the context is lost: its objects no longer exist, so only memory is freed
     bool floats;       // can render to 32-bit floats
     bool halves;       // can render to 16-bit floats
     bool float_filter; // 32-bit floats can be sampled with linear filtering

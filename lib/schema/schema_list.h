@@ -14,8 +14,7 @@
 // FILTER(ID, name, reader, CHILDREN, inputs, "help"): a NODE FILTER_ID for a filter. Its children are at most 1 filter,
 //     or exactly 2. lib/draw has functions apply_NAME and read_READER. petri-draw.h has a row PETRI_FILTER_ID.
 // EFFECT(ID, name, "help"): a NODE for a path effect. lib/draw has functions read_NAME and apply_NAME.
-// PICTURE_EFFECT(ID, name, scalable, "help"): a NODE for an effect on pictures, which has a shader of this name and a
-// row
+// PICTURE_EFFECT(ID, name, scalable, "help"): a NODE for an effect on pictures, with a shader of this name and a row
 //     effect_NAME in lib/gl. `scalable` is true if a result of lower resolution looks similar.
 // ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). In scripts, NAME is written in lower case: attr_names.awk
 //     derives the names from these rows. The value is stored in the field (records.h). If the field is NOWHERE, the
