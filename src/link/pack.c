@@ -219,8 +219,10 @@ static bool read_json(Linked *linked, const Text *text) {
     json_tokener *tokener = json_tokener_new_ex(8);
     if (!tokener)
         return report_error("out of memory");
-    json_tokener_set_flags(tokener, JSON_TOKENER_STRICT | JSON_TOKENER_VALIDATE_UTF8);
-    json_object *all = json_tokener_parse_ex(tokener, text->bytes, (int)text->len);
+    json_tokener_set_flags(tokener, JSON_TOKENER_STRICT);
+    // json-c itself would accept overlong encodings.
+    bool well_formed = utf8_find_error((Str){text->bytes, text->len}) == text->len;
+    json_object *all = well_formed ? json_tokener_parse_ex(tokener, text->bytes, (int)text->len) : NULL;
     bool parsed = json_object_is_type(all, json_type_object) && json_tokener_get_parse_end(tokener) == text->len;
     json_object *version = parsed ? json_object_object_get(all, "v") : NULL;
     bool newer = json_object_is_type(version, json_type_int) && json_object_get_int64(version) > VERSION;
