@@ -35,7 +35,7 @@ SUITES = {
     'lib/session': ['session', 'state', 'scene', 'memory', 'repl_sessions', 'cli'],
     'grammar': ['syntax', 'program', 'vm', 'session', 'memory', 'repl_sessions', 'cli'],
     'lib/syntax': ['syntax', 'program', 'vm', 'session', 'memory', 'repl_sessions', 'cli'],
-    'lib/draw': ['draw', 'pictures', 'canvas', 'gl', 'memory'],
+    'lib/draw': ['draw', 'pictures', 'canvas', 'gl', 'memory', 'cli'],
 }
 CORPORA = 'scripts'
 SLOW = 4  # tests that take more seconds run only if mutants are tried again (--only)
