@@ -1,12 +1,14 @@
 # petri's completion for bash. `petri complete` prints candidates, and how to complete paths (src/main/complete_command.c).
 _petri() {
-    local line words current=${COMP_WORDS[COMP_CWORD]}
-    # The x keeps a last word that is still empty. bash splits words at "=", petri does not.
-    read -ra words <<<"${COMP_LINE:0:COMP_POINT}x"
+    local line words
+    # The x keeps a last word that is still empty. Without -r, `read` removes the backslashes before blanks in names.
+    # bash splits words at "=", petri does not.
+    # shellcheck disable=SC2162
+    read -a words <<<"${COMP_LINE:0:COMP_POINT}x"
     local word=${words[-1]%x}
-    local before=${word%"${word##*=}"}
+    local current=${word##*=}
+    local before=${word%"$current"}
     words[-1]=$word
-    [[ $current != = ]] || current=
     COMPREPLY=()
     while IFS= read -r line; do
         case $line in

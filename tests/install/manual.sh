@@ -53,6 +53,7 @@ completes() {
         COMP_LINE=${COMP_LINE// = /=} && COMP_POINT=${#COMP_LINE} && _petri && echo "${COMPREPLY[*]}"' "$bash_completion" "$@"
 }
 echo 'let DROPS=DROPS or 5    -- 1..9: how many' >one.fl
+cp one.fl 'a dish.fl'
 touch two.txt
 mkdir -p folder
 if command -v bash >/dev/null; then
@@ -71,6 +72,8 @@ if command -v bash >/dev/null; then
     check "bash completes only folders where these are needed" [ -z "$(completes petri run --allow-read tw)" ]
     check "bash completes all files after options that take files" [ "$(completes petri run --state tw)" = two.txt ]
     check "bash completes scripts" [ "$(completes petri run o)" = one.fl ]
+    check "bash completes names with blanks" [ "$(completes petri run 'a\ d')" = "a dish.fl" ]
+    check "bash completes parameters of a script whose name has a blank" [ "$(completes petri run 'a\ dish.fl' -D DR)" = DROPS= ]
     check "bash completes no other files as scripts" [ -z "$(completes petri run tw)" ]
     check "bash completes topics of help" [ "$(completes petri help electro)" = electrostatic ]
 else
