@@ -3,12 +3,24 @@
 #include "fuzz.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct Run {
     FuzzText frames;
     PetriStatus loaded;
-    bool aborted; // true if a limit was exceeded; with the simplifier, the limit may not be reached
+    // True if a limit was exceeded. With the simplifier, the limit may not be reached. Also true if recursion reached the
+    // stack limit, because the depth at that point varies between the runs.
+    bool aborted;
 } Run;
+
+static bool stack_limit_reached(PetriSession *session) {
+    PetriDiagnostic diagnostic;
+    bool reached = false;
+    for (size_t i = 0; petri_diagnostic(session, i, &diagnostic, sizeof diagnostic); i++)
+        reached |= diagnostic.code && strcmp(diagnostic.code, "recursion-depth") == 0 &&
+                   !strstr(diagnostic.text, "limit of");
+    return reached;
+}
 
 static Run run_script(const uint8_t *data, size_t size, bool simplify) {
     Run run = {0};
@@ -20,7 +32,7 @@ static Run run_script(const uint8_t *data, size_t size, bool simplify) {
     for (int i = 0; i < 3 && run.loaded == PETRI_OK && !run.aborted; i++)
         run.aborted = petri_step(session) != PETRI_OK ||
                       petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE, fuzz_append, &run.frames) != PETRI_OK;
-    run.aborted |= fuzz_end_watch();
+    run.aborted |= fuzz_end_watch() || stack_limit_reached(session);
     fuzz_close(&session);
     return run;
 }
