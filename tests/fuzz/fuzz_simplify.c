@@ -8,8 +8,8 @@
 typedef struct Run {
     FuzzText frames;
     PetriStatus loaded;
-    // True if a limit was exceeded. With the simplifier, the limit may not be reached. Also true if recursion reached the
-    // stack limit, because the depth at that point varies between the runs.
+    // True if a limit was exceeded. With the simplifier, the limit may not be reached. Also true if recursion reached
+    // the stack limit, because the depth at that point varies between the runs.
     bool aborted;
 } Run;
 
@@ -17,8 +17,8 @@ static bool stack_limit_reached(PetriSession *session) {
     PetriDiagnostic diagnostic;
     bool reached = false;
     for (size_t i = 0; petri_diagnostic(session, i, &diagnostic, sizeof diagnostic); i++)
-        reached |= diagnostic.code && strcmp(diagnostic.code, "recursion-depth") == 0 &&
-                   !strstr(diagnostic.text, "limit of");
+        reached |=
+            diagnostic.code && strcmp(diagnostic.code, "recursion-depth") == 0 && !strstr(diagnostic.text, "limit of");
     return reached;
 }
 
