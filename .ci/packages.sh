@@ -9,6 +9,7 @@ command -v ninja          : ninja-build
 command -v pkg-config     : pkg-config
 command -v bison          : bison
 command -v re2c           : re2c
+pkg-config --exists libxxhash : libxxhash-dev
 pkg-config --exists cairo : libcairo2-dev
 pkg-config --exists pangocairo : libpango1.0-dev
 pkg-config --exists libjpeg : libjpeg-dev
@@ -61,6 +62,7 @@ pkg-config --exists x11   : libx11-dev
 pkg-config --exists ompi-c: libopenmpi-dev openmpi-bin
 pkg-config --exists mpfr  : libmpfr-dev
 /usr/bin/python3 -I -c 'import h5py' : python3-h5py
+/usr/bin/python3 -I -c 'import xxhash' : python3-xxhash
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 "
@@ -84,6 +86,8 @@ command -v meson : meson
 command -v ninja : ninja-build
 command -v bison : bison
 command -v re2c  : re2c
+command -v pkg-config : pkg-config
+pkg-config --exists libxxhash : libxxhash-dev
 command -v emcc  : emscripten
 command -v node  : nodejs
 '

@@ -446,6 +446,13 @@ PETRI_API PetriStatus petri_state_set(PetriSession *session, PetriValue key, Pet
 // Returns false after the last entry. Keys and values are valid as long as the results of petri_state_get.
 PETRI_API bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
 
+// Computes a digest of the state dictionary: 16 bytes that depend only on its keys and values (spec digest.md). So
+// equal states have equal digests in all builds, on any number of threads or ranks. A digest takes little time, because
+// only the numbers are hashed in frames that add and remove no keys. It detects differences, but it is not
+// cryptographic: different states with equal digests can be constructed. Returns PETRI_INVALID if called within a
+// callback. If not PETRI_OK, `digest` is unspecified.
+PETRI_API PetriStatus petri_digest(PetriSession *session, uint8_t digest[16]);
+
 // Sets the value of a global name, which scripts read like any other name. The first call with a name adds the name for
 // scripts that are loaded afterwards. Later calls change its value for the next frame without a reload, even to null.
 // The name is not visible in modules and cannot be removed. Returns PETRI_INVALID if the name is not valid or belongs
@@ -578,9 +585,10 @@ PETRI_API bool petri_has_picture(PetriSession *session);
 enum {
     PETRI_PRINT_TREE = 1,
     PETRI_PRINT_STATE = 2,
-    PETRI_PRINT_LOG = 4,   // output of debug()
-    PETRI_PRINT_ERROR = 8, // run-time errors
-    PETRI_PRINT_HASH = 16, // SHA-256 of the text of PETRI_PRINT_STATE, which need not be selected
+    PETRI_PRINT_LOG = 4,     // output of debug()
+    PETRI_PRINT_ERROR = 8,   // run-time errors
+    PETRI_PRINT_HASH = 16,   // SHA-256 of the text of PETRI_PRINT_STATE, which need not be selected
+    PETRI_PRINT_DIGEST = 32, // digest of the state (petri_digest)
 };
 
 // Receives a chunk of the output, which need not end at a line break. Returns false to stop.

@@ -4,8 +4,6 @@
 #include "syntax/parse.h"
 #include "value/format.h"
 
-#include <string.h>
-
 static void add_number(Text *out, double x) {
     char digits[NUMBER_TEXT];
     text_add(out, (Str){digits, number_format(x, digits)});
@@ -26,31 +24,6 @@ static void print_tree(TextSink *out, PetriSession *session) {
             text_sink_add_tree(out, &session->symbols, tree.as.items[i].as.node);
 }
 
-// Returns true if the key of slot `one` sorts after the key of slot `other`.
-static bool comes_after(const PetriSession *session, StateSlot one, StateSlot other) {
-    double buffers[2][STATE_KEY_BUFFER];
-    return format_key_compare(&session->symbols, state_slot_key_in(session->state, one, buffers[0]),
-                              state_slot_key_in(session->state, other, buffers[1])) > 0;
-}
-
-// Sorts slots by key with a merge sort, which is stable and, unlike qsort, can pass the session to the comparison.
-// Particles with ascending ids are already in order, so merging is often skipped.
-static void sort_slots(const PetriSession *session, StateSlot *slots, StateSlot *scratch, uint32_t count) {
-    if (count < 2)
-        return;
-    uint32_t half = count / 2;
-    sort_slots(session, slots, scratch, half);
-    sort_slots(session, slots + half, scratch, count - half);
-    if (!comes_after(session, slots[half - 1], slots[half]))
-        return;
-    memcpy(scratch, slots, half * sizeof *slots);
-    for (uint32_t left = 0, right = half, to = 0; left < half; to++)
-        if (right < count && comes_after(session, scratch[left], slots[right]))
-            slots[to] = slots[right++];
-        else
-            slots[to] = scratch[left++];
-}
-
 static void print_state(TextSink *out, PetriSession *session) {
     const State *state = session->state;
     uint32_t count = 0, capacity = state_count(state), cursor = 0;
@@ -59,7 +32,7 @@ static void print_state(TextSink *out, PetriSession *session) {
     double numbers[STATE_KEY_BUFFER];
     for (Value key, value; count < capacity && state_next(state, &cursor, &key, &value, numbers); count++)
         slots[count] = cursor - 1;
-    sort_slots(session, slots, scratch, count);
+    state_sort_slots(state, &session->symbols, slots, scratch, count);
     for (uint32_t i = 0; i < count && !out->stopped; i++) {
         Value key = state_slot_key_in(state, slots[i], numbers);
         text_add_c(&out->text, key.len != 1 ? "$(" : "$");
@@ -86,6 +59,15 @@ static void print_hash(TextSink *out, Sha256 *hash) {
     sha256_end(hash, digits);
     text_add_c(&out->text, "= ");
     text_add(&out->text, (Str){digits, sizeof digits});
+    text_sink_end_line(out);
+}
+
+static void print_digest(TextSink *out, PetriSession *session) {
+    uint8_t digest[STATE_DIGEST_SIZE];
+    session_digest(session, digest);
+    text_add_c(&out->text, "= ");
+    for (int i = 0; i < STATE_DIGEST_SIZE; i++)
+        text_add_format(&out->text, "%02x", digest[i]);
     text_sink_end_line(out);
 }
 
@@ -141,6 +123,8 @@ static void print_frame(TextSink *out, PetriSession *session, unsigned sections)
         print_lines(out, &session->frame.errors, "? ", true);
     if (sections & PETRI_PRINT_HASH)
         print_hash(out, &hash);
+    if (sections & PETRI_PRINT_DIGEST)
+        print_digest(out, session);
 }
 
 PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWriteCallback *write, void *host) {

@@ -18,6 +18,7 @@
 #include "session/frame.h"
 #include "session/prompt.h"
 #include "session/unit.h"
+#include "state/digest.h"
 #include "vm/vm.h"
 
 // The current configuration. After each change, call session_change_config.
@@ -122,6 +123,8 @@ bool session_rollback(PetriSession *session);
 
 // Returns true if the text is a valid name (spec language.md L2.4).
 bool session_is_name(Str text);
+// Computes the digest of the state (spec digest.md). Called within a protected call.
+void session_digest(PetriSession *session, uint8_t digest[STATE_DIGEST_SIZE]);
 // Returns the public form of a value. Valid as long as `v` itself and the data that it points to.
 PetriValue session_export_value(const Value *v);
 // Converts a public value and stores the result in *value. The items of a mixed value are copied to the arena. Arrays

@@ -108,5 +108,6 @@ bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
     budget_release(state->budget, (state->entry_count - compaction.entry_count) * SLOT_BYTES);
     state->entry_count = compaction.entry_count;
     state->count = compaction.count;
+    state_forget_order(state);
     return true;
 }

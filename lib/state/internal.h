@@ -3,6 +3,7 @@
 
 #include "base/arena.h"
 #include "base/hash_index.h"
+#include "state/digest.h"
 #include "state/key_range.h"
 
 typedef struct StateEntry {
@@ -21,6 +22,38 @@ enum {
     MAX_SEPARATE_PAIRS = 64, // when this many consecutive slot pairs (key_range.h) have entries, they become a range
 };
 
+// Consecutive slots whose keys are in canonical order (spec digest.md).
+typedef struct SlotRun {
+    StateSlot first;
+    uint32_t count;
+} SlotRun;
+
+typedef struct SlotRuns {
+    SlotRun *items;
+    uint32_t count;
+    uint32_t capacity;
+} SlotRuns;
+
+// A chunk of the numbers of all values, in canonical order of keys.
+typedef struct DigestChunk {
+    uint32_t run;    // index in Digest.order
+    StateSlot slot;  // slot of the first number
+    uint32_t number; // index of that number among the numbers of the slot's value
+    uint8_t digest[STATE_DIGEST_SIZE];
+} DigestChunk;
+
+// Cached data of digests (digest.c).
+typedef struct Digest {
+    SlotRuns order;   // slots 0 to ordered - 1, with or without values, in canonical order of keys (order.c)
+    uint32_t ordered; // number of slots in `order`
+    bool current;     // true if the following fields, except the digests of the chunks, are valid
+    uint8_t shape[STATE_DIGEST_SIZE];
+    uint64_t numbers; // number of numbers in all values
+    DigestChunk *chunks;
+    uint32_t chunk_count;
+    uint32_t chunk_capacity;
+} Digest;
+
 struct State {
     StateEntry *entries; // entries of all slots that are not in a range, in slot order
     uint32_t entry_count;
@@ -34,6 +67,7 @@ struct State {
     Arena keys;               // arena that holds the data of all keys
     bool *modified;           // modified[owner - 1]: result of the next state_clear_modified
     uint32_t owner_count;
+    Digest digest;
     bool exhausted; // true if memory ran out since the last state_clear_exhausted
     Budget *budget; // budget that is charged for memory; NULL: none
 };
@@ -58,3 +92,12 @@ static inline StateEntry *state_entry(const State *state, StateSlot slot) {
 void state_start_keys(Arena *keys, Budget *budget);
 // Sets *copy to a copy of a key in the arena. Returns false if out of memory.
 bool state_copy_key(Arena *keys, Value *copy, Value key);
+
+// Adds the slots that are not in digest.order yet (order.c). Returns false if out of memory.
+bool state_update_order(State *state);
+// Forgets the order of slots, because they were removed or renumbered.
+void state_forget_order(State *state);
+void state_free_digest(State *state);
+// Ensures that the heap array *array has more than `count` elements, and charges the budget. Returns false if out of
+// memory.
+bool state_grow(State *state, void **array, uint32_t *capacity, uint32_t count, size_t size);

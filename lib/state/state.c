@@ -108,12 +108,14 @@ void state_clear(State *state) {
     arena_reset(&state->keys);
     for (uint32_t i = 0; i < state->owner_count; i++)
         state->modified[i] = true;
+    state_forget_order(state);
 }
 
 void state_free(State *state) {
     if (!state)
         return;
     state_clear(state);
+    state_free_digest(state);
     hash_index_free(&state->index);
     arena_free(&state->keys);
     heap_free(state->modified);
@@ -377,6 +379,8 @@ static bool ensure_entry(State *state, StateSlot slot) {
 
 // Replaces the value of an entry. The entry takes ownership of the new value.
 static void replace_value(State *state, StateEntry *entry, Value owned) {
+    if (entry->value.len != owned.len || entry->value.kind != VALUE_NUMBERS || owned.kind != VALUE_NUMBERS)
+        state->digest.current = false;
     state->live += (owned.len > 0);
     state->live -= (entry->value.len > 0);
     if (entry->owner)
@@ -432,6 +436,7 @@ void state_slot_reference(State *state, StateSlot slot, StateOwner owner, const 
     uint32_t referenced = range ? range->referenced : 0;
     if (range && key_range_reference(range, slot, owner, numbers, len)) {
         state->live += range->referenced - referenced;
+        state->digest.current &= range->referenced == referenced;
         return;
     }
     if (!ensure_entry(state, slot))
@@ -459,6 +464,7 @@ bool state_slot_detach(State *state, StateSlot slot, StateOwner owner) {
         KeyRange *range = state_key_range(state, slot);
         state->live -= range->referenced;
         range->referenced = range->stored = 0;
+        state->digest.current = false;
         state->modified[owner - 1] = true;
         return false;
     }

@@ -80,5 +80,9 @@ bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, 
 // Returns the number of entries with a value.
 uint32_t state_count(const State *state);
 
+// Sorts slots by key in the order of format_key_compare. `scratch` is memory for `count` slots.
+void state_sort_slots(const State *state, const SymbolTable *symbols, StateSlot *slots, StateSlot *scratch,
+                      uint32_t count);
+
 // Returns true if a function ran out of memory since the last call of this function.
 bool state_clear_exhausted(State *state);

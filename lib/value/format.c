@@ -171,7 +171,7 @@ void format_debug(Text *out, const SymbolTable *symbols, Value v) {
 static int key_class(const SymbolTable *symbols, Item item) {
     if (item.type != ITEM_NUMBER)
         return 2;
-    return symbol_of_number(symbols, item.as.number) ? 0 : 1;
+    return symbols && symbol_of_number(symbols, item.as.number) ? 0 : 1;
 }
 
 static int key_item_compare(const SymbolTable *symbols, Item a, Item b) {

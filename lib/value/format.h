@@ -19,5 +19,5 @@ typedef bool FormatLine(void *user_data, Text *out);
 // `line` stopped the printing.
 bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth, FormatLine *line, void *user_data);
 // Compares state keys in canonical order (L18.4), element by element. Symbols sort before numbers, and numbers before
-// strings. A prefix sorts before the longer key.
+// strings. A prefix sorts before the longer key. If `symbols` is NULL, symbols sort like other numbers.
 int format_key_compare(const SymbolTable *symbols, Value a, Value b);

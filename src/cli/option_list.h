@@ -106,7 +106,7 @@ OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "lockstep", 0, NULL, read_unset, realt
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "realtime", 0, NULL, read_flag, realtime, "follow the wall clock; frame 0 is at time 0")
 OPTION(FOR_VIEW, "lockstep", 0, NULL, read_unset, realtime, "run as fast as possible with time = frame/fps")
 OPTION(FOR_VIEW, "realtime", 0, NULL, read_flag, realtime, "follow the wall clock (default); frame 0 is at time 0")
-OPTION(FOR_RUN | FOR_GOLDEN, "print", 0, "LIST", ONE_OF(read_sections, "tree", "state", "log", "error", "hash"), sections, "print the listed items: tree, state, log, error, hash (SHA-256 of the state), separated by commas (default: only log)")
+OPTION(FOR_RUN | FOR_GOLDEN, "print", 0, "LIST", ONE_OF(read_sections, "tree", "state", "log", "error", "hash", "digest"), sections, "print the listed items: tree, state, log, error, hash (SHA-256 of the state), digest (faster hash of the state), separated by commas (default: only log)")
 OPTION(FOR_RUN | FOR_GOLDEN, "every", 0, "K", WHOLE(1, INT64_MAX), every, "print and record every K-th frame, starting with frame 0")
 OPTION(FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_LINK | FOR_VIEW, "define", 'D', "NAME=VALUE", read_definition, definitions, "set a parameter of the script; may be repeated")
 OPTION(FOR_LSP | FOR_CHECK, "define", 'D', "NAME=VALUE", read_definition, definitions, "define a name for the scripts; may be repeated")

@@ -130,7 +130,8 @@ static bool read_sections(const Args *args, void *field) {
     for (char *rest = list; rest;) {
         int section = find_word(args->option->words, strsep(&rest, ","));
         if (section < 0)
-            return report_invalid_value(args, "one or more of tree, state, log, error and hash, separated by commas");
+            return report_invalid_value(args,
+                                        "one or more of tree, state, log, error, hash and digest, separated by commas");
         *sections |= (unsigned)PETRI_PRINT_TREE << section;
     }
     return true;

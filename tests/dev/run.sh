@@ -413,7 +413,7 @@ if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null;
     check "run asks only once" count_is out "[Y/n]" 1
     check "run names the packages" has out "gcc libc6-dev meson ninja-build"
     check "run estimates sizes without package lists" has out \
-        "petri needs 19 Debian packages (about 204 with dependencies, 155 MB to download, 600 MB of disk space,"
+        "petri needs 20 Debian packages (about 204 with dependencies, 155 MB to download, 600 MB of disk space,"
     check "run estimates the time" has out "3 minutes): gcc"
     check "run prints the size of the packages for tests" has out "more (about 327 with "
     check "run announces that later commands do not ask" has out "Later commands install what they need without asking again"

@@ -244,7 +244,8 @@ class Session:
         self._call(lib.petri_set_global, name.encode(), encoded, message=f"cannot set {name!r} to {value!r}")
 
     def text(self, *sections: str) -> str:
-        """Returns output like `petri run --print`. Sections are "tree", "state", "log", "error" and "hash"."""
+        """Returns output like `petri run --print`. Sections are "tree", "state", "log", "error", "hash"
+        and "digest"."""
         bits = 0
         for section in sections:
             bits |= getattr(lib, f"PETRI_PRINT_{section.upper()}")

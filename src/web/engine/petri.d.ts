@@ -134,7 +134,7 @@ export interface Help {
     help: string;
 }
 
-export type Section = 'tree' | 'state' | 'log' | 'error' | 'hash';
+export type Section = 'tree' | 'state' | 'log' | 'error' | 'hash' | 'digest';
 
 /** A picture rendered by the engine: with WebGL 2, or because it has filters or noise. */
 export interface RenderedImage {

@@ -107,7 +107,8 @@ static void test_invalid_values_are_reported(void **state) {
     REJECT("option '--runtime' expects seconds or a time code such as 1:30, not '-1'", "--runtime=-1");
     REJECT("option '--size' expects WIDTHxHEIGHT, each from 1 to 16384, not '10x'", "--size=10x");
     REJECT("option '--size' expects WIDTHxHEIGHT, each from 1 to 16384, not '20000x10'", "--size=20000x10");
-    REJECT("option '--print' expects one or more of tree, state, log, error and hash, separated by commas, not 'tree,'",
+    REJECT("option '--print' expects one or more of tree, state, log, error, hash and digest, separated by commas, not "
+           "'tree,'",
            "--print=tree,");
     REJECT("option '--neighbours' expects one of auto, never, always, not 'some'", "--neighbours=some");
     REJECT("option '--trajectory' expects a file name that ends in .xyz, .csv or .h5, not 'a.txt'",
