@@ -1,6 +1,6 @@
 #!/bin/bash
 # hashes.sh [--check] COMMAND...: prints a result hash for each script of both conformance corpora: the first 16 digits
-# of the SHA-256 of the output of `COMMAND run`, that is, tree, log and state hash of the golden's frames.
+# of the SHA-256 of the output of `COMMAND run`, that is, tree, log, hash and digest of the golden's frames.
 #
 # COMMAND is any build of petri, perhaps in an emulator; all builds must print the same lines. --check compares them with
 # corpora.txt, which `./dev hashes --update` writes, and lists the scripts that differ.
@@ -29,7 +29,7 @@ hash_of() {
     local first hash
     read -r first <"$1.golden"
     eval "set -- $1 ${first#\# run}" # the options in a golden are quoted for a shell
-    if hash=$(cd "${1%/*}" && "${command[@]}" run --threads 1 "${@:2}" --print tree,log,hash "${1##*/}.fl" 2>/dev/null |
+    if hash=$(cd "${1%/*}" && "${command[@]}" run --threads 1 "${@:2}" --print tree,log,hash,digest "${1##*/}.fl" 2>/dev/null |
         sha256sum); then
         echo "$1.fl ${hash:0:16}"
     else

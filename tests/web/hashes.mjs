@@ -43,7 +43,7 @@ function hashOf(files, name, { frames, every, fps, definitions }) {
     for (let frame = 0; frame < frames; frame++) {
         session.step();
         if (frame % every === 0)
-            hash.update(session.print('tree', 'log', 'hash'));
+            hash.update(session.print('tree', 'log', 'hash', 'digest'));
         else
             continue;
     }
