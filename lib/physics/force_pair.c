@@ -15,7 +15,7 @@ typedef struct Pass {
     Move *move;               // motion that follows this pass; NULL: particles must not move
 } Pass;
 
-static void fill_terms(PairTerm *terms, ForceRange forces) {
+void phys_fill_terms(PairTerm *terms, ForceRange forces) {
     for (const Force *force = forces.begin; force < forces.end; force++)
         *terms++ = (PairTerm){
             .kind = force->given.kind,
@@ -42,7 +42,7 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
     enum { MIN_FOR_LANES = 4 }; // with fewer particles, vectors do not pay off
     const Columns *columns = &system->columns;
     Pass pass = {.system = system};
-    fill_terms(system->terms.bytes, forces);
+    phys_fill_terms(system->terms.bytes, forces);
     pass.pairs = phys_columns_pass(columns);
     pass.pairs.term_count = (size_t)(forces.end - forces.begin);
     pass.pairs.terms = system->terms.bytes;

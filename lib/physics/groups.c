@@ -59,6 +59,7 @@ static void arrange_forces(PhysSystem *system) {
     for (uint32_t i = system->force_count; i-- > 0;) {
         records[i].arranged = --system->starts[slot_of(&records[i])];
         forces[records[i].arranged] = arranged_force(system, &records[i]);
+        forces[records[i].arranged].number = i;
     }
 }
 

@@ -71,6 +71,7 @@ typedef struct Force {
     PhysForce given;
     double strength; // strength in this step, after easing
     uint64_t item;   // random forces only: number of items of the random stream that were used so far in this frame
+    uint32_t number; // number that phys_add_force returned
 } Force;
 
 typedef struct Columns {
@@ -171,6 +172,9 @@ struct PhysSystem {
     Buffer own_force_rows;   // n doubles by handle: the `force` attributes; valid unless OWN_FORCES_NONE
     Buffer last_rows;        // rows of the previous description, which the host can still read
     Buffer force_rows;       // n doubles by handle: the forces of the last step; used if PhysOptions.keep_forces
+    Buffer start_rows;       // `rows` as they were before the last frame (explain.h); used if PhysOptions.keep_forces
+    PhysTime last_time;      // argument of the last phys_simulate
+    uint64_t last_steps;     // number of steps that it took; 0 if it failed
     // uint8_t by handle: PHYS_POSITION is set if the position came from an attribute (PhysTime.keep_last_finite), and
     // PHYS_VELOCITY if the velocity did. Valid only if any_from_attribute.
     Buffer from_attribute;
@@ -265,6 +269,8 @@ enum { PHYS_POSITION = 1, PHYS_VELOCITY = 2 }; // bits of `not_finite` and `from
 bool phys_clear_not_finite(PhysSystem *system);
 // Allocates and fills all columns except powers of radii. Returns false if out of memory.
 bool phys_fill_columns(PhysSystem *system);
+// Copies the rows to `start_rows`. Returns false if out of memory.
+bool phys_keep_start(PhysSystem *system);
 // Fills only the positions and velocities of the columns.
 void phys_fill_motion(PhysSystem *system);
 void phys_update_radius_powers(PhysSystem *system);
@@ -283,7 +289,9 @@ bool phys_reserve_columns(PhysSystem *system, uint64_t spare);
 // groups.c: sets Group.populated and Group.nearest, which skip empty enclosing groups, so that deep nesting is cheap.
 void phys_link_groups(PhysSystem *system);
 
-// step.c: takes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
+// step.c: starts a step at `clock`: sets the strengths of all forces and the initial forces on all particles.
+void phys_start_step(PhysSystem *system, double clock);
+// Takes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
 // reorder.c. Returns true if all particles are in one group, and if only the single pass of this group depends on their
@@ -330,6 +338,12 @@ static inline double phys_at(PhysVector vector, size_t k) {
 // Returns the factor at time `clock` for a strength or a particle's `force` attribute whose ramp time is `ease`.
 static inline double phys_ramp(double ease, double clock) {
     return ease > 0 && clock < ease ? clock / ease : 1.0;
+}
+
+// Returns the length of the step at `last` of a frame.
+static inline double phys_step_length(const PhysTime *time, double last) {
+    double remaining = time->now - last;
+    return time->resolution < remaining ? time->resolution : remaining;
 }
 
 // Returns the forces that `group` declares for a stage.

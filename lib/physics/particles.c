@@ -214,6 +214,15 @@ static void write_forces(PhysSystem *system, const Columns *columns, const uint3
     }
 }
 
+bool phys_keep_start(PhysSystem *system) {
+    uint64_t row = (uint64_t)2 * system->dimensions * sizeof(double), count = system->particle_count;
+    if (!phys_buffer_reserve(system, &system->start_rows, 0, count, row))
+        return false;
+    if (count)
+        memcpy(system->start_rows.bytes, system->rows.bytes, (size_t)(count * row));
+    return true;
+}
+
 static int chunk_count_for(const PhysSystem *system, uint32_t particles) {
     enum { MIN_FOR_THREADS = 10000 };
     return phys_chunk_count(system, particles, MIN_FOR_THREADS);

@@ -51,6 +51,11 @@ static void start_forces(PhysSystem *system, double clock) {
         phys_parallel(system, phys_chunk_count(system, system->columns.count, MIN_FOR_THREADS), start_chunk, &start);
 }
 
+void phys_start_step(PhysSystem *system, double clock) {
+    ease_strengths(system, clock);
+    start_forces(system, clock);
+}
+
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light) {
     const Group *groups = system->groups.bytes;
     const Columns *columns = &system->columns;
@@ -59,8 +64,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     work += columns->count * columns->dimensions / NUMBERS_A_UNIT + system->force_count;
     if (!phys_charge(system, work))
         return false;
-    ease_strengths(system, clock);
-    start_forces(system, clock);
+    phys_start_step(system, clock);
     // 1. Forces between particles. A particle moves only when all forces that need its position are complete.
     Move move = {delta, speed_of_light, false};
     for (uint32_t g = 0; g < system->group_count; g++) {

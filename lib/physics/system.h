@@ -88,9 +88,10 @@ typedef struct PhysOptions {
     int threads;  // maximum number of threads, including the caller; <= 0: one per processor
     CpuLevel cpu; // instruction set; limited to cpu_detected.level
     PhysNeighbours neighbours;
-    PhysThreads *pool;            // shared pool, which must outlive the system; NULL: the system creates its own
-    Budget *budget;               // charged for work and memory; must outlive the system; NULL: none
-    bool keep_forces;             // fill PhysColumns.force, which costs one store per particle and step
+    PhysThreads *pool; // shared pool, which must outlive the system; NULL: the system creates its own
+    Budget *budget;    // charged for work and memory; must outlive the system; NULL: none
+    bool keep_forces;  // fill PhysColumns.force, which costs one store per particle and step, and allow phys_explain
+                       // (explain.h), which costs one copy of all rows per frame
     const PhysDivision *division; // other processes, which must outlive the system; NULL: none
 } PhysOptions;
 

@@ -33,7 +33,10 @@ static PhysResult abort_frame(PhysSystem *system, const PhysTime *time) {
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
     system->frame++;
-    if (!phys_prepare(system) || (time->keep_last_finite && !phys_clear_not_finite(system))) {
+    system->last_time = *time;
+    system->last_steps = 0;
+    if (!phys_prepare(system) || (time->keep_last_finite && !phys_clear_not_finite(system)) ||
+        (system->options.keep_forces && !phys_keep_start(system))) {
         result.status = PHYS_NO_MEMORY;
         return result;
     }
@@ -46,7 +49,7 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     double last = time->last, remaining = time->now - last;
     bool more = remaining > 0;
     while (more) {
-        double delta = time->resolution < remaining ? time->resolution : remaining;
+        double delta = phys_step_length(time, last);
         if (result.steps == PHYS_MAX_STEPS || last + delta == last || !isfinite(result.clock + delta)) {
             result.status = PHYS_DROPPED_TIME;
             break;
@@ -62,5 +65,8 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
         more =
             remaining > 1e-9 * time->resolution && (time->lockstep || (result.steps == 1 && time->performance > 1.5));
     }
-    return end_frame(system, time->keep_last_finite) ? result : abort_frame(system, time);
+    if (!end_frame(system, time->keep_last_finite))
+        return abort_frame(system, time);
+    system->last_steps = result.steps;
+    return result;
 }
