@@ -153,7 +153,7 @@ typedef struct PetriOptions {
     const char *const *read_folders;
     const char *const *write_folders;
     bool no_files;    // the script may not read, write or import any file. Default false
-    bool keep_forces; // provide PetriSystem.force. Default false
+    bool keep_forces; // provide PetriSystem.force and petri_explain_force. Default false
     // Called for each diagnostic by the thread that uses the session. NULL (the default): not reported.
     void (*on_diagnostic)(void *user_data, const PetriDiagnostic *diagnostic);
     void *user_data; // passed to on_diagnostic and should_interrupt
@@ -569,13 +569,41 @@ typedef struct PetriForce {
     uint32_t to;            // `!distance` only: number of the second particle
     const double *position; // `!barrier` only: a point on it; else NULL
     const double *normal;   // `!barrier` only: its unit normal; else NULL
+    const char *file;       // file of its node; NULL if the position is unknown, for example after petri_reload
+    uint32_t line;          // line of its node, from 1; 0 if unknown
+    uint32_t column;        // in characters, from 1; 0 if unknown
 } PetriForce;
 
 // Gets a force applier or barrier by number, in the order of the script. Returns false past the last, or if out of
-// memory. The vectors are valid until the next call that gets data about a system, such as petri_system, and at most as
-// long as the columns.
+// memory. The vectors and `file` are valid until the next call that gets data about a system, such as petri_system, and
+// at most as long as the columns.
 PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force,
                                   size_t size);
+
+#define PETRI_OWN_FORCE UINT32_MAX   // in PetriExplanation.force: the particle's attribute `force`
+#define PETRI_NO_PARTICLE UINT32_MAX // in PetriExplanation.partner: the force has no other particle
+
+// The forces on one particle in one step of the last frame. Contribution c comes from force[c] and partner[c], and its
+// vector starts at vector[c * dimensions]. To add the contributions yourself, start with zeros, or with the first one
+// if it is PETRI_OWN_FORCE.
+typedef struct PetriExplanation {
+    uint32_t count;          // number of contributions; zeros that cannot change the sum are left out
+    const uint32_t *force;   // by contribution: number for petri_system_force
+    const uint32_t *partner; // by contribution: number of the other particle of a pair force or `!distance`
+    const double *vector;    // contributions in the order of summation
+    const double *sum;       // sum of the contributions; in the last step, PetriSystem.force of the particle
+    double clock;            // simulation clock at the start of the step
+    double delta;            // length of the step in seconds
+    const double *position;  // of the particle at the start of the step
+    const double *velocity;  // of the particle at the start of the step
+} PetriExplanation;
+
+// Explains the force on a particle: computes the contributions of all forces in step `step` of the last frame again.
+// The last step is PetriSystem.steps - 1. Returns PETRI_INVALID if there is no such system, particle or step, or
+// without PetriOptions.keep_forces. The arrays are valid until the next call of this function, and at most as long as
+// the columns.
+PETRI_API PetriStatus petri_explain_force(PetriSession *session, size_t system, uint32_t particle, uint64_t step,
+                                          PetriExplanation *explanation, size_t size);
 
 // Returns true if the last frame has something to draw: a window with a canvas, or a particle system. Use petri-draw.h
 // to draw it.

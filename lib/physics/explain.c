@@ -15,7 +15,8 @@
 
 // Memory of the results.
 typedef struct ExplanationMemory {
-    Buffer contributions;
+    Buffer forces;
+    Buffer partners;
     Buffer vectors;
     Buffer motion; // sum, position and velocity
 } ExplanationMemory;
@@ -90,6 +91,11 @@ static void clear_sum(const Probe *probe) {
         columns->force[k * columns->stride + probe->target] = -0.0;
 }
 
+// Reserves memory for one more element of a buffer that holds `count`. Returns false if out of memory.
+static bool reserve_one(PhysSystem *system, Buffer *buffer, size_t count, size_t size) {
+    return phys_buffer_reserve(system, buffer, count * size, count + 1, size);
+}
+
 // Adds the contribution that the columns hold. Leaves out a contribution that cannot change the sum.
 static void record(Probe *probe, uint32_t force, uint32_t partner) {
     PhysExplanation *result = probe->result;
@@ -100,13 +106,12 @@ static void record(Probe *probe, uint32_t force, uint32_t partner) {
     bool neutral = force != PHYS_OWN_FORCE; // an own force replaces the sum
     for (size_t k = 0; k < n; k++)
         neutral &= sum[k * columns->stride] == 0 && signbit(sum[k * columns->stride]);
-    if (neutral ||
-        !phys_buffer_reserve(system, &probe->memory->contributions, count * sizeof(PhysContribution), count + 1,
-                             sizeof(PhysContribution)) ||
-        !phys_buffer_reserve(system, &probe->memory->vectors, count * n * sizeof(double), count + 1,
-                             n * sizeof(double)))
+    if (neutral || !reserve_one(system, &probe->memory->forces, count, sizeof(uint32_t)) ||
+        !reserve_one(system, &probe->memory->partners, count, sizeof(uint32_t)) ||
+        !reserve_one(system, &probe->memory->vectors, count, n * sizeof(double)))
         return;
-    ((PhysContribution *)probe->memory->contributions.bytes)[count] = (PhysContribution){force, partner};
+    ((uint32_t *)probe->memory->forces.bytes)[count] = force;
+    ((uint32_t *)probe->memory->partners.bytes)[count] = partner;
     double *vector = (double *)probe->memory->vectors.bytes + count * n, *total = probe->memory->motion.bytes;
     for (size_t k = 0; k < n; k++) {
         vector[k] = sum[k * columns->stride];
@@ -232,7 +237,7 @@ static bool reserve_results(Probe *probe, size_t n) {
     probe->memory = arena_try_alloc(&probe->system->home, sizeof *probe->memory);
     if (!probe->memory)
         return false;
-    *probe->memory = (ExplanationMemory){.contributions.shown = false};
+    memset(probe->memory, 0, sizeof *probe->memory);
     probe->result->memory = probe->memory;
     if (!phys_buffer_reserve(probe->system, &probe->memory->motion, 0, MOTION_VECTORS * n, sizeof(double)))
         return false;
@@ -298,14 +303,16 @@ PhysStatus phys_explain(const PhysSystem *system, uint32_t particle, uint64_t st
         return PHYS_NO_MEMORY;
     result->copy->last_time = system->last_time;
     PhysStatus status = explain(&probe, &system->last_time, particle, step);
-    result->contributions = probe.memory->contributions.bytes;
+    result->forces = probe.memory->forces.bytes;
+    result->partners = probe.memory->partners.bytes;
     result->vectors = probe.memory->vectors.bytes;
     return status;
 }
 
 void phys_explanation_free(PhysExplanation *explanation) {
     if (explanation->memory) {
-        phys_buffer_free(&explanation->memory->contributions);
+        phys_buffer_free(&explanation->memory->forces);
+        phys_buffer_free(&explanation->memory->partners);
         phys_buffer_free(&explanation->memory->vectors);
         phys_buffer_free(&explanation->memory->motion);
     }

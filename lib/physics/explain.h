@@ -8,28 +8,22 @@
 
 #include "physics/system.h"
 
-enum {
-    PHYS_OWN_FORCE = UINT32_MAX,  // PhysContribution.force: the particle's `force` attribute
-    PHYS_NO_PARTNER = UINT32_MAX, // PhysContribution.partner: the force has no other particle
-};
-
-typedef struct PhysContribution {
-    uint32_t force;   // number of the force, as returned by phys_add_force
-    uint32_t partner; // handle of the other particle of a pair force or link
-} PhysContribution;
+#define PHYS_OWN_FORCE UINT32_MAX  // in PhysExplanation.forces: the particle's `force` attribute
+#define PHYS_NO_PARTNER UINT32_MAX // in PhysExplanation.partners: the force has no other particle
 
 // Results of phys_explain, valid until phys_explanation_free.
 typedef struct PhysExplanation {
-    double clock;                          // simulation clock at the start of the step
-    double delta;                          // length of the step
-    const double *position;                // at the start of the step; n doubles
-    const double *velocity;                // n doubles
-    const double *sum;                     // the force on the particle in the step; n doubles; zeros for an anchor
-    uint32_t count;                        // number of contributions
-    const PhysContribution *contributions; // in the order of summation; zeros that cannot change the sum are left out
-    const double *vectors;                 // by contribution: n doubles
-    struct ExplanationMemory *memory;      // holds the arrays
-    PhysSystem *copy;                      // the system in which the step was computed
+    double clock;                     // simulation clock at the start of the step
+    double delta;                     // length of the step
+    const double *position;           // at the start of the step; n doubles
+    const double *velocity;           // n doubles
+    const double *sum;                // the force on the particle in the step; n doubles; zeros for an anchor
+    uint32_t count;                   // number of contributions; zeros that cannot change the sum are left out
+    const uint32_t *forces;           // by contribution, in the order of summation: number that phys_add_force returned
+    const uint32_t *partners;         // by contribution: handle of the other particle of a pair force or link
+    const double *vectors;            // by contribution: n doubles
+    struct ExplanationMemory *memory; // holds the arrays
+    PhysSystem *copy;                 // the system in which the step was computed
 } PhysExplanation;
 
 // Returns the number of steps of the last frame that phys_explain can explain. It is 0 without PhysOptions.keep_forces,

@@ -255,6 +255,13 @@ static void report_unknown_kind(const Reader *reader) {
     reader_report(reader, "unknown-node", "", text_str(&out));
 }
 
+// Stores the location of a force for scene_view_force_origin. Without memory, the location is unknown.
+static void store_origin(PhysicsSystem *system, uint32_t force, const NodeOrigin *origin) {
+    if (force == system->origin_count &&
+        heap_reserve((void **)&system->origins, &system->origin_capacity, force, sizeof *system->origins))
+        system->origins[system->origin_count++] = origin;
+}
+
 // Reads one force of a group. Not part of its recursive caller, because the stack frames of that function must be
 // small.
 __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node *node, NodeKind kind, uint32_t group,
@@ -269,6 +276,7 @@ __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node
         return;
     uint32_t number = phys_add_force(tree->engine, group, &force);
     PhysicsSystem *system = tree->system;
+    store_origin(system, number, node->origin);
     if (kind != KIND_RANDOM)
         return;
     if (heap_reserve((void **)&system->randoms, &system->random_capacity, system->random_count,
@@ -295,6 +303,6 @@ static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t gr
 void physics_read_forces(PhysicsTree *tree) {
     tree->next_group = 1;
     tree->next_link = 0;
-    tree->system->random_count = 0;
+    tree->system->random_count = tree->system->origin_count = 0;
     read_group_forces(tree, tree->root, 0, 0);
 }

@@ -31,6 +31,12 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
+Origin scene_view_force_origin(const SceneView *view, uint32_t force) {
+    const PhysicsSystem *system = view->system;
+    const NodeOrigin *found = force < system->origin_count ? system->origins[force] : NULL;
+    return found ? found->origin : (Origin){.source = NULL};
+}
+
 static void free_system(PhysicsSystem *system) {
     budget_release(system->budget, PHYSICS_SYSTEM_BYTES + system->mirror.id_capacity * sizeof *system->mirror.ids);
     phys_free(system->engine);
@@ -38,6 +44,7 @@ static void free_system(PhysicsSystem *system) {
     heap_free(system->nodes);
     heap_free(system->randoms);
     heap_free(system->links);
+    heap_free(system->origins);
     heap_free(system);
 }
 

@@ -50,6 +50,9 @@ struct PhysicsSystem {
     Link *links; // ends of the distance forces, in the order of the tree
     uint32_t link_count;
     uint32_t link_capacity;
+    const NodeOrigin **origins; // by number of the force; elements can be NULL
+    uint32_t origin_count;
+    uint32_t origin_capacity;
 };
 
 struct Scene {

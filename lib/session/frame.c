@@ -40,6 +40,7 @@ void session_clear_frame(PetriSession *session) {
     arena_reset(&frame->systems_arena);
     arena_reset(&session->text_arena);
     arena_reset(&session->view_arena);
+    phys_explanation_free(&session->explanation);
     session_free_retired(session);
 }
 

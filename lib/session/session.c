@@ -170,6 +170,7 @@ void petri_close(PetriSession **handle) {
         unit_free(unit);
     }
     heap_free(session->undo.bytes);
+    phys_explanation_free(&session->explanation);
     scene_free(session->scene);
     state_free(session->state);
     file_cache_free(session->files);

@@ -9,6 +9,7 @@
 #include "builtin/files.h"
 #include "builtin/noise.h"
 #include "petri-edit.h"
+#include "physics/explain.h"
 #include "ranks/ranks.h"
 #include "scene/scene.h"
 #include "session/checkpoint.h"
@@ -109,9 +110,10 @@ struct PetriSession {
     SessionFrame frame;
     Prompt prompt;
     Diagnostics diagnostics;
-    Checkpoint undo;       // taken before the current frame was computed, if PetriOptions.rollback_frames is set
-    bool undo_of_frame;    // true if `undo` is the state from which the current frame was computed
-    bool rollback_pending; // true if an aborted frame could not be rolled back yet, because memory ran out
+    Checkpoint undo;             // taken before the current frame was computed, if PetriOptions.rollback_frames is set
+    bool undo_of_frame;          // true if `undo` is the state from which the current frame was computed
+    PhysExplanation explanation; // result of petri_explain_force, until the next one or the end of the frame
+    bool rollback_pending;       // true if an aborted frame could not be rolled back yet, because memory ran out
 };
 
 // Initialises an arena like arena_init. Its memory is charged to the session's budget.

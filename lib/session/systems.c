@@ -149,6 +149,17 @@ bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, ui
     return true;
 }
 
+// Sets the position of a force's node, if it is known. The origin is valid only as long as the tree of the frame.
+static void locate_force(PetriSession *session, const SceneView *view, uint32_t number, PetriForce *force) {
+    Origin origin = scene_view_force_origin(view, number);
+    if (!origin.source || session->frame.tree.len == 0)
+        return;
+    SourcePosition position = source_locate(origin.source, origin.span.start);
+    force->file = str_to_c(&session->view_arena, origin.source->name);
+    force->line = position.line;
+    force->column = position.column;
+}
+
 static PetriStatus find_force(PetriSession *session, const Request *request, const SceneView *view) {
     PhysForce force;
     if (!phys_get_force(view->engine, request->number, &force))
@@ -169,6 +180,7 @@ static PetriStatus find_force(PetriSession *session, const Request *request, con
                   : force.vector2 ? force.vector2
                                   : zero,
     };
+    locate_force(session, view, request->number, request->out);
     return PETRI_OK;
 }
 
@@ -176,4 +188,44 @@ bool petri_system_force(PetriSession *session, size_t number, uint32_t index, Pe
     PetriForce found;
     return session && out && run_request(session, (Request){find_force, number, index, &found}) &&
            host_struct_write(out, size, &found, sizeof found);
+}
+
+// Explains a step, whose number is *request->out. The result is in session->explanation.
+static PetriStatus explain_force(PetriSession *session, const Request *request, const SceneView *view) {
+    uint64_t step = *(const uint64_t *)request->out;
+    Arena *arena = &session->view_arena;
+    if (request->number >= view->particle_count || step >= phys_explained_steps(view->engine))
+        return PETRI_INVALID;
+    PhysStatus status = phys_explain(view->engine, request->number, step, &session->explanation);
+    if (status == PHYS_STOPPED)
+        arena_check(arena, budget_check(&session->budget));
+    if (status == PHYS_NO_MEMORY)
+        arena_escape(arena, session->budget.memory_refused ? ARENA_MEMORY_LIMIT : ARENA_OUT_OF_MEMORY);
+    return PETRI_OK;
+}
+
+PetriStatus petri_explain_force(PetriSession *session, size_t system, uint32_t particle, uint64_t step,
+                                PetriExplanation *explanation, size_t size) {
+    if (!session || !explanation)
+        return PETRI_INVALID;
+    const PhysExplanation *found = &session->explanation;
+    phys_explanation_free(&session->explanation);
+    arena_reset(&session->view_arena);
+    Request request = {explain_force, system, particle, &step};
+    PetriStatus status = session_run(session, find_in_view, &request, "the explanation");
+    if (status != PETRI_OK) {
+        phys_explanation_free(&session->explanation);
+        return status;
+    }
+    const PetriExplanation data = {.count = found->count,
+                                   .force = found->forces,
+                                   .partner = found->partners,
+                                   .vector = found->vectors,
+                                   .sum = found->sum,
+                                   .clock = found->clock,
+                                   .delta = found->delta,
+                                   .position = found->position,
+                                   .velocity = found->velocity};
+    host_struct_write(explanation, size, &data, sizeof data);
+    return PETRI_OK;
 }

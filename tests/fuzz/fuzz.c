@@ -5,6 +5,7 @@
 
 #include <ftw.h>
 #include <inttypes.h>
+#include <math.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -94,6 +95,24 @@ void fuzz_load(PetriSession *session, const char *script) {
         fuzz_fail("the harness's script does not load");
 }
 
+// The contributions to the force on a particle must add up to the force.
+static void check_explanation(PetriSession *session, size_t number, const PetriSystem *system, uint32_t particle) {
+    PetriExplanation found;
+    if (!system->force.data ||
+        petri_explain_force(session, number, particle, system->steps - 1, &found, sizeof found) != PETRI_OK)
+        return; // a limit was exceeded
+    for (uint32_t k = 0; k < system->dimensions; k++) {
+        double sum = 0, force = system->force.data[particle * system->force.stride + k];
+        for (uint32_t c = 0; c < found.count; c++) {
+            double f = found.vector[(size_t)c * system->dimensions + k];
+            sum = found.force[c] == PETRI_OWN_FORCE ? f : sum + f;
+        }
+        bool same = memcmp(&sum, &force, sizeof sum) == 0 && memcmp(&sum, &found.sum[k], sizeof sum) == 0;
+        if (!same && !(isnan(sum) && isnan(force) && isnan(found.sum[k])))
+            fuzz_fail("the contributions to a force add up to %a and %a, not %a", sum, found.sum[k], force);
+    }
+}
+
 void fuzz_check_frame(PetriSession *session) {
     enum { MAX_COUNT = 50 };
     PetriSystem system;
@@ -108,8 +127,10 @@ void fuzz_check_frame(PetriSession *session) {
             seen += petri_find_particle(session, i, id, &found) ? found : 0;
             seen += (size_t)(system.position.data[j * system.position.stride + system.dimensions - 1] > 0);
         }
+        if (system.particle_count)
+            check_explanation(session, i, &system, system.particle_count / 2);
         for (uint32_t j = 0; j < MAX_COUNT && petri_system_force(session, i, j, &force, sizeof force); j++)
-            seen += strlen(force.kind);
+            seen += strlen(force.kind) + force.line + (force.file ? strlen(force.file) : 0);
     }
     for (size_t i = 0; i < MAX_COUNT && petri_parameter(session, i, &parameter, sizeof parameter); i++)
         seen += strlen(parameter.name) + strlen(parameter.value) + strlen(parameter.comment);

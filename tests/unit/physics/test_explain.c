@@ -10,7 +10,7 @@ static void check_sum(const PhysSystem *system, size_t n, uint32_t particle, uin
     for (uint32_t c = 0; c < found.count; c++)
         for (size_t k = 0; k < n; k++) {
             double f = found.vectors[c * n + k];
-            sum[k] = found.contributions[c].force == PHYS_OWN_FORCE ? f : sum[k] + f;
+            sum[k] = found.forces[c] == PHYS_OWN_FORCE ? f : sum[k] + f;
         }
     if (!same_bits(found.sum, force, n) || !same_bits(sum, force, n)) {
         print_error("particle %u, step %d: sum[0] %a, %a, not %a\n", particle, (int)step, found.sum[0], sum[0],
@@ -178,7 +178,9 @@ static PhysSystem *describe_ordered(void) {
 
 static void test_order_of_summation(void **state) {
     (void)state;
-    static const PhysContribution order[] = {
+    static const struct {
+        uint32_t force, partner;
+    } order[] = {
         {PHYS_OWN_FORCE, PHYS_NO_PARTNER},
         {4, 0},
         {2, 1},
@@ -194,8 +196,8 @@ static void test_order_of_summation(void **state) {
     assert_int_equal(phys_explain(system, 2, 0, &found), PHYS_OK);
     assert_int_equal(found.count, COUNT_OF(order));
     for (uint32_t c = 0; c < COUNT_OF(order); c++) {
-        assert_int_equal(found.contributions[c].force, order[c].force);
-        assert_int_equal(found.contributions[c].partner, order[c].partner);
+        assert_int_equal(found.forces[c], order[c].force);
+        assert_int_equal(found.partners[c], order[c].partner);
         assert_same(found.vectors[c], values[c]);
     }
     assert_same(found.position[0], 2);

@@ -64,6 +64,7 @@ static void open_stage(Stage *stage, bool interruptible) {
     options.on_diagnostic = ignore;
     options.threads = 1;
     options.profile = true;
+    options.keep_forces = true;
     player_open_with(&stage->player, &options);
     PetriSession *session = stage->player.session;
     assert_int_equal(petri_load(session, folder_file(&stage->folder, "s.fl")), PETRI_OK);
@@ -201,6 +202,11 @@ static PetriStatus act_systems(Stage *stage) {
         petri_particle_ids(stage->player.session, 0).data != NULL &&
         petri_system_force(stage->player.session, 0, 0, &force, sizeof force);
     return found ? PETRI_OK : PETRI_OUT_OF_MEMORY;
+}
+
+static PetriStatus act_explain(Stage *stage) {
+    PetriExplanation found;
+    return petri_explain_force(stage->player.session, 0, 0, 0, &found, sizeof found);
 }
 
 static const PetriString some_text = {"some text", 9};
@@ -411,6 +417,7 @@ static const Row rows[] = {
     {"save", act_save, false},
     {"restore", act_restore, false},
     {"systems", act_systems, false},
+    {"explain", act_explain, false},
     {"state", act_state, false},
     {"give", act_set_global, false},
     {"add a function", act_add_function, false},

@@ -168,6 +168,7 @@ static void test_null_arguments_are_accepted(void **state) {
     PetriSystem system;
     uint32_t particle;
     PetriForce force;
+    PetriExplanation explanation;
     PetriParameter parameter;
     double x;
     player_run(player, KEYS, 2);
@@ -271,6 +272,8 @@ static void test_null_arguments_are_accepted(void **state) {
     assert_true(isnan(petri_symbol(NULL, "a")) && isnan(petri_symbol(session, NULL)));
     assert_null(petri_symbol_name(NULL, 1));
     assert_false(petri_system_force(NULL, 0, 0, &force, sizeof force) || petri_system_force(session, 0, 0, NULL, 0));
+    assert_int_equal(petri_explain_force(NULL, 0, 0, 0, &explanation, sizeof explanation), PETRI_INVALID);
+    assert_int_equal(petri_explain_force(session, 0, 0, 0, NULL, 0), PETRI_INVALID);
     assert_false(petri_parameter(NULL, 0, &parameter, sizeof parameter) || petri_parameter(session, 0, NULL, 0));
     assert_false(petri_builtin(0, NULL, 0) || petri_node_kind(0, NULL, 0) || petri_node_attribute(0, 0, NULL, 0));
     assert_false(petri_parse_number(NULL, &x) || petri_parse_number("1", NULL));

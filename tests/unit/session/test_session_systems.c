@@ -209,6 +209,9 @@ static void test_force_appliers(void **state) {
     assert_null(force.position);
     assert_true(petri_system_force(player->session, 0, 1, &force, sizeof force));
     assert_string_equal(force.kind, "distance");
+    assert_string_equal(force.file, "t.fl");
+    assert_int_equal(force.line, 8);
+    assert_int_equal(force.column, 9);
     assert_int_equal(force.from, 0);
     assert_int_equal(force.to, 1);
     assert_true(petri_system_force(player->session, 0, 2, &force, sizeof force));
@@ -216,6 +219,122 @@ static void test_force_appliers(void **state) {
     assert_number("y", force.position[1], -50);
     assert_number("unit normal", force.normal[1], 1);
     assert_false(petri_system_force(player->session, 0, 3, &force, sizeof force));
+}
+
+static const char *const EXPLAINED = "%pragma fps 8\n"
+                                     "!physics state=:a dimensions=2 time=time resolution=1/16\n"
+                                     "    for i in ..3\n"
+                                     "        !particle id=i position=i;0 radius=0.7 force=0;-1\n"
+                                     "    !constant force=6;8\n"
+                                     "    !group\n"
+                                     "        !gravity strength=9\n"
+                                     "    !collision\n"
+                                     "    !anchor id=:wall position=9;9\n";
+
+// Writes the contributions as `NAME:LINE:COLUMN kind partner`, separated by commas.
+static void write_contributions(Player *player, const PetriExplanation *found, char *text, size_t size) {
+    size_t length = 0;
+    text[0] = '\0';
+    for (uint32_t c = 0; c < found->count; c++) {
+        PetriForce force = {.kind = "own", .file = ""};
+        if (found->force[c] != PETRI_OWN_FORCE)
+            assert_true(petri_system_force(player->session, 0, found->force[c], &force, sizeof force));
+        length += (size_t)snprintf(text + length, size - length, "%s%s:%u:%u %s %d", c ? ", " : "",
+                                   force.file ? force.file : "?", force.line, force.column, force.kind,
+                                   (int)found->partner[c]);
+    }
+}
+
+static PetriStatus explain(Player *player, uint32_t particle, uint64_t step, PetriExplanation *found) {
+    return petri_explain_force(player->session, 0, particle, step, found, sizeof *found);
+}
+
+static void test_explanation(void **state) {
+    Player *player = *state;
+    open_keeping(player, true);
+    player_run(player, EXPLAINED, 3);
+    PetriSystem system = system_of(player, 0);
+    PetriExplanation found;
+    char text[500];
+    assert_int_equal(system.steps, 2);
+    for (uint32_t i = 0; i < 3; i++) {
+        assert_int_equal(explain(player, i, 1, &found), PETRI_OK);
+        double sum[] = {found.vector[0], found.vector[1]};
+        for (size_t c = 1; c < found.count; c++)
+            for (size_t k = 0; k < 2; k++)
+                sum[k] += found.vector[2 * c + k];
+        assert_memory_equal(sum, particle_numbers(system.force, i), sizeof sum);
+        assert_memory_equal(found.sum, sum, sizeof sum);
+    }
+    assert_number("clock", found.clock, 0.125 + 0.0625);
+    assert_number("delta", found.delta, 0.0625);
+    assert_int_equal(explain(player, 0, 0, &found), PETRI_OK);
+    write_contributions(player, &found, text, sizeof text);
+    assert_string_equal(text, ":0:0 own -1, t.fl:8:5 collision 1, t.fl:5:5 constant -1");
+    assert_int_equal(explain(player, 3, 1, &found), PETRI_OK); // an anchor
+    assert_int_equal(found.count, 0);
+    assert_number("sum", found.sum[1], 0);
+}
+
+// A frame is explained as it was computed, even if the state or the parameters have changed since.
+static void test_explanation_of_a_changed_session(void **state) {
+    Player *player = *state;
+    open_keeping(player, true);
+    player_run(player, EXPLAINED, 3);
+    PetriExplanation found;
+    double force[2], far[] = {1e6, 1e6}, prefix = petri_symbol(player->session, "a");
+    char text[500];
+    memcpy(force, particle_numbers(system_of(player, 0).force, 1), sizeof force);
+    assert_int_equal(petri_state_set(player->session, (PetriValue){.length = 2, .numbers = (double[]){prefix, 0}},
+                                     (PetriValue){.length = 2, .numbers = far}),
+                     PETRI_OK);
+    petri_prompt(player->session, "let x = 1", PETRI_NUL_TERMINATED, NULL, NULL, NULL, 0);
+    assert_int_equal(explain(player, 1, 1, &found), PETRI_OK);
+    assert_memory_equal(found.sum, force, sizeof force);
+    write_contributions(player, &found, text, sizeof text);
+    assert_non_null(strstr(text, "t.fl:8:5 collision 0, t.fl:8:5 collision 2"));
+    assert_int_equal(petri_reload(player->session, NULL), PETRI_OK);
+    assert_int_equal(explain(player, 1, 1, &found), PETRI_OK);
+    write_contributions(player, &found, text, sizeof text); // the program that created the nodes no longer exists
+    assert_non_null(strstr(text, "?:0:0 collision 0"));
+}
+
+static void test_nothing_to_explain(void **state) {
+    Player *player = *state;
+    PetriExplanation found;
+    player_run(player, EXPLAINED, 3);
+    assert_int_equal(explain(player, 0, 0, &found), PETRI_INVALID); // forces are not kept
+    open_keeping(player, true);
+    player_run(player, EXPLAINED, 1);
+    assert_int_equal(explain(player, 0, 0, &found), PETRI_INVALID); // frame 0 has no steps
+    player_step(player, 1);
+    assert_int_equal(explain(player, 0, 1, &found), PETRI_OK);
+    assert_int_equal(explain(player, 0, 2, &found), PETRI_INVALID);
+    assert_int_equal(explain(player, 4, 0, &found), PETRI_INVALID);
+    assert_int_equal(petri_explain_force(player->session, 1, 0, 0, &found, sizeof found), PETRI_INVALID);
+}
+
+// An explanation can be interrupted, and has the limits of a frame. It computes pairs that neighbour lists exclude.
+static void test_aborted_explanation(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    PetriExplanation found;
+    options.keep_forces = true;
+    options.neighbours = PETRI_NEIGHBOURS_ALWAYS;
+    player_reopen(player, &options);
+    const char *script = "!physics state=:a dimensions=2 time=time\n    for i in ..8\n        !collision\n"
+                         "    for i in ..3000\n        !particle id=i position=i*3;0 radius=1\n";
+    player_run(player, script, 2);
+    assert_int_equal(explain(player, 1, 0, &found), PETRI_OK);
+    petri_interrupt(player->session);
+    assert_int_equal(explain(player, 1, 0, &found), PETRI_INTERRUPTED);
+    assert_int_equal(explain(player, 1, 0, &found), PETRI_OK);
+    assert_string_equal(player->diagnostics.text, "");
+    options.work_limit = 80000; // each frame needs less
+    player_reopen(player, &options);
+    player_run(player, script, 2);
+    assert_int_equal(explain(player, 1, 0, &found), PETRI_LIMIT_EXCEEDED);
+    assert_non_null(strstr(player->diagnostics.text, "the explanation exceeded its limit of 80000 work units"));
 }
 
 int main(void) {
@@ -228,6 +347,10 @@ int main(void) {
         PLAYER_TEST(test_particle_ids),
         PLAYER_TEST(test_force_appliers),
         PLAYER_TEST(test_retained_columns_stay_readable),
+        PLAYER_TEST(test_explanation),
+        PLAYER_TEST(test_explanation_of_a_changed_session),
+        PLAYER_TEST(test_nothing_to_explain),
+        PLAYER_TEST(test_aborted_explanation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,6 +25,10 @@ static bool fill_force(PetriSession *session, void *out, size_t size) {
     return petri_system_force(session, 0, 0, out, size);
 }
 
+static bool fill_explanation(PetriSession *session, void *out, size_t size) {
+    return petri_explain_force(session, 0, 0, 0, out, size) == PETRI_OK;
+}
+
 static bool fill_rank_stats(PetriSession *session, void *out, size_t size) {
     return petri_rank_stats(session, 0, out, size);
 }
@@ -90,6 +94,7 @@ static void test_filled_structs_have_the_size_of_the_host(void **state) {
         {"parameter", fill_parameter, sizeof(PetriParameter)},
         {"system", fill_system, sizeof(PetriSystem)},
         {"force", fill_force, sizeof(PetriForce)},
+        {"explanation", fill_explanation, sizeof(PetriExplanation)},
         {"rank stats", fill_rank_stats, sizeof(PetriRankStats)},
         {"prompt", fill_prompt_result, sizeof(PetriPromptResult)},
         {"evaluation", fill_evaluation, sizeof(PetriEvaluation)},
@@ -101,6 +106,9 @@ static void test_filled_structs_have_the_size_of_the_host(void **state) {
         {"options", fill_options, sizeof(PetriOptions)},
     };
     Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.keep_forces = true;
+    player_reopen(player, &options);
     PetriFunction function = {
         .size = sizeof function, .name = "f", .parameters = "x", .help = "help", .call = return_null};
     assert_int_equal(petri_add_function(player->session, &function), PETRI_OK);
