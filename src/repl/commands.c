@@ -10,8 +10,8 @@
 #include <string.h>
 
 const ReplCommand *repl_command_at(size_t index) {
-    static const ReplCommand *const groups[] = {STEP_COMMANDS,   PRINT_COMMANDS,  PLOT_COMMANDS, SET_COMMANDS,
-                                                SCRIPT_COMMANDS, RECORD_COMMANDS, OTHER_COMMANDS};
+    static const ReplCommand *const groups[] = {STEP_COMMANDS, PRINT_COMMANDS,  WHY_COMMANDS,    PLOT_COMMANDS,
+                                                SET_COMMANDS,  SCRIPT_COMMANDS, RECORD_COMMANDS, OTHER_COMMANDS};
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
         for (const ReplCommand *command = groups[i]; command->name; command++)
             if (index-- == 0)

@@ -76,8 +76,8 @@ typedef struct ReplCommand {
     Completes complete;                        // how the operand is completed
 } ReplCommand;
 // Each table ends with a row without a name.
-extern const ReplCommand STEP_COMMANDS[], PRINT_COMMANDS[], PLOT_COMMANDS[], SET_COMMANDS[], SCRIPT_COMMANDS[],
-    RECORD_COMMANDS[], OTHER_COMMANDS[];
+extern const ReplCommand STEP_COMMANDS[], PRINT_COMMANDS[], WHY_COMMANDS[], PLOT_COMMANDS[], SET_COMMANDS[],
+    SCRIPT_COMMANDS[], RECORD_COMMANDS[], OTHER_COMMANDS[];
 // Returns the command at an index, in the order of .help. Returns NULL after the last command.
 const ReplCommand *repl_command_at(size_t index);
 // Returns the command with this name, with or without the dot, or NULL.

@@ -59,6 +59,30 @@ class Views(unittest.TestCase):
         self.assertGreater(abs(force[1]).max(), 0)
         numpy.testing.assert_array_equal(force[1], -force[2])
 
+    def test_explain_the_force_on_a_particle(self):
+        script = DISH.replace("dimensions=2", "dimensions=2 resolution=1/120") + "    !drag\n"
+        session = petri.Session(script, options=petri.Options(keep_forces=True))
+        session.step(3)
+        dish = session.systems["dish"]
+        found = dish.explain(0)
+        self.assertEqual([(part.kind, part.partner, part.line) for part in found.contributions],
+                         [("distance", 1, 6), ("drag", None, 7)])
+        total = numpy.zeros(2)
+        for part in found.contributions:
+            total += part.vector
+        self.assertEqual(total.tobytes(), found.sum.tobytes())
+        self.assertEqual(total.tobytes(), dish.force[dish.index(0)].tobytes())
+        first = dish.explain(0, step=0)
+        self.assertEqual((dish.steps, found.clock), (2, first.clock + first.delta))
+        numpy.testing.assert_allclose(first.velocity + first.sum * first.delta / 2, found.velocity)
+        self.assertEqual(dish.explain("middle").contributions, [])
+        with self.assertRaises(KeyError):
+            dish.explain(99)
+        with self.assertRaises(IndexError):
+            dish.explain(0, step=2)
+        with self.assertRaises(IndexError):
+            self.dish.explain(0)
+
     def test_are_read_only_views(self):
         self.assertTrue(numpy.shares_memory(self.dish.position, self.dish.position))
         self.assertFalse(self.dish.position.flags.owndata)

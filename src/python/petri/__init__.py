@@ -17,11 +17,11 @@ from .picture import Picture
 from .session import Frame, Options, Session, Snapshot
 from .state import State
 from .sweeps import sweep
-from .systems import System, Systems
+from .systems import Contribution, Explanation, System, Systems
 from .values import Text
 
 __version__ = _ffi.string(_lib.petri_version()).decode()
-__all__ = ["Diagnostic", "Frame", "InterruptedStep", "LimitError", "MissingLibraryError", "Options", "OutOfMemoryError",
+__all__ = ["Contribution", "Diagnostic", "Explanation", "Frame", "InterruptedStep", "LimitError", "MissingLibraryError", "Options", "OutOfMemoryError",
            "PetriError", "PetriWarning", "Picture", "ScriptError", "Session", "Snapshot", "State", "System", "Systems",
            "Text", "sweep"]
 for _name in __all__:

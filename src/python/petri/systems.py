@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Iterator, List
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Iterator, List, Optional
 
 import numpy
 
@@ -29,6 +30,30 @@ class _Memory:
 
     def __del__(self) -> None:
         self.shown.pop()
+
+
+@dataclass(frozen=True)
+class Contribution:
+    """What one force adds to the force on a particle."""
+
+    kind: str                #: Kind of the force's node, such as "gravity"; "" for the particle's attribute `force`.
+    partner: Any             #: Id of the other particle of a pair force or `!distance`, else None.
+    vector: numpy.ndarray    #: The contribution: float64, d.
+    file: Optional[str]      #: File of the force's node; None if unknown.
+    line: int                #: Line of the force's node, from 1; 0 if unknown.
+    column: int              #: Column of the force's node in characters, from 1; 0 if unknown.
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """The forces on one particle in one step of the last frame."""
+
+    contributions: List[Contribution]  #: In the order of summation. Zeros that cannot change the sum are left out.
+    sum: numpy.ndarray                 #: The force on the particle: float64, d.
+    clock: float                       #: Simulation clock at the start of the step.
+    delta: float                       #: Length of the step in seconds.
+    position: numpy.ndarray            #: Position at the start of the step: float64, d.
+    velocity: numpy.ndarray            #: Velocity at the start of the step: float64, d.
 
 
 def _column(letter: str, doc: str) -> property:
@@ -140,6 +165,33 @@ class System:
                 raise KeyError(id)
         return found[0]
 
+    def explain(self, id: Any, step: int = -1) -> Explanation:
+        """Returns the contributions of all forces to the force on the particle with this id, in the order of summation.
+
+        `step` counts from 0 within the last frame; -1 is its last step, whose sum is in `force`. Needs
+        Options.keep_forces. Raises KeyError if there is no such particle, and IndexError if there is no such step.
+        """
+        row, struct, found = self.index(id), self._fetch(), ffi.new("PetriExplanation *")
+        if step < 0:
+            step += struct.steps
+        with self._owner._lock:
+            if not 0 <= step < struct.steps or struct.force.data == ffi.NULL:
+                raise IndexError("no such step in the last frame, or no Options.keep_forces")
+            self._owner._call(lib.petri_explain_force, self._number, row, step, found, ffi.sizeof(found[0]))
+            n = struct.dimensions
+            parts = [self._contribution(found, c, n) for c in range(found.count)]
+            return Explanation(parts, _copy(found.sum, n), found.clock, found.delta, _copy(found.position, n),
+                               _copy(found.velocity, n))
+
+    def _contribution(self, found: Any, number: int, dimensions: int) -> Contribution:
+        session, partner, force = self._owner._c, None, ffi.new("PetriForce *")
+        if found.partner[number] != _NO_NUMBER:
+            partner = values.whole(values.decode(session, lib.petri_particle_id(session, self._number, found.partner[number])))
+        known = lib.petri_system_force(session, self._number, found.force[number], force, ffi.sizeof(force[0]))
+        return Contribution(ffi.string(force.kind).decode() if known else "", partner,
+                            _copy(found.vector + number * dimensions, dimensions),
+                            ffi.string(force.file).decode() if force.file != ffi.NULL else None, force.line, force.column)
+
     def to_dataframe(self) -> Any:
         """Returns a pandas DataFrame with a row per particle: id, anchor, x1 … xd, v1 … vd, radius, mass, charge."""
         pandas = _optional("pandas", "to_dataframe")
@@ -213,6 +265,13 @@ class Systems(Mapping):
 
     def __repr__(self) -> str:
         return f"<petri.Systems: {', '.join(self) or 'none'}>"
+
+
+_NO_NUMBER = 2**32 - 1  # PETRI_OWN_FORCE and PETRI_NO_PARTICLE
+
+
+def _copy(numbers: Any, count: int) -> numpy.ndarray:
+    return numpy.frombuffer(ffi.buffer(numbers, 8 * count), dtype=float).copy()
 
 
 def _plain(printed: bytes) -> str:

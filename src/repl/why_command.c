@@ -1,0 +1,202 @@
+// why_command.c: the command .why, which prints the forces that act on a particle.
+#include "cli/contributions.h"
+#include "cli/text_table.h"
+#include "repl/repl.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The particle that the user asks for.
+typedef struct Question {
+    const char *asked;  // operand without the number of lines
+    const char *wanted; // value of the operand, as text
+    double number;      // value of the operand, if it is a single number, else NaN
+    bool each;          // print single contributions instead of one row per force
+    size_t max_lines;   // maximum number of contributions to print
+} Question;
+
+// The forces on the particle, with which the rows of a table are filled.
+typedef struct Answer {
+    PetriSession *session;
+    size_t number; // number of the system
+    const PetriSystem *system;
+    PetriExplanation found;
+} Answer;
+
+static const double *vector_of(const Answer *answer, uint32_t contribution) {
+    return answer->found.vector + (size_t)contribution * answer->system->dimensions;
+}
+
+static void add_cells(TextTable *table, const char *name, const char *from, const char *vector, const char *position) {
+    text_table_add(table, name);
+    text_table_add(table, from);
+    text_table_add(table, vector);
+    text_table_add(table, position);
+}
+
+static void add_row(TextTable *table, const Answer *answer, uint32_t force, const char *from, const double *vector) {
+    SCOPED_TEXT name = {0};
+    SCOPED_TEXT value = {0};
+    SCOPED_TEXT position = {0};
+    contribution_add_name(answer->session, answer->number, force, &name);
+    contribution_add_vector(answer->session, vector, answer->system->dimensions, &value);
+    contribution_add_position(answer->session, answer->number, force, &position);
+    add_cells(table, name.bytes, from, value.bytes, position.bytes);
+}
+
+// Adds a row for each of the first `count` contributions.
+static void add_contributions(TextTable *table, const Answer *answer, uint32_t count) {
+    for (uint32_t c = 0; c < count; c++) {
+        SCOPED_TEXT from = {0};
+        contribution_add_partner(answer->session, answer->number, answer->found.partner[c], &from);
+        add_row(table, answer, answer->found.force[c], from.bytes, vector_of(answer, c));
+    }
+}
+
+// Adds a row with the sum of all contributions of the force whose first contribution is `first`.
+static void add_force(TextTable *table, const Answer *answer, uint32_t first, double *sum) {
+    const PetriExplanation *found = &answer->found;
+    uint32_t count = 0, dimensions = answer->system->dimensions;
+    SCOPED_TEXT from = {0};
+    for (uint32_t c = first; c < found->count; c++)
+        for (uint32_t k = 0; k < dimensions && found->force[c] == found->force[first]; k++) {
+            count += k == 0;
+            sum[k] = c == first ? vector_of(answer, c)[k] : sum[k] + vector_of(answer, c)[k];
+        }
+    if (count == 1)
+        contribution_add_partner(answer->session, answer->number, found->partner[first], &from);
+    else
+        text_add_format(&from, "%" PRIu32 " particles", count);
+    add_row(table, answer, found->force[first], from.bytes, sum);
+}
+
+// Adds a row for each force, in the order of their first contributions. Returns the number of forces.
+static uint32_t add_forces(TextTable *table, const Answer *answer) {
+    const PetriSystem *system = answer->system;
+    double *sum = memory_calloc(system->dimensions * sizeof *sum);
+    bool *listed = memory_calloc((system->force_count + (size_t)1) * sizeof *listed); // the last is the own force
+    uint32_t count = 0;
+    for (uint32_t c = 0; c < answer->found.count; c++) {
+        uint32_t force = answer->found.force[c];
+        bool *known = &listed[force == PETRI_OWN_FORCE ? system->force_count : force];
+        if (!*known)
+            add_force(table, answer, c, sum);
+        count += !*known;
+        *known = true;
+    }
+    free(listed);
+    free(sum);
+    return count;
+}
+
+static void print_answer(Repl *repl, const Question *question, const Answer *answer) {
+    const PetriExplanation *found = &answer->found;
+    SCOPED_TEXT_TABLE table = text_table_new(4);
+    SCOPED_TEXT sum = {0};
+    uint32_t shown = question->max_lines < found->count ? (uint32_t)question->max_lines : found->count;
+    add_cells(&table, "force", "from", "contribution", "script");
+    if (question->each)
+        add_contributions(&table, answer, shown);
+    else
+        shown = add_forces(&table, answer);
+    contribution_add_vector(answer->session, found->sum, answer->system->dimensions, &sum);
+    add_cells(&table, "sum", "", sum.bytes, "");
+    text_table_write(&table, &repl->output);
+    if (shown < found->count && question->each)
+        repl_note(repl, "%" PRIu32 " more contributions; '.why %s all' shows all", found->count - shown,
+                  question->asked);
+    else if (shown < found->count)
+        repl_note(repl, "'.why %s all' shows the contribution of each particle, in the order of summation",
+                  question->asked);
+}
+
+// Explains the force on one particle in the last step of the frame. Returns false after a message.
+static bool explain_particle(Repl *repl, const Question *question, Answer *answer, uint32_t particle) {
+    const PetriSystem *system = answer->system;
+    const char *id = petri_format_value(repl->session, petri_particle_id(repl->session, answer->number, particle));
+    SCOPED_TEXT title = {0};
+    text_add_format(&title, "%s;%s", system->name, id ? id : "");
+    if (system->anchor[particle * system->anchor_stride] || !system->force.data) {
+        repl_note(repl, "%s %s", title.bytes,
+                  system->force.data ? "is an anchor, which no force moves" : "took no step in this frame");
+        return true;
+    }
+    repl_busy(repl);
+    PetriStatus status = petri_explain_force(repl->session, answer->number, particle, system->steps - 1, &answer->found,
+                                             sizeof answer->found);
+    repl_idle(repl);
+    if (!repl_status(repl, status))
+        return false;
+    output_format(&repl->output, "%s: %" PRIu32 " contribution%s in step %" PRIu64 " of %" PRIu64 "\n", title.bytes,
+                  answer->found.count, answer->found.count == 1 ? "" : "s", system->steps, system->steps);
+    print_answer(repl, question, answer);
+    return true;
+}
+
+// Returns true if the wanted value is a particle's id, or its key in the state, such as `:cells;3`.
+static bool is_wanted(Repl *repl, const Question *question, size_t number, const PetriSystem *system, uint32_t i) {
+    const char *id = petri_format_value(repl->session, petri_particle_id(repl->session, number, i));
+    size_t prefix = strlen(system->name);
+    if (!id || strcmp(id, question->wanted) == 0)
+        return id;
+    return strncmp(question->wanted, system->name, prefix) == 0 && question->wanted[prefix] == ';' &&
+           strcmp(question->wanted + prefix + 1, id) == 0;
+}
+
+static bool find_particle(Repl *repl, const Question *question, size_t number, const PetriSystem *system,
+                          uint32_t *particle) {
+    const PetriValue id = {.length = 1, .numbers = &question->number};
+    if (petri_find_particle(repl->session, number, id, particle))
+        return true;
+    for (*particle = 0; *particle < system->particle_count; ++*particle)
+        if (is_wanted(repl, question, number, system, *particle))
+            return true;
+    return false;
+}
+
+// Answers the question for each system that has the particle.
+static bool explain_in_systems(Repl *repl, const Question *question) {
+    PetriSystem system;
+    size_t count = 0, found = 0;
+    bool good = true;
+    repl_complete_frame(repl);
+    for (; good && petri_system(repl->session, count, &system, sizeof system); count++) {
+        uint32_t particle;
+        if (!find_particle(repl, question, count, &system, &particle))
+            continue;
+        found++;
+        good = explain_particle(repl, question, &(Answer){repl->session, count, &system, {0}}, particle);
+    }
+    if (count == 0)
+        repl_note(repl, petri_frame_number(repl->session) < 0 ? "no particles before the first frame; run .step"
+                                                              : "no particle system was updated in this frame");
+    else if (found == 0)
+        return repl_fail(repl, "no particle has this id: '%.40s'", question->asked);
+    return good;
+}
+
+static bool run_why(Repl *repl, const char *rest) {
+    SCOPED_STRING asked = memory_strdup(rest);
+    SCOPED_TEXT value = {0};
+    PetriEvaluation result;
+    Question question = {.asked = asked};
+    if (strpbrk(asked, " \t")) // a single number is the id, not the number of contributions
+        question.max_lines = argument_lines(repl, asked, 0);
+    question.each = strlen(asked) < strlen(rest);
+    repl_busy(repl);
+    PetriStatus status =
+        petri_evaluate(repl->session, asked, PETRI_NUL_TERMINATED, &result, sizeof result, text_collect, &value);
+    repl_idle(repl);
+    if (!repl_status(repl, status))
+        return false;
+    question.wanted = value.bytes;
+    question.number = result.number;
+    return explain_in_systems(repl, &question);
+}
+
+const ReplCommand WHY_COMMANDS[] = {
+    {".why", "ID [N|all]", "the id of a particle",
+     "print the forces on a particle; `all` or N lists single contributions", run_why, COMPLETE_LANGUAGE},
+    {0},
+};
