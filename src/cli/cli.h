@@ -20,7 +20,7 @@ enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128
 // a golden file of petri test.
 // clang-format off
 enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64,
-       FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512, FOR_LINK = 1024, FOR_OPEN = 2048 };
+       FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512, FOR_LINK = 1024, FOR_OPEN = 2048, FOR_DIFF = 4096 };
 // clang-format on
 
 typedef struct OptionSpec {
@@ -68,6 +68,7 @@ typedef struct Command {
     const char *no_stdin;             // message if the operand is `-`; NULL: `-` means standard input
     const char *second_operand_error; // message format for a second operand; NULL: it is reported as a second script
     bool accepts_many;                // true if the command accepts several scripts and folders
+    bool accepts_two;                 // true if the command accepts a second operand (Options.second)
     bool live;             // true if the command, by default, follows the wall clock and runs until it is stopped
     bool parses_arguments; // true if `run` parses argv itself
     int (*run)(const CommandContext *context, struct Options *options); // returns the exit status
@@ -80,6 +81,7 @@ extern const Command SWEEP_COMMAND;
 extern const Command VIEW_COMMAND;
 extern const Command TEST_COMMAND;
 extern const Command CHECK_COMMAND;
+extern const Command DIFF_COMMAND;
 extern const Command FMT_COMMAND;
 extern const Command LSP_COMMAND;
 extern const Command SEND_COMMAND;

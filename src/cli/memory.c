@@ -72,6 +72,15 @@ void texts_add(TextList *list, const char *text) {
     list->items[list->count] = NULL;
 }
 
+void texts_add_format(TextList *list, const char *format, ...) {
+    SCOPED_TEXT text = {0};
+    va_list arguments;
+    va_start(arguments, format);
+    text_add_va(&text, format, arguments);
+    va_end(arguments);
+    texts_add(list, text.bytes);
+}
+
 bool texts_contain(const TextList *list, const char *text) {
     size_t i = 0;
     while (i < list->count && strcmp(list->items[i], text) != 0)

@@ -27,6 +27,7 @@ typedef struct TextList {
 } TextList;
 
 void texts_add(TextList *list, const char *text);
+__attribute__((format(printf, 2, 3))) void texts_add_format(TextList *list, const char *format, ...);
 bool texts_contain(const TextList *list, const char *text);
 void texts_free(TextList *list);
 

@@ -228,6 +228,9 @@ static bool read_operand(const Args *args) {
         scripts_add(&options->scripts, args->value);
     } else if (command->accepts_many) {
         options->unreadable = !scripts_find(&options->scripts, args->value) || options->unreadable;
+    } else if (options->script && command->accepts_two && !options->second) {
+        options->second = args->value;
+        return true;
     } else if (options->script && command->second_operand_error) {
         message(command->second_operand_error, args->value);
         return false;
@@ -261,7 +264,7 @@ static int read_all(Args *args) {
     return OPTIONS_READ;
 }
 
-static int options_read(Options *options, const Command *command, int argc, char **argv) {
+int options_parse(Options *options, const Command *command, int argc, char **argv) {
     Args args = {.command = command, .options = options, .argc = argc, .argv = argv};
     *options = (Options){
 #define FIELD(type, name, at_first) .name = at_first,
@@ -279,16 +282,20 @@ static int options_read(Options *options, const Command *command, int argc, char
     return status;
 }
 
+void options_free(Options *options) {
+    texts_free(&options->definitions);
+    texts_free(&options->axes);
+    texts_free(&options->metrics);
+    texts_free(&options->read_folders);
+    texts_free(&options->write_folders);
+    scripts_free(&options->scripts);
+}
+
 int command_run(const Command *command, const CommandContext *host, int argc, char **argv) {
     Options options;
-    int status = options_read(&options, command, argc, argv);
+    int status = options_parse(&options, command, argc, argv);
     status = status == OPTIONS_READ ? command->run(host, &options) : status;
-    texts_free(&options.definitions);
-    texts_free(&options.axes);
-    texts_free(&options.metrics);
-    texts_free(&options.read_folders);
-    texts_free(&options.write_folders);
-    scripts_free(&options.scripts);
+    options_free(&options);
     return status;
 }
 
@@ -313,7 +320,7 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.simplify = !options->unsimplified;
     wanted.no_batches = options->no_batches;
-    wanted.keep_forces = options->prompt;
+    wanted.keep_forces = options->prompt || options->keep_forces;
     wanted.rollback_frames = options->prompt || options->state_file; // a partly computed frame must not be saved
     wanted.profile = options->profile;
     wanted.memory_limit = options_memory_limit(options);

@@ -23,18 +23,25 @@ typedef struct Options {
 #undef FIELD
 #undef OPTION
     const char *script; // the last operand; NULL: none
+    const char *second; // the operand after `script`, for commands that accept two; NULL: none
     ScriptList scripts; // scripts in the operands, for commands that accept several; sorted
     bool unreadable;    // true if a path could not be read
     const char *(*read)(void *host, const char *path, size_t *length);    // PetriOptions.read_file; NULL: none
     const char *(*unsaved)(void *host, const char *path, size_t *length); // PetriOptions.read_unsaved; NULL: none
     void *unsaved_host;                                                   // first argument of both functions
     bool (*should_interrupt)(void *context);                              // PetriOptions.should_interrupt; NULL: none
+    bool keep_forces;                                                     // PetriOptions.keep_forces
     bool prompt; // true if the session must keep forces for display and roll back interrupted frames
     int argc;    // arguments after the command's name
     char **argv;
 } Options;
 
 enum { OPTIONS_READ = -1 }; // success, from functions that otherwise return an exit status
+
+// Parses the arguments that follow a command's name. Returns OPTIONS_READ or an exit status. The caller frees the
+// options with options_free in both cases.
+int options_parse(Options *options, const Command *command, int argc, char **argv);
+void options_free(Options *options);
 
 // Returns true if another frame must be computed according to --frames and --runtime. `frames` frames have been
 // computed since `start`, a time of the monotonic clock in seconds.

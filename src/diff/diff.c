@@ -1,0 +1,266 @@
+// diff.c: `petri diff`, which finds the first frame in which two runs differ, and why.
+#include "diff/diff.h"
+
+#include "cli/output.h"
+#include "cli/script.h"
+#include "golden/golden.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { STATUS_SAME = 0, STATUS_DIFFERS = 1, STATUS_TROUBLE = 2 };
+
+typedef struct Diff {
+    Options *options;      // of the whole command line
+    Options first_options; // of the first run: those before --against
+    Options golden;        // options of a golden's run
+    Golden recorded;       // the golden whose options are in `golden`
+    TextList definitions;  // of the first run, while `options` has those of the second
+    char *script;          // script beside a golden; NULL: none
+    Side sides[2];
+    TextList reported;
+    bool json;
+} Diff;
+
+// --- operands
+
+static bool is_golden(const char *source) {
+    return source && str_ends_with(str_from(source), STR(".golden"));
+}
+
+// Returns the path of the script beside a golden. The caller frees it.
+static char *script_of_golden(const char *golden) {
+    Text path = {0};
+    text_add_format(&path, "%.*s.fl", (int)(strlen(golden) - strlen(".golden")), golden);
+    return path.bytes;
+}
+
+// Adds the options of a golden's run to those of a script that is compared with it.
+static bool apply_golden(Diff *diff, const char *golden, Side *script) {
+    SCOPED_TEXT problem = {0};
+    if (!golden_read(&diff->recorded, golden, &problem)) {
+        message("cannot use the golden '%s': %s", golden, problem.bytes);
+        return false;
+    }
+    TextList *words = &diff->recorded.options;
+    texts_add(words, script->source);
+    if (options_parse(&diff->golden, &RUN_COMMAND, (int)words->count, words->items) != OPTIONS_READ)
+        return false;
+    if (!(diff->golden.sections & PETRI_PRINT_STATE)) {
+        message("%s has no state to compare: its first line needs '--print state'", golden);
+        return false;
+    }
+    for (size_t i = 0; i < script->options->definitions.count; i++)
+        texts_add(&diff->golden.definitions, script->options->definitions.items[i]);
+    if (script->options->threads > 0)
+        diff->golden.threads = script->options->threads;
+    diff->golden.verbosity = script->options->verbosity;
+    diff->golden.keep_forces = true;
+    script->options = &diff->golden;
+    script->frames = diff->golden.frames < script->frames ? diff->golden.frames : script->frames;
+    return true;
+}
+
+static void set_label(Side *side, bool settings) {
+    text_add_c(&side->label, script_display_name(side->source));
+    for (size_t i = 0; settings && i < side->options->definitions.count; i++)
+        text_add_format(&side->label, " -D %s", side->options->definitions.items[i]);
+    if (side->with)
+        text_add_format(&side->label, " with %s", side->with);
+}
+
+// Sets the sources and options of both sides. Returns false after a message.
+static bool read_sides(Diff *diff, const CommandContext *host) {
+    Options *options = diff->options;
+    Side *sides = diff->sides;
+    if (!options->second && !options->against && !options->with && !is_golden(options->script)) {
+        message("nothing to compare with %s: give a second run, --against or --with", options->script);
+        return false;
+    }
+    if (!options->second && is_golden(options->script))
+        diff->script = script_of_golden(options->script);
+    sides[0].source = options->script;
+    sides[1].source = options->second ? options->second : diff->script ? diff->script : options->script;
+    sides[0].options = options->against ? &diff->first_options : options;
+    sides[1].options = options;
+    sides[1].with = options->with;
+    for (int i = 0; i < 2; i++) {
+        sides[i].host = host;
+        sides[i].frames = options->frames;
+        sides[i].reported = &diff->reported;
+    }
+    for (int i = 0; i < 2; i++)
+        if (is_golden(sides[i].source) && !is_golden(sides[1 - i].source) &&
+            !apply_golden(diff, sides[i].source, &sides[1 - i]))
+            return false;
+    bool same = strcmp(sides[0].source, sides[1].source) == 0;
+    for (int i = 0; i < 2; i++)
+        set_label(&sides[i], same && !is_golden(sides[i].source));
+    return true;
+}
+
+// --- comparison
+
+static bool same_value(const PetriValue *a, const PetriValue *b) {
+    if (a->length != b->length || !a->numbers != !b->numbers)
+        return false;
+    if (a->numbers)
+        return memcmp(a->numbers, b->numbers, a->length * sizeof *a->numbers) == 0;
+    for (uint32_t i = 0; i < a->length; i++) {
+        const PetriItem *one = &a->items[i], *other = &b->items[i];
+        bool same = one->type == other->type;
+        if (same && one->type == PETRI_STRING)
+            same = str_equal((Str){one->as.string->bytes, one->as.string->length},
+                             (Str){other->as.string->bytes, other->as.string->length});
+        else if (same)
+            same = memcmp(&one->as.number, &other->as.number, sizeof one->as.number) == 0;
+        if (!same)
+            return false;
+    }
+    return true;
+}
+
+// Returns true if both dictionaries have the same entries, added in the same order. This is the usual case.
+static bool same_entries(PetriSession *a, PetriSession *b) {
+    PetriValue keys[2], values[2];
+    uint32_t cursors[2] = {0, 0};
+    for (;;) {
+        bool more = petri_state_next(a, &cursors[0], &keys[0], &values[0]);
+        if (more != petri_state_next(b, &cursors[1], &keys[1], &values[1]))
+            return false;
+        if (!more)
+            return true;
+        if (!same_value(&keys[0], &keys[1]) || !same_value(&values[0], &values[1]))
+            return false;
+    }
+}
+
+// Compares the current frames. Returns true if they are the same. Otherwise prints the report.
+static bool compare_frame(Diff *diff, Output *output) {
+    Side *sides = diff->sides;
+    if (sides[0].session && sides[1].session && same_entries(sides[0].session, sides[1].session))
+        return true;
+    SCOPED_TEXT first = {0};
+    SCOPED_TEXT second = {0};
+    SCOPED_TEXT report = {0};
+    sides[0].kind->print(&sides[0], &first);
+    sides[1].kind->print(&sides[1], &second);
+    StateText a = state_text_read(text_str(&first)), b = state_text_read(text_str(&second));
+    StateDifferences differences = state_text_compare(&a, &b);
+    bool same = differences.count == 0;
+    if (!same) {
+        ForceDifference force;
+        forces_compare(sides, &differences, &force);
+        (diff->json ? report_json : report_text)(&(DiffReport){sides, &differences, &force}, &report);
+        output_write(output, report.bytes, report.len);
+        forces_free(&force);
+    }
+    state_differences_free(&differences);
+    state_text_free(&a);
+    state_text_free(&b);
+    return same;
+}
+
+// Goes to the next frame that both sides have. Returns false if there is none.
+static bool next_common_frame(Side *sides) {
+    bool more = sides[0].kind->next(&sides[0]) && sides[1].kind->next(&sides[1]);
+    while (more && sides[0].frame != sides[1].frame) {
+        Side *behind = sides[0].frame < sides[1].frame ? &sides[0] : &sides[1];
+        more = behind->kind->next(behind);
+    }
+    return more;
+}
+
+static int compare_runs(Diff *diff, Output *output) {
+    Side *sides = diff->sides;
+    int64_t compared = 0;
+    for (; next_common_frame(sides); compared++)
+        if (!compare_frame(diff, output))
+            return STATUS_DIFFERS;
+    if (sides[0].failed || sides[1].failed)
+        return STATUS_TROUBLE;
+    if (compared == 0) {
+        message("nothing to compare: no frame is in both %s and %s", sides[0].label.bytes, sides[1].label.bytes);
+        return STATUS_TROUBLE;
+    }
+    if (diff->json)
+        output_format(output, "{\"same\":true,\"frames\":%" PRId64 "}\n", compared);
+    return STATUS_SAME;
+}
+
+// --- the command
+
+// Returns the number of arguments before --against.
+static int arguments_before(const Options *options) {
+    int count = 0;
+    while (count < options->argc && strcmp(options->argv[count], "--against") != 0)
+        count++;
+    return count;
+}
+
+// Reads the options of the first run. After --against, -D sets parameters of the second run only.
+static bool read_first_options(Diff *diff) {
+    Options *options = diff->options;
+    if (!options->against)
+        return true;
+    if (options_parse(&diff->first_options, &DIFF_COMMAND, arguments_before(options), options->argv) != OPTIONS_READ)
+        return false;
+    diff->first_options.keep_forces = true;
+    for (size_t i = diff->first_options.definitions.count; i < options->definitions.count; i++)
+        texts_add(&diff->definitions, options->definitions.items[i]);
+    TextList all = options->definitions;
+    options->definitions = diff->definitions;
+    diff->definitions = all;
+    return true;
+}
+
+static int diff_runs(Diff *diff, const CommandContext *host, Output *output) {
+    if (!read_first_options(diff) || !read_sides(diff, host) || !side_open(&diff->sides[0]) ||
+        !side_open(&diff->sides[1]))
+        return STATUS_TROUBLE;
+    return compare_runs(diff, output);
+}
+
+static int diff_run(const CommandContext *host, Options *options) {
+    Diff diff = {.options = options, .json = options->json};
+    Output output;
+    output_start(&output, STDOUT_FILENO);
+    options->keep_forces = true;
+    int status = diff_runs(&diff, host, &output);
+    for (int i = 0; i < 2; i++)
+        side_close(&diff.sides[i]);
+    options_free(&diff.first_options);
+    options_free(&diff.golden);
+    golden_free(&diff.recorded);
+    texts_free(&diff.definitions);
+    free(diff.script);
+    texts_free(&diff.reported);
+    return output_finish(&output, status);
+}
+
+const Command DIFF_COMMAND = {
+    .name = "diff",
+    .operands = "A [B]",
+    .summary = "find where two runs differ, and why",
+    .details =
+        "Compares two runs frame by frame, to the last bit. Prints the first frame that differs: the first value of\n"
+        "its state that differs, and for a particle the first force whose contribution differs, with its position in\n"
+        "the script. A and B are scripts, goldens or state files; a golden is compared with its script if B is not\n"
+        "given. Exits with 0 if the runs are the same, 1 if they differ, and 2 after an error.\n"
+        "\n"
+        "Options apply to both runs, those after --against only to the second one. If there is an --against, -D\n"
+        "before it sets parameters of the first run only.",
+    .examples = "  petri diff old.fl new.fl --frames 1000          compare two scripts\n"
+                "  petri diff dish.fl -D N=10 --against -D N=11    compare two values of a parameter\n"
+                "  petri diff dish.golden                          compare a golden with its script\n"
+                "  petri diff dish.fl --with ./old/petri           compare two builds of petri\n",
+    .missing_operand = "no script given",
+    .no_stdin = "cannot read a run from standard input; give files",
+    .second_operand_error = "too many arguments: '%s'; petri diff compares two runs",
+    .options = FOR_DIFF,
+    .accepts_two = true,
+    .run = diff_run,
+};
