@@ -1,7 +1,9 @@
 // golden_compare.c: comparison of two outputs, frame by frame (golden.h).
+#include "cli/state_text.h"
 #include "golden/golden.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -184,6 +186,35 @@ static bool compare_frames(const Golden *golden, Comparison *comparison, const R
            (first[ERRORS].count == 0 || compare_as_sets(comparison, &first[ERRORS], &second[ERRORS], expected->number));
 }
 
+// Returns the text of the last frame that was read.
+static Str frame_text(const Reader *reader) {
+    const LineList *head = &reader->sections[HEAD];
+    const char *start = head->count > 0 ? head->items[0].text.bytes : reader->at;
+    return (Str){start, (size_t)(reader->at - start)};
+}
+
+static double frame_time(const Reader *reader) {
+    const char *line = frame_text(reader).bytes, *time = strstr(line, " time=");
+    return time && time < strchr(line, '\n') ? strtod(time + 6, NULL) : NAN;
+}
+
+// Adds a report of the entries of the state that differ in a frame, with indented lines.
+static void report_state(const Reader *expected, const Reader *got, Text *error_text) {
+    static const char *const labels[] = {"recorded", "now"};
+    SCOPED_TEXT report = {0};
+    StateText a = state_text_read(frame_text(expected)), b = state_text_read(frame_text(got));
+    StateDifferences differences = state_text_compare(&a, &b);
+    size_t at = 0;
+    if (differences.count > 0)
+        state_add_report(&report, labels, frame_number(expected), frame_time(expected), &differences,
+                         state_first_difference(&differences));
+    for (Str line; text_next_line(&report, &at, &line);)
+        text_add_format(error_text, "\n    %.*s", STR_ARGS(line));
+    state_differences_free(&differences);
+    state_text_free(&a);
+    state_text_free(&b);
+}
+
 static bool compare_readers(const Golden *golden, Reader *expected, Reader *got, Text *error_text) {
     for (;;) {
         bool more_expected = read_frame(expected);
@@ -195,8 +226,12 @@ static bool compare_readers(const Golden *golden, Reader *expected, Reader *got,
             .tolerance = golden->tolerance,
             .error_text = error_text,
         };
-        if (!compare_frames(golden, &comparison, expected, got))
-            return false;
+        if (compare_frames(golden, &comparison, expected, got))
+            continue;
+        // With a tolerance, numbers may differ.
+        if (more_expected && more_got && golden->tolerance == 0)
+            report_state(expected, got, error_text);
+        return false;
     }
 }
 

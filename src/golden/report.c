@@ -16,11 +16,12 @@ void report_result(Output *output, const Result *result) {
 
 // Adds text escaped for XML. Control characters become `?`, because XML does not allow them even escaped.
 static void add_escaped(Text *out, const char *text) {
-    static const char *const escapes[128] = {['<'] = "&lt;", ['>'] = "&gt;", ['&'] = "&amp;", ['"'] = "&quot;"};
+    static const char *const escapes[128] = {
+        ['\n'] = "&#10;", ['<'] = "&lt;", ['>'] = "&gt;", ['&'] = "&amp;", ['"'] = "&quot;"};
     for (const char *c = text; *c != '\0'; c++) {
-        const char *escape = (unsigned char)*c < ' '   ? "?"
-                             : (unsigned char)*c < 128 ? escapes[(unsigned char)*c]
-                                                       : NULL;
+        const char *escape = (unsigned char)*c < 128 ? escapes[(unsigned char)*c] : NULL;
+        if (!escape && (unsigned char)*c < ' ')
+            escape = "?";
         text_add(out, (Str){escape ? escape : c, escape ? strlen(escape) : 1});
     }
 }

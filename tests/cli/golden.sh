@@ -228,3 +228,26 @@ check "--update fills a golden that has only its first line" [ "$(cat g/lonely.g
 echo '!n (' >g/lonely.fl
 petri test --update g/lonely.fl
 check "--update does not record a failure" has g/lonely.golden "!n a=0"
+
+# The state of a frame that differs.
+echo '!counter state=:a rate=1
+!counter state=:b;1 rate=2' >g/turns.fl
+echo '# run --frames 3 --print state --every 2' >g/turns.golden
+petri test --update g/turns.fl
+sed -i 's/^\(\$(:b;1) = \)0.0666.*/\10.06666666666666668/' g/turns.golden
+verdict turns
+check "a state that differs fails" fails
+sed 's/^    //' out | sed -n '2,/distance/p' >report
+cat >expected <<'END'
+--- recorded
++++ now
+frame 2, time 0.03333333333333333: 1 of 4 entries of the state differ
+first: $(:b;1)
+- 0.06666666666666668
++ 0.06666666666666667
+  distance in ulps: 1
+END
+check "a failure shows the entries of the state that differ" cmp -s report expected
+sed -i 's/^# run.*/&\n# tolerance 1e-12/; s/0.0666.*/0.07/' g/turns.golden
+verdict turns
+check "with a tolerance, a failure shows only the first line that differs" lines_are out 2
