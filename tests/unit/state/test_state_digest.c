@@ -116,7 +116,7 @@ static void test_examples_have_the_specified_digests(void **state) {
             if (examples++)
                 check_example(&example);
             example.count = 0;
-            snprintf(example.digest, sizeof example.digest, "%s", line + 2);
+            snprintf(example.digest, sizeof example.digest, "%.32s", line + 2);
         }
     }
     check_example(&example);
