@@ -39,6 +39,8 @@ static void draw_lines(cairo_t *cr, PangoLayout *layout, const PetriLabel *label
 
 PetriStatus petri_painter_draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, size_t size,
                                       double scale, uint32_t *pixels, int width, int height, size_t stride) {
+    if (!painter || !pixels || (!labels && count > 0))
+        return PETRI_INVALID;
     TextContext *text_context = draw_text_context(painter);
     if (!text_context)
         return PETRI_OUT_OF_MEMORY;

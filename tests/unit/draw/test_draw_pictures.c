@@ -335,6 +335,21 @@ static void test_label_changes_only_its_panel(void **state) {
     assert_true(letter_pixels > 10);
 }
 
+static void test_labels_need_painter_and_pixels(void **state) {
+    (void)state;
+    uint32_t pixel = 7;
+    PetriPainter *painter = petri_painter_open();
+    if (petri_painter_draw_labels(painter, NULL, 0, sizeof(PetriLabel), 1, &pixel, 1, 1, 4) != PETRI_UNSUPPORTED) {
+        assert_int_equal(petri_painter_draw_labels(NULL, NULL, 0, 0, 0, NULL, 0, 0, 0), PETRI_INVALID);
+        assert_int_equal(petri_painter_draw_labels(painter, NULL, 0, sizeof(PetriLabel), 1, NULL, 1, 1, 4),
+                         PETRI_INVALID);
+        assert_int_equal(petri_painter_draw_labels(painter, NULL, 1, sizeof(PetriLabel), 1, &pixel, 1, 1, 4),
+                         PETRI_INVALID);
+        assert_int_equal(pixel, 7);
+    }
+    petri_painter_close(&painter);
+}
+
 // Images are read by the host's callback, not from disk.
 static const char *provide_image(void *host, const char *name, size_t *length) {
     (void)host;
@@ -519,6 +534,7 @@ int main(void) {
         PLAYER_TEST(test_misuse_is_rejected),
         PLAYER_TEST(test_ready_once_particles_can_be_shown),
         PLAYER_TEST(test_label_changes_only_its_panel),
+        PLAYER_TEST(test_labels_need_painter_and_pixels),
         PLAYER_TEST(test_images_come_from_host),
         PLAYER_TEST(test_display_list_has_whole_canvas),
         PLAYER_TEST(test_is_display_list_without_effects),
