@@ -221,6 +221,11 @@ size_t number_format(double x, char text[NUMBER_TEXT]) {
     return (size_t)(at - text);
 }
 
+void text_add_number(Text *text, double x) {
+    char digits[NUMBER_TEXT];
+    text_add(text, (Str){digits, number_format(x, digits)});
+}
+
 size_t number_format_short(double x, char text[NUMBER_TEXT]) {
     if (!isfinite(x))
         return format_special(x, text);

@@ -12,6 +12,8 @@ enum { NUMBER_TEXT = 40 }; // size in bytes of a buffer for any formatted number
 
 // Writes the shortest decimal that parses as the same double (spec language.md L18.1). Returns its length.
 size_t number_format(double x, char text[NUMBER_TEXT]);
+// Appends that decimal.
+void text_add_number(Text *text, double x);
 // Writes nine significant digits like C's "%.9g", but every NaN as "nan" (L6.2). Returns the length.
 size_t number_format_short(double x, char text[NUMBER_TEXT]);
 // Parses a well-formed decimal number with optional sign, point and exponent. Underscores are skipped. The result is

@@ -4,16 +4,11 @@
 #include "syntax/parse.h"
 #include "value/format.h"
 
-static void add_number(Text *out, double x) {
-    char digits[NUMBER_TEXT];
-    text_add(out, (Str){digits, number_format(x, digits)});
-}
-
 static void print_header(TextSink *out, const Clock *clock) {
     text_add_format(&out->text, "@%lld time=", (long long)clock->number);
-    add_number(&out->text, clock->time);
+    text_add_number(&out->text, clock->time);
     text_add_c(&out->text, " beat=");
-    add_number(&out->text, clock->beat);
+    text_add_number(&out->text, clock->beat);
     text_sink_end_line(out);
 }
 

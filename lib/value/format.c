@@ -52,11 +52,10 @@ static bool format_symbol(Text *out, const SymbolTable *symbols, double x) {
 }
 
 static void format_item(Text *out, const SymbolTable *symbols, Item item) {
-    char digits[NUMBER_TEXT];
     switch (item.type) {
     case ITEM_NUMBER:
         if (!format_symbol(out, symbols, item.as.number))
-            text_add(out, (Str){digits, number_format(item.as.number, digits)});
+            text_add_number(out, item.as.number);
         break;
     case ITEM_STRING:
         format_string(out, item.as.string->text);

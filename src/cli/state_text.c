@@ -7,14 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int compare_text(Str a, Str b) {
-    size_t shorter = a.len < b.len ? a.len : b.len;
-    int order = memcmp(a.bytes, b.bytes, shorter);
-    return order != 0 ? order : a.len < b.len ? -1 : a.len > b.len;
-}
-
 static int compare_entries(const void *a, const void *b) {
-    return compare_text(((const StateEntry *)a)->key, ((const StateEntry *)b)->key);
+    return str_compare(((const StateEntry *)a)->key, ((const StateEntry *)b)->key);
 }
 
 // Returns the length of a key, which ends before ` = `. Strings in a key can contain any characters except their own
@@ -76,7 +70,7 @@ StateDifferences state_text_compare(const StateText *a, const StateText *b) {
         int order = !first ? 1 : !second ? -1 : compare_entries(first, second);
         i += order <= 0;
         j += order >= 0;
-        if (order == 0 && compare_text(first->value, second->value) == 0)
+        if (order == 0 && str_equal(first->value, second->value))
             continue;
         StateDifference *difference = &found.items[found.count++];
         *difference = (StateDifference){.key = order <= 0 ? first->key : second->key,
@@ -106,7 +100,7 @@ StateDifference *state_find_difference(const StateDifferences *differences, Str 
     size_t low = 0, high = differences->count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        int order = compare_text(differences->items[middle].key, key);
+        int order = str_compare(differences->items[middle].key, key);
         if (order == 0)
             return &differences->items[middle];
         low = order < 0 ? middle + 1 : low;
@@ -168,9 +162,8 @@ void state_add_report(Text *text, const char *const *labels, int64_t frame, doub
     static const char *const no_positions[2];
     text_add_format(text, "--- %s\n+++ %s\nframe %" PRId64, labels[0], labels[1], frame);
     if (!isnan(time)) {
-        char digits[NUMBER_TEXT];
         text_add_c(text, ", time ");
-        text_add(text, (Str){digits, number_format(time, digits)});
+        text_add_number(text, time);
     }
     text_add_format(text, ": %zu of %zu entries of the state differ\n", differences->count, differences->total);
     bool several = memchr(shown->key.bytes, ';', shown->key.len);

@@ -264,12 +264,6 @@ static uint64_t steps_of(const Side *side, size_t system) {
     return side->session && petri_system(side->session, system, &found, sizeof found) ? found.steps : 0;
 }
 
-// Adds a number in full precision.
-static void add_number(Text *text, double x) {
-    char digits[NUMBER_TEXT];
-    text_add(text, (Str){digits, number_format(x, digits)});
-}
-
 // Sets the reason for a difference that no force explains.
 static void find_cause(const Side *sides, const Candidate *candidate, Text *cause) {
     PetriExplanation found[2];
@@ -289,7 +283,7 @@ static void find_cause(const Side *sides, const Candidate *candidate, Text *caus
         text_add_format(cause, "%s%" PRIu64 " steps, the first of ",
                         i == 0 ? "the runs take different steps: " : " and ",
                         steps_of(&sides[i], candidate->systems[i]));
-        add_number(cause, length[i]);
+        text_add_number(cause, length[i]);
     }
 }
 

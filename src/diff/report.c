@@ -94,7 +94,6 @@ void report_json(const DiffReport *report, Text *out) {
     const ForceDifference *force = report->force;
     const StateDifference *first = first_entry(report);
     double time = isnan(sides[0].time) ? sides[1].time : sides[0].time;
-    char digits[NUMBER_TEXT];
     text_add_c(out, "{\"same\":false,\"a\":");
     json_add_text(out, sides[0].label.bytes);
     add_string(out, "b", text_str(&sides[1].label));
@@ -103,7 +102,7 @@ void report_json(const DiffReport *report, Text *out) {
     if (isnan(time))
         text_add_c(out, "null");
     else
-        text_add(out, (Str){digits, number_format(time, digits)});
+        text_add_number(out, time);
     text_add_format(out, ",\"entries\":%zu,\"differing\":%zu", report->differences->total, report->differences->count);
     text_add_c(out, ",\"first\":{\"key\":");
     SCOPED_STRING key = memory_strndup(first->key.bytes, first->key.len);
