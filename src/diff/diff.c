@@ -27,10 +27,6 @@ typedef struct Diff {
 
 // --- operands
 
-static bool is_golden(const char *source) {
-    return source && str_ends_with(str_from(source), STR(".golden"));
-}
-
 // Returns the path of the script beside a golden. The caller frees it.
 static char *script_of_golden(const char *golden) {
     Text path = {0};
@@ -76,11 +72,11 @@ static void set_label(Side *side, bool settings) {
 static bool read_sides(Diff *diff, const CommandContext *host) {
     Options *options = diff->options;
     Side *sides = diff->sides;
-    if (!options->second && !options->against && !options->with && !is_golden(options->script)) {
+    if (!options->second && !options->against && !options->with && !side_is_golden(options->script)) {
         message("nothing to compare with %s: give a second run, --against or --with", options->script);
         return false;
     }
-    if (!options->second && is_golden(options->script))
+    if (!options->second && side_is_golden(options->script))
         diff->script = script_of_golden(options->script);
     sides[0].source = options->script;
     sides[1].source = options->second ? options->second : diff->script ? diff->script : options->script;
@@ -93,55 +89,29 @@ static bool read_sides(Diff *diff, const CommandContext *host) {
         sides[i].reported = &diff->reported;
     }
     for (int i = 0; i < 2; i++)
-        if (is_golden(sides[i].source) && !is_golden(sides[1 - i].source) &&
+        if (side_is_golden(sides[i].source) && !side_is_golden(sides[1 - i].source) &&
             !apply_golden(diff, sides[i].source, &sides[1 - i]))
             return false;
     bool same = strcmp(sides[0].source, sides[1].source) == 0;
     for (int i = 0; i < 2; i++)
-        set_label(&sides[i], same && !is_golden(sides[i].source));
+        set_label(&sides[i], same && !side_is_golden(sides[i].source));
     return true;
 }
 
 // --- comparison
 
-static bool same_value(const PetriValue *a, const PetriValue *b) {
-    if (a->length != b->length || !a->numbers != !b->numbers)
-        return false;
-    if (a->numbers)
-        return memcmp(a->numbers, b->numbers, a->length * sizeof *a->numbers) == 0;
-    for (uint32_t i = 0; i < a->length; i++) {
-        const PetriItem *one = &a->items[i], *other = &b->items[i];
-        bool same = one->type == other->type;
-        if (same && one->type == PETRI_STRING)
-            same = str_equal((Str){one->as.string->bytes, one->as.string->length},
-                             (Str){other->as.string->bytes, other->as.string->length});
-        else if (same)
-            same = memcmp(&one->as.number, &other->as.number, sizeof one->as.number) == 0;
-        if (!same)
-            return false;
-    }
-    return true;
-}
-
-// Returns true if both dictionaries have the same entries, added in the same order. This is the usual case.
-static bool same_entries(PetriSession *a, PetriSession *b) {
-    PetriValue keys[2], values[2];
-    uint32_t cursors[2] = {0, 0};
-    for (;;) {
-        bool more = petri_state_next(a, &cursors[0], &keys[0], &values[0]);
-        if (more != petri_state_next(b, &cursors[1], &keys[1], &values[1]))
-            return false;
-        if (!more)
-            return true;
-        if (!same_value(&keys[0], &keys[1]) || !same_value(&values[0], &values[1]))
-            return false;
-    }
+// Returns true if both states have the same digest. If a digest cannot be computed, the printed states are compared.
+static bool same_digest(PetriSession *a, PetriSession *b) {
+    enum { DIGEST_SIZE = 16 };
+    uint8_t digests[2][DIGEST_SIZE];
+    return petri_digest(a, digests[0]) == PETRI_OK && petri_digest(b, digests[1]) == PETRI_OK &&
+           memcmp(digests[0], digests[1], DIGEST_SIZE) == 0;
 }
 
 // Compares the current frames. Returns true if they are the same. Otherwise prints the report.
 static bool compare_frame(Diff *diff, Output *output) {
     Side *sides = diff->sides;
-    if (sides[0].session && sides[1].session && same_entries(sides[0].session, sides[1].session))
+    if (sides[0].session && sides[1].session && same_digest(sides[0].session, sides[1].session))
         return true;
     SCOPED_TEXT first = {0};
     SCOPED_TEXT second = {0};

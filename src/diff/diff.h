@@ -46,6 +46,7 @@ struct Side {
 
 // side.c: opens a side according to the suffix of its source and its options. Returns false after a message.
 bool side_open(Side *side);
+bool side_is_golden(const char *source);
 void side_close(Side *side);
 // Computes frames up to a frame number in another process and returns its answer to a command of the prompt, or NULL
 // after a failure. The caller frees the answer.

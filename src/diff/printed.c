@@ -69,11 +69,7 @@ static void close_stream(Side *side) {
 
 // --- goldens
 
-static bool next_recorded(Side *side) {
-    return read_frame(side);
-}
-
-static const SideKind GOLDEN_SIDE = {.next = next_recorded, .print = print_current, .close = close_stream};
+static const SideKind GOLDEN_SIDE = {.next = read_frame, .print = print_current, .close = close_stream};
 
 bool printed_open_golden(Side *side) {
     side->kind = &GOLDEN_SIDE;

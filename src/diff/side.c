@@ -95,12 +95,12 @@ static bool open_state(Side *side) {
 
 // --- all sides
 
-static bool is_golden(const char *source) {
-    return str_ends_with(str_from(source), STR(".golden"));
+bool side_is_golden(const char *source) {
+    return source && str_ends_with(str_from(source), STR(".golden"));
 }
 
 bool side_open(Side *side) {
-    if (is_golden(side->source))
+    if (side_is_golden(side->source))
         return printed_open_golden(side);
     if (!script_is_stdin(side->source) && is_state_file(side->source))
         return open_state(side);
