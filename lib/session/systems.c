@@ -151,8 +151,10 @@ bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, ui
 
 // Sets the position of a force's node, if it is known. The origin is valid only as long as the tree of the frame.
 static void locate_force(PetriSession *session, const SceneView *view, uint32_t number, PetriForce *force) {
+    if (session->frame.tree.len == 0)
+        return;
     Origin origin = scene_view_force_origin(view, number);
-    if (!origin.source || session->frame.tree.len == 0)
+    if (!origin.source)
         return;
     SourcePosition position = source_locate(origin.source, origin.span.start);
     force->file = str_to_c(&session->view_arena, origin.source->name);
