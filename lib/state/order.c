@@ -97,6 +97,13 @@ static bool move_before(State *state, SlotRun **from, StateSlot limit, SlotRuns 
 
 // Merges `other` into `runs`. Frees the items of `other`. Returns false if out of memory.
 static bool merge_runs(State *state, SlotRuns *runs, SlotRuns *other) {
+    if (other->count == 0)
+        return true;
+    if (runs->count == 0) {
+        free_runs(state, runs);
+        *runs = *other;
+        return true;
+    }
     SlotRuns merged = {0};
     SlotRun *a = runs->items, *b = other->items, *a_end = a + runs->count, *b_end = b + other->count;
     bool done = true;
