@@ -385,7 +385,7 @@ void frame_writer_report(FrameWriter *writer, PetriSession *session) {
 }
 
 // Waits until all jobs are finished. After a signal, waits only GRACE_SECONDS, but does not stop while a frame is
-// partly written to the video. Returns the number of abandoned jobs.
+// partly written to the video, or if only renamed files are not completed yet. Returns the number of abandoned jobs.
 static int wait_for_end(FrameWriter *writer) {
     double signalled = 0;
     for (;;) {
@@ -394,7 +394,8 @@ static int wait_for_end(FrameWriter *writer) {
         if (frames_signal() != 0) {
             signalled = signalled == 0 ? clock_seconds() : signalled;
             bool patient = clock_seconds() - signalled <= GRACE_SECONDS;
-            if (!patient && (!writer->film || writer->drawing || shader_test_interrupted())) {
+            if (!patient && writer->next_committed < writer->added &&
+                (!writer->film || writer->drawing || shader_test_interrupted())) {
                 stop(writer, writer->film);
                 return (int)(writer->added - writer->next_committed);
             }
