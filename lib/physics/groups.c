@@ -31,18 +31,21 @@ static void arrange_particles(PhysSystem *system) {
     }
 }
 
-static Force arranged_force(const PhysSystem *system, const ForceRecord *record) {
+// Writes the force to its place, because copies of this large struct would take a notable part of a frame.
+static void write_force(const PhysSystem *system, const ForceRecord *record, uint32_t number, Force *force) {
     const double *vectors = system->vectors.bytes;
-    Force force = {.given = record->given};
-    force.given.vector = record->vector ? vectors + record->vector - 1 : NULL;
-    force.given.vector2 = record->vector2 ? vectors + record->vector2 - 1 : NULL;
-    if (phys_force_row(force.given.kind).stage != STAGE_LINK)
-        return force;
-    bool valid = force.given.from < system->particle_count && force.given.to < system->particle_count;
+    force->given = record->given;
+    force->strength = 0;
+    force->item = 0;
+    force->number = number;
+    force->given.vector = record->vector ? vectors + record->vector - 1 : NULL;
+    force->given.vector2 = record->vector2 ? vectors + record->vector2 - 1 : NULL;
+    if (phys_force_row(force->given.kind).stage != STAGE_LINK)
+        return;
+    bool valid = force->given.from < system->particle_count && force->given.to < system->particle_count;
     // An invalid link becomes a link of column 0 with itself, which the kernel skips without reading columns.
-    force.given.from = valid ? system->column_of[force.given.from] : 0;
-    force.given.to = valid ? system->column_of[force.given.to] : 0;
-    return force;
+    force->given.from = valid ? system->column_of[force->given.from] : 0;
+    force->given.to = valid ? system->column_of[force->given.to] : 0;
 }
 
 // Sorts forces by group and stage with a stable counting sort, as in arrange_particles.
@@ -58,8 +61,7 @@ static void arrange_forces(PhysSystem *system) {
         system->starts[s] += system->starts[s - 1];
     for (uint32_t i = system->force_count; i-- > 0;) {
         records[i].arranged = --system->starts[slot_of(&records[i])];
-        forces[records[i].arranged] = arranged_force(system, &records[i]);
-        forces[records[i].arranged].number = i;
+        write_force(system, &records[i], i, &forces[records[i].arranged]);
     }
 }
 
