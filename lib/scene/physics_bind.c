@@ -236,6 +236,7 @@ static uint64_t update_system(Scene *scene, PhysicsSystem *system, const Reader 
         system->mirror.state = MIRROR_STALE; // so that the next frame reads the tree again and repeats the reports
     scene->exhausted |= tree.out_of_memory;
     physics_cache_tree(&tree);
+    system->origins_frame = scene->frame_number;
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
     return steps;

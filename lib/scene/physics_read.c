@@ -255,7 +255,7 @@ static void report_unknown_kind(const Reader *reader) {
     reader_report(reader, "unknown-node", "", text_str(&out));
 }
 
-// Stores the location of a force for scene_view_force_origin. Without memory, the location is unknown.
+// Stores the location of a force for scene_force_origin. Without memory, the location is unknown.
 static void store_origin(PhysicsSystem *system, uint32_t force, const NodeOrigin *origin) {
     if (force == system->origin_count &&
         heap_reserve((void **)&system->origins, &system->origin_capacity, force, sizeof *system->origins))

@@ -31,10 +31,15 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
-Origin scene_view_force_origin(const SceneView *view, uint32_t force) {
+Origin scene_force_origin(const Scene *scene, const SceneView *view, uint32_t force) {
     const PhysicsSystem *system = view->system;
-    const NodeOrigin *found = force < system->origin_count ? system->origins[force] : NULL;
+    bool valid = scene->origins_valid && system->origins_frame == scene->frame_number && force < system->origin_count;
+    const NodeOrigin *found = valid ? system->origins[force] : NULL;
     return found ? found->origin : (Origin){.source = NULL};
+}
+
+void scene_forget_origins(Scene *scene) {
+    scene->origins_valid = false;
 }
 
 static void free_system(PhysicsSystem *system) {
@@ -170,6 +175,7 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     enum { NODE_WORK = 50 }; // work units of a node, for a lookup and some state entries
     uint64_t steps = 0;
     scene->frame_number++;
+    scene->origins_valid = true;
     scene->stopped = BUDGET_OK;
     free_absent(scene, frame);
     compact_state(scene, frame);

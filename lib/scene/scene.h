@@ -67,9 +67,10 @@ Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uin
 bool scene_view_ids(const State *state, const SceneView *view, const double **ids);
 // Finds the particle with this id. Returns false if there is none.
 bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *view, Value id, uint32_t *particle);
-// Returns the location of the node of a force. Its source is NULL if it is unknown. Valid only as long as the program
-// whose tree the last update has read.
-Origin scene_view_force_origin(const SceneView *view, uint32_t force);
+// Returns the location of the node of a force. Its source is NULL if it is unknown.
+Origin scene_force_origin(const Scene *scene, const SceneView *view, uint32_t force);
+// Forgets all locations of nodes until the next update. Call it before programs are freed.
+void scene_forget_origins(Scene *scene);
 // Returns the input that the host reports for `!pointer` and `!key` (input_bind.h).
 Input *scene_input(Scene *scene);
 // Updates all systems from the nodes in `tree`. Returns the number of simulation steps taken.

@@ -53,6 +53,7 @@ struct PhysicsSystem {
     const NodeOrigin **origins; // by number of the force; elements can be NULL
     uint32_t origin_count;
     uint32_t origin_capacity;
+    uint64_t origins_frame; // scene->frame_number of the last update that read or compared the nodes of `origins`
 };
 
 struct Scene {
@@ -69,6 +70,7 @@ struct Scene {
     PhysicsSystem *viewed;        // system that scene_view found last, or NULL
     size_t viewed_number;
     uint64_t frame_number;
+    bool origins_valid; // false: the nodes of the last update may have been freed
     PhysOptions physics;
     uint32_t *bodies; // by slot: mark of its particle (physics_slots.c)
     uint32_t body_capacity;

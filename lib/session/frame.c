@@ -41,6 +41,7 @@ void session_clear_frame(PetriSession *session) {
     arena_reset(&session->text_arena);
     arena_reset(&session->view_arena);
     phys_explanation_free(&session->explanation);
+    scene_forget_origins(session->scene);
     session_free_retired(session);
 }
 

@@ -149,11 +149,9 @@ bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, ui
     return true;
 }
 
-// Sets the position of a force's node, if it is known. The origin is valid only as long as the tree of the frame.
+// Sets the position of a force's node, if it is known.
 static void locate_force(PetriSession *session, const SceneView *view, uint32_t number, PetriForce *force) {
-    if (session->frame.tree.len == 0)
-        return;
-    Origin origin = scene_view_force_origin(view, number);
+    Origin origin = scene_force_origin(session->scene, view, number);
     if (!origin.source)
         return;
     SourcePosition position = source_locate(origin.source, origin.span.start);
