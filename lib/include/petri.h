@@ -5,8 +5,9 @@
 // computes one frame. It evaluates the script, which produces a tree of nodes, and then advances the particle systems.
 // The systems store positions and velocities in the state dictionary.
 //
-// Further headers: petri-draw.h draws frames, petri-edit.h is for editors and prompts, and petri-ranks.h divides the
-// work between processes.
+// Further headers: petri-draw.h draws frames. petri-live.h is for hosts that run live, with a clock and input.
+// petri-inspect.h prints, compares and explains frames. petri-edit.h is for editors and prompts. petri-ranks.h divides
+// the work between processes.
 //
 // Rules for all functions, unless a comment says otherwise:
 // - Only one thread at a time may use a session or an object obtained from it: a value, node, configuration or
@@ -230,11 +231,6 @@ PETRI_API PetriStatus petri_load_text(PetriSession *session, const char *name, c
 // if `file` is NULL but no script is loaded.
 PETRI_API PetriStatus petri_reload(PetriSession *session, const char *file);
 
-// Returns the path of a source file of the loaded script by number, or NULL past the last. Number 0 is the script
-// itself. The files that it includes follow, then the modules imported so far, each followed by its included files.
-// Scripts that were loaded from memory are not listed. Valid until the next load or step.
-PETRI_API const char *petri_source_file(PetriSession *session, size_t number);
-
 // Computes the next frame, starting with frame 0: evaluates the script, then advances its particle systems. In real
 // time, waits until the frame is due. Returns PETRI_INVALID if no script is loaded, or if called within a callback.
 //
@@ -243,19 +239,6 @@ PETRI_API const char *petri_source_file(PetriSession *session, size_t number);
 // frame is aborted while systems are advanced, frame number and time advance, and each system has either completed or
 // not started the frame.
 PETRI_API PetriStatus petri_step(PetriSession *session);
-
-// Like petri_step, but sets the time (in seconds) and the beat of the frame. Later calls of petri_step continue from
-// them. Never waits. If the time is not later than that of the last frame, the systems are not advanced. Also returns
-// PETRI_INVALID if `time` or `beat` is not finite.
-PETRI_API PetriStatus petri_step_at(PetriSession *session, double time, double beat);
-
-// In real time, returns the seconds until the next frame is due. A host can use them for other work instead of waiting
-// in petri_step. Returns 0 if the frame is already due, before the first frame, and in lockstep.
-PETRI_API double petri_seconds_until_due(const PetriSession *session);
-
-// If the next frame is already late, discards the delay. That frame then follows the last one as if it were on time.
-// Call this function in real time after a pause or a slow operation of the host. It has no effect in lockstep.
-PETRI_API void petri_resync_clock(PetriSession *session);
 
 // A parameter of the loaded script, declared at its top level by `let NAME=NAME or DEFAULT -- RANGE DESCRIPTION`. Its
 // value is the one set with petri_define or petri_set_parameter if that value is true as a condition, else the default.
@@ -307,38 +290,6 @@ PETRI_API bool petri_frame(const PetriSession *session, PetriFrame *frame, size_
 // Returns the number of the last frame; -1: no frame yet.
 PETRI_API int64_t petri_frame_number(const PetriSession *session);
 
-// Returns the units of work (PetriOptions.work_limit) of all calls since the session was opened. They include constant
-// folding, and each petri_picture_render that petri_picture_report has followed. With it, a host can limit a whole run.
-PETRI_API uint64_t petri_work(const PetriSession *session);
-
-// User input, for scripts with `!pointer` and `!key` nodes in a `!window`. Report input when it happens. The next frame
-// finds the input in the state dictionary. A node takes effect in the second frame that contains it. A key or button
-// that is pressed and released between two frames counts as pressed for one frame. If the host never reports input, the
-// dictionary contains none.
-enum {
-    PETRI_BUTTON_LEFT = 1,
-    PETRI_BUTTON_MIDDLE = 2,
-    PETRI_BUTTON_RIGHT = 4, // further buttons: 8, 16, 32, 64, 128
-};
-typedef struct PetriPointer {
-    size_t size;      // sizeof(PetriPointer)
-    bool inside;      // true if the pointer is over the window; if false, x and y are ignored
-    double x;         // 0 at the left edge to 1 at the right edge; values outside are clamped
-    double y;         // 0 at the top to 1 at the bottom
-    unsigned buttons; // bits of the pressed buttons
-} PetriPointer;
-
-// Reports the pointer's position and buttons. NULL means that the window lost focus: the pointer is outside, and all
-// buttons and keys are released. Returns PETRI_INVALID if the position is not finite.
-PETRI_API PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer);
-
-// Reports that a key was pressed or released. `name` is a letter, a digit, or a word such as "space", "left",
-// "page_up", "f1" or "left_shift" (see src/manual/view.md). Returns PETRI_INVALID for unknown names.
-PETRI_API PetriStatus petri_report_key(PetriSession *session, const char *name, bool pressed);
-
-// Returns true if a `!key` node of the last frame uses the key. The host should then not use the key for anything else.
-PETRI_API bool petri_key_is_bound(PetriSession *session, const char *name);
-
 // Interrupts the session's current call, or its next call if none is in progress. A step, load, picture, print or
 // evaluation then returns PETRI_INTERRUPTED within a few milliseconds. May be called by any thread and by signal
 // handlers, unlike all other functions of a session.
@@ -347,42 +298,8 @@ PETRI_API void petri_interrupt(PetriSession *session);
 // Returns true if an interrupt is pending, and clears it.
 PETRI_API bool petri_clear_interrupt(PetriSession *session);
 
-// Sets the tempo in beats per minute from now on, without a jump of frame number, time or beat. Returns PETRI_INVALID
-// unless it is positive and finite.
-PETRI_API PetriStatus petri_set_tempo(PetriSession *session, double tempo);
-
-// Sets the frames per second from now on, without a jump of frame number, time or beat. Returns PETRI_INVALID unless it
-// is positive and finite.
-PETRI_API PetriStatus petri_set_fps(PetriSession *session, double fps);
-
-// Sets the maximum simulation time step of all systems, overriding their `resolution` attributes. The unit is that of a
-// system's time: seconds, unless the system sets `time`. 0 (the default) uses the systems' own attributes. Returns
-// PETRI_INVALID if it is negative or not finite.
-PETRI_API PetriStatus petri_set_resolution(PetriSession *session, double resolution);
-
-// Returns the value set by petri_set_resolution.
-PETRI_API double petri_resolution(const PetriSession *session);
-
 // Clears the state dictionary. The next frame is frame 0 of the loaded script.
 PETRI_API void petri_reset(PetriSession *session);
-
-// A copy of everything that determines how a session continues: state, systems, input, clock and configuration.
-typedef struct PetriSnapshot PetriSnapshot;
-
-// Returns a snapshot of the session, or NULL if out of memory. Free it with petri_snapshot_free before the session is
-// closed.
-PETRI_API PetriSnapshot *petri_snapshot(PetriSession *session);
-
-// Frees a snapshot. NULL is ignored.
-PETRI_API void petri_snapshot_free(PetriSnapshot *snapshot);
-
-// Returns the size of a snapshot in bytes, without its configuration, which is shared.
-PETRI_API size_t petri_snapshot_bytes(const PetriSnapshot *snapshot);
-
-// Restores a snapshot of the same session, to the point directly after the snapshot's frame. The following frames are
-// bit-identical to those computed before, if the files that the script reads are unchanged. petri_tree returns null
-// until the next step. On failure, returns PETRI_OUT_OF_MEMORY and changes nothing.
-PETRI_API PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
 
 // Writes a state file: the state dictionary, the frame number and the data that the systems need to resume. User input
 // is not saved. Replaces the file atomically and flushes it to disk. Returns PETRI_INVALID, with a diagnostic, if it
@@ -445,13 +362,6 @@ PETRI_API PetriStatus petri_state_set(PetriSession *session, PetriValue key, Pet
 // Iterates over the state dictionary in the order in which the keys were added. Set *cursor to 0 before the first call.
 // Returns false after the last entry. Keys and values are valid as long as the results of petri_state_get.
 PETRI_API bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
-
-// Computes a digest of the state dictionary: 16 bytes that depend only on its keys and values (spec digest.md). So
-// equal states have equal digests in all builds, on any number of threads or ranks. A digest takes little time, because
-// only the numbers are hashed in frames that add and remove no keys. It detects differences, but it is not
-// cryptographic: different states with equal digests can be constructed. Returns PETRI_INVALID if called within a
-// callback. If not PETRI_OK, `digest` is unspecified.
-PETRI_API PetriStatus petri_digest(PetriSession *session, uint8_t digest[16]);
 
 // Sets the value of a global name, which scripts read like any other name. The first call with a name adds the name for
 // scripts that are loaded afterwards. Later calls change its value for the next frame without a reload, even to null.
@@ -561,74 +471,12 @@ PETRI_API PetriColumn petri_particle_ids(PetriSession *session, size_t system);
 // Finds the number of the particle with the given id. Returns false if there is none, or if out of memory.
 PETRI_API bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, uint32_t *particle);
 
-// A force applier or barrier of a system.
-typedef struct PetriForce {
-    const char *kind;       // kind of its node without the `!`, such as "distance"; static
-    double strength;        // strength of the force, without the effect of `ease`
-    uint32_t from;          // `!distance` only: number of the first particle that it connects
-    uint32_t to;            // `!distance` only: number of the second particle
-    const double *position; // `!barrier` only: a point on it; else NULL
-    const double *normal;   // `!barrier` only: its unit normal; else NULL
-    const char *file;       // file of its node; NULL if the position is unknown, for example after petri_reload
-    uint32_t line;          // line of its node, from 1; 0 if unknown
-    uint32_t column;        // in characters, from 1; 0 if unknown
-} PetriForce;
-
-// Gets a force applier or barrier by number, in the order of the script. Returns false past the last, or if out of
-// memory. The vectors and `file` are valid until the next call that gets data about a system, such as petri_system, and
-// at most as long as the columns.
-PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force,
-                                  size_t size);
-
-#define PETRI_OWN_FORCE UINT32_MAX   // in PetriExplanation.force: the particle's attribute `force`
-#define PETRI_NO_PARTICLE UINT32_MAX // in PetriExplanation.partner: the force has no other particle
-
-// The forces on one particle in one step of the last frame. Contribution c comes from force[c] and partner[c], and its
-// vector starts at vector[c * dimensions]. To add the contributions yourself, start with zeros, or with the first one
-// if it is PETRI_OWN_FORCE.
-typedef struct PetriExplanation {
-    uint32_t count;          // number of contributions; zeros that cannot change the sum are left out
-    const uint32_t *force;   // by contribution: number for petri_system_force
-    const uint32_t *partner; // by contribution: number of the other particle of a pair force or `!distance`
-    const double *vector;    // contributions in the order of summation
-    const double *sum;       // sum of the contributions; in the last step, PetriSystem.force of the particle
-    double clock;            // simulation clock at the start of the step
-    double delta;            // length of the step in seconds
-    const double *position;  // of the particle at the start of the step
-    const double *velocity;  // of the particle at the start of the step
-} PetriExplanation;
-
-// Explains the force on a particle: computes the contributions of all forces in step `step` of the last frame again.
-// The last step is PetriSystem.steps - 1. Returns PETRI_INVALID if there is no such system, particle or step, or
-// without PetriOptions.keep_forces. The arrays are valid until the next call of this function, and at most as long as
-// the columns.
-PETRI_API PetriStatus petri_explain_force(PetriSession *session, size_t system, uint32_t particle, uint64_t step,
-                                          PetriExplanation *explanation, size_t size);
-
 // Returns true if the last frame has something to draw: a window with a canvas, or a particle system. Use petri-draw.h
 // to draw it.
 PETRI_API bool petri_has_picture(PetriSession *session);
 
-// Sections that petri_print writes, in this order (spec cli.md 3.3).
-enum {
-    PETRI_PRINT_TREE = 1,
-    PETRI_PRINT_STATE = 2,
-    PETRI_PRINT_LOG = 4,     // output of debug()
-    PETRI_PRINT_ERROR = 8,   // run-time errors
-    PETRI_PRINT_HASH = 16,   // SHA-256 of the text of PETRI_PRINT_STATE, which need not be selected
-    PETRI_PRINT_DIGEST = 32, // digest of the state (petri_digest)
-};
-
 // Receives a chunk of the output, which need not end at a line break. Returns false to stop.
 typedef bool PetriWriteCallback(void *user_data, const char *text, size_t length);
-
-// Writes the last frame as text: a line `@FRAME time=T beat=B`, then the given sections. Returns PETRI_INVALID if
-// `write` returned false, and PETRI_LIMIT_EXCEEDED if the tree is longer than 512 MiB.
-PETRI_API PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWriteCallback *write, void *user_data);
-
-// Writes only the debug() output of the last frame, each line as `> text`. Returns PETRI_INVALID if `write` returned
-// false.
-PETRI_API PetriStatus petri_print_log(PetriSession *session, PetriWriteCallback *write, void *user_data);
 
 // Returns the number of diagnostics of a level that were reported since the session was opened.
 PETRI_API uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level);

@@ -9,6 +9,8 @@
 #include "builtin/files.h"
 #include "builtin/noise.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "physics/explain.h"
 #include "ranks/ranks.h"
 #include "scene/scene.h"

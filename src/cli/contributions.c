@@ -1,6 +1,8 @@
 // contributions.c: names and values of the forces that act on a particle, as text.
 #include "cli/contributions.h"
 
+#include "petri-inspect.h"
+
 void contribution_add_name(PetriSession *session, size_t system, uint32_t force, Text *text) {
     PetriForce found;
     if (force == PETRI_OWN_FORCE)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/memory.h"
-#include "petri.h"
+#include "petri-inspect.h"
 
 // Appends the name of a force, such as "gravity". `force` is an element of PetriExplanation.force.
 void contribution_add_name(PetriSession *session, size_t system, uint32_t force, Text *text);

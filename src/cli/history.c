@@ -2,6 +2,7 @@
 #include "cli/history.h"
 
 #include "petri-edit.h"
+#include "petri-live.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

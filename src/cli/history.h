@@ -13,7 +13,7 @@
 #pragma once
 
 #include "cli/memory.h"
-#include "petri.h"
+#include "petri-live.h"
 
 // HISTORY_MAX: maximum number of keyframes. HISTORY_INTERVAL: number of frames from one stored keyframe to the next.
 // HISTORY_BYTES: maximum size of all keyframes together. Two keyframes are kept even if together they are larger.

@@ -8,6 +8,7 @@
 #include "cli/script.h"
 #include "petri-draw.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
 
 #include <errno.h>
 #include <inttypes.h>

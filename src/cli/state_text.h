@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cli/memory.h"
+#include "petri-inspect.h"
 
 // Entries of a state, sorted by key. Strings point into the printed text.
 typedef struct StateEntry {

@@ -4,6 +4,7 @@
 #include "cli/output.h"
 #include "cli/script.h"
 #include "golden/golden.h"
+#include "petri-inspect.h"
 
 #include <inttypes.h>
 #include <math.h>

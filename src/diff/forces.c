@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "cli/contributions.h"
 #include "diff/diff.h"
+#include "petri-inspect.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 #include "cli/script.h"
 #include "cli/subprocess.h"
 #include "diff/diff.h"
+#include "petri-inspect.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -3,6 +3,7 @@
 
 #include "cli/link_work.h"
 #include "cli/script.h"
+#include "petri-inspect.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -4,6 +4,7 @@
 #include "cli/script.h"
 #include "link/link_session.h"
 #include "petri-draw.h"
+#include "petri-inspect.h"
 #include "view/still.h"
 #include "view/terminal_picture.h"
 

@@ -40,7 +40,8 @@ else:
 here = Path(__file__).parent
 ffi = cffi.FFI()
 ffi.cdef("".join(declarations(Path(headers) / name)
-                 for name in ("petri.h", "petri-edit.h", "petri-ranks.h", "petri-draw.h")))
+                 for name in ("petri.h", "petri-edit.h", "petri-inspect.h", "petri-live.h", "petri-ranks.h",
+                              "petri-draw.h")))
 helpers = (here / "helpers.h").read_text(encoding="utf-8")
 ffi.cdef(re.sub(r"^#.*\n", "", helpers, flags=re.M))
 ffi.cdef("""

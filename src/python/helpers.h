@@ -3,6 +3,8 @@
 
 #include "petri-draw.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "petri-ranks.h"
 
 // Computes `count` frames, or fewer if a frame fails or a Python function sets *stop. `stop` is NULL if the session has

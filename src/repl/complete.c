@@ -1,5 +1,6 @@
 // complete.c: completion of words at the prompt.
 #include "cli/help.h"
+#include "petri-inspect.h"
 #include "repl/repl.h"
 
 #include <ctype.h>

@@ -1,6 +1,7 @@
 // print_commands.c: commands that print the frame as text: state, nodes, particles and watched expressions.
 #include "cli/motion.h"
 #include "cli/text_table.h"
+#include "petri-inspect.h"
 #include "repl/repl.h"
 
 #include <inttypes.h>

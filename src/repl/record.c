@@ -6,6 +6,8 @@
 // frame 0 with one script and fixed settings reproduces them.
 #include "base/file.h"
 #include "cli/script.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "repl/repl.h"
 
 #include <inttypes.h>

@@ -2,6 +2,7 @@
 #include "cli/script.h"
 
 #include "base/file.h"
+#include "petri-inspect.h"
 #include "repl/repl.h"
 
 #include <errno.h>

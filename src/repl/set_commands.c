@@ -1,5 +1,6 @@
 // set_commands.c: commands that show and set parameters, tempo, frame rate and resolution.
 #include "cli/parameters.h"
+#include "petri-live.h"
 #include "repl/repl.h"
 
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 // step_commands.c: commands that move forward and back by frames, and their output.
 #include "cli/progress.h"
+#include "petri-inspect.h"
 #include "repl/repl.h"
 
 #include <inttypes.h>

@@ -1,6 +1,7 @@
 // why_command.c: the command .why, which prints the forces that act on a particle.
 #include "cli/contributions.h"
 #include "cli/text_table.h"
+#include "petri-inspect.h"
 #include "repl/repl.h"
 
 #include <inttypes.h>

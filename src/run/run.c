@@ -6,6 +6,7 @@
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
 #include "petri-ranks.h"
 #include "run/frames.h"
 #include "run/stats.h"

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
+#include "petri-inspect.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "petri-draw.h"
+#include "petri-live.h"
 #include "view/overlay_text.h"
 
 #include <stdbool.h>

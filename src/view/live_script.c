@@ -3,6 +3,8 @@
 
 #include "cli/parameters.h"
 #include "cli/script.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 
 #include <inttypes.h>
 #include <stdio.h>

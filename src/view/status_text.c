@@ -1,5 +1,6 @@
 // status_text.c: updates the texts shown over the picture; see view.h.
 #include "base/clock.h"
+#include "petri-live.h"
 #include "view/view.h"
 
 #include <inttypes.h>

@@ -2,7 +2,7 @@
 #include "view/terminal_keys.h"
 
 #include "base/clock.h"
-#include "petri.h"
+#include "petri-live.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "cli/script.h"
+#include "petri-live.h"
 #include "view/still.h"
 
 #include <inttypes.h>

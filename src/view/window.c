@@ -1,7 +1,7 @@
 // window.c: the window display, which uses SDL.
 #include "cli/cli.h"
 #include "cli/memory.h"
-#include "petri.h"
+#include "petri-live.h"
 #include "view/display.h"
 #include "view/display_probe.h"
 #include "view/overlay.h"

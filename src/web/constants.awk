@@ -1,4 +1,4 @@
-# constants.awk: generates names of enumerators as JavaScript, from petri.h, petri-edit.h and the rows of
+# constants.awk: generates names of enumerators as JavaScript, from public headers and the rows of
 # composite_list.h. Arrays are indexed by the values; in objects, names are mapped to values.
 BEGIN {
     arrays["PetriStatus"] = "STATUSES"; prefixes["PetriStatus"] = "PETRI_"

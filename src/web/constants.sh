@@ -7,6 +7,6 @@ if [ "${1:-}" = --check ]; then
     src/web/constants.sh | diff src/web/engine/constants.mjs -
     exit
 fi
-echo '// constants.mjs: generated from petri.h, petri-edit.h and petri-draw.h by src/web/constants.sh.'
-awk -f src/web/constants.awk lib/include/petri.h lib/include/petri-edit.h lib/schema/composite_list.h
+echo '// constants.mjs: generated from the public headers by src/web/constants.sh.'
+awk -f src/web/constants.awk lib/include/petri.h lib/include/petri-edit.h lib/include/petri-inspect.h lib/schema/composite_list.h
 awk -v language=js -f lib/draw/display_list_rows.awk lib/include/petri-draw.h

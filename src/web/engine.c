@@ -5,6 +5,8 @@
 #include "cli/particles.h"
 #include "petri-draw.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "web/host.h"
 
 #include <stdio.h>

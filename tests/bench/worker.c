@@ -2,7 +2,7 @@
 #include "worker.h"
 
 #include "allocations.h"
-#include "petri.h"
+#include "petri-inspect.h"
 
 #include <errno.h>
 #include <fcntl.h>

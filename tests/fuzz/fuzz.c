@@ -2,6 +2,7 @@
 #include "fuzz.h"
 
 #include "base/hash_index.h"
+#include "petri-inspect.h"
 
 #include <ftw.h>
 #include <inttypes.h>

@@ -2,6 +2,7 @@
 // session.
 #include "cli/options.h"
 #include "fuzz.h"
+#include "petri-inspect.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,8 @@
 // fuzz_clock.c: fuzzes the clock with rates from 1e-300 to 1e300, frame numbers above 2^53, and pauses of years. The
 // input is a sequence of actions. Each consists of a byte that selects the action, and a double.
 #include "fuzz.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
 // fuzz_files.c: fuzzes reading of files. The input is a file that a script reads. The first byte of the input selects
 // the script.
 #include "fuzz.h"
+#include "petri-inspect.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const char *const scripts[] = {

@@ -3,6 +3,8 @@
 // the whole action is typed at the prompt.
 #include "fuzz.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 
 #include <string.h>
 

@@ -1,6 +1,7 @@
 // fuzz_script.c: fuzzes scripts. Runs three frames, prints everything, and dumps the syntax tree and the code.
 #include "fuzz.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     PetriSession *session = fuzz_open(NULL);

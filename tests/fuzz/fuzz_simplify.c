@@ -1,6 +1,7 @@
 // fuzz_simplify.c: fuzzes the simplifier. The input is a script, whose frames must be the same with and without the
 // simplifier. The run without it also has profiling, which executes loop iterations one by one instead of in batches.
 #include "fuzz.h"
+#include "petri-inspect.h"
 
 #include <stdlib.h>
 #include <string.h>

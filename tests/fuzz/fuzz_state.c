@@ -1,6 +1,7 @@
 // fuzz_state.c: fuzzes state files. A line with the checksum is added to the input unless it begins with '#'. If a
 // state is accepted, saving and restoring it must not change it, and the next frames must be the same.
 #include "fuzz.h"
+#include "petri-inspect.h"
 
 #include <stdlib.h>
 

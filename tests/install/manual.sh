@@ -4,7 +4,7 @@
 share=$prefix/share
 without() { echo "skipped: $1: no $2"; }
 
-pages="man1/petri.1 man5/petri.5 man3/petri.h.3 man3/petri-draw.h.3 man3/petri-edit.h.3 man3/petri-ranks.h.3"
+pages="man1/petri.1 man5/petri.5 man3/petri.h.3 man3/petri-draw.h.3 man3/petri-edit.h.3 man3/petri-inspect.h.3 man3/petri-live.h.3 man3/petri-ranks.h.3"
 for name in $("$prefix/bin/petri" help | sed -n 's/^  \([a-z]*\) .*/\1/p'); do
     pages="$pages man1/petri-$name.1"
 done

@@ -49,7 +49,7 @@ if [ -e lib/draw/libpetri-draw.so ]; then
     fi
 fi
 
-for header in petri petri-edit petri-ranks petri-draw; do
+for header in petri petri-draw petri-edit petri-inspect petri-live petri-ranks; do
     awk 'match($0, /[ *]petri_[a-z_]+\(/) && /^PETRI_API/ { print substr($0, RSTART + 1, RLENGTH - 2) }' \
         "$headers/$header.h" | sort >"$scratch/declared"
     grep "^$header " "$listed" | sed 's/.* //' | sort >"$scratch/wanted"

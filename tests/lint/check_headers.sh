@@ -36,7 +36,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
 done
 
 if command -v "${CXX:-c++}" >/dev/null 2>&1; then
-    printf '#include "petri-draw.h"\n#include "petri-edit.h"\n#include "petri-ranks.h"\nint main() { return petri_version() == nullptr || petri_picture_can_save(""); }\n' >"$scratch/alone.cc"
+    printf '#include "petri-draw.h"\n#include "petri-edit.h"\n#include "petri-inspect.h"\n#include "petri-live.h"\n#include "petri-ranks.h"\nint main() { return petri_version() == nullptr || petri_picture_can_save(""); }\n' >"$scratch/alone.cc"
     if ! "${CXX:-c++}" -std=c++17 -fsyntax-only -Wall -Wextra -Werror -Ilib/include "$scratch/alone.cc"; then
         echo "a public header does not compile as C++"
         faults=1

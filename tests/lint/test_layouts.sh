@@ -23,7 +23,7 @@ cat >library.c <<'EOT'
 bool petri_frame(const PetriSession *session, PetriFrame *frame, SIZE size) {
     return session && frame && size > 0;
 }
-double petri_resolution(const PetriSession *session) {
+int64_t petri_frame_number(const PetriSession *session) {
     return session ? 1 : 0;
 }
 #ifdef MORE
@@ -53,7 +53,7 @@ check "a field at the end of a struct fails" rejected 's/^} PetriFrame;/double m
 check "a removed field fails" rejected '/^    double beat;$/d'
 check "a changed type of a field fails" rejected 's/^    double beat;$/    float beat;/'
 check "a changed type of an argument fails" rejected 's/\(PetriFrame \*frame, \)size_t/\1int/' -USIZE -DSIZE=int
-check "a removed function fails" rejected 's/^PETRI_API double petri_resolution/double petri_resolution/'
+check "a removed function fails" rejected 's/^PETRI_API int64_t petri_frame_number/int64_t petri_frame_number/'
 planted '' -g0
 check "a library without debug information fails" sh -c '! "$0" include reference.abi library.so >out' "$here/check_layouts.sh"
 check "the message names the option of the compiler" has out "not compiled with -g"

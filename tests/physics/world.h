@@ -2,6 +2,7 @@
 #pragma once
 
 #include "last_frame.h"
+#include "petri-inspect.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -8,6 +8,7 @@
 // them elsewhere. The scripts of the folder with gallery.fl must use all nodes.
 #include "petri-draw.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
 
 #include <cairo.h>
 #include <dirent.h>

@@ -4,6 +4,7 @@
 #include "check.h"
 #include "last_frame.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
 
 #include <stdlib.h>
 

@@ -1,9 +1,9 @@
-// constants.mjs: generated from petri.h, petri-edit.h and petri-draw.h by src/web/constants.sh.
+// constants.mjs: generated from the public headers by src/web/constants.sh.
 export const STATUSES = ['ok', 'invalid', 'limit_exceeded', 'out_of_memory', 'unsupported', 'interrupted'];
 export const LEVELS = ['error', 'warning', 'note'];
-export const SECTIONS = { tree: 1, state: 2, log: 4, error: 8, hash: 16, digest: 32 };
 export const TOKENS = ['name', 'keyword', 'number', 'string', 'symbol', 'node', 'tag', 'operator', 'comment',
     'invalid', 'newline', 'indent', 'dedent'];
+export const SECTIONS = { tree: 1, state: 2, log: 4, error: 8, hash: 16, digest: 32 };
 export const COMPOSITES = ['modulate', 'clear', 'src', 'dst', 'over', 'dst_over', 'in', 'dst_in', 'out', 'dst_out',
     'atop', 'dst_atop', 'xor', 'add', 'multiply', 'screen', 'overlay', 'darken', 'lighten', 'color_dodge',
     'color_burn', 'hard_light', 'soft_light', 'difference', 'exclusion', 'hue', 'saturation', 'color', 'luminosity'];

@@ -3,6 +3,7 @@
 // Each script runs three times: as usual; without the simplifier, so that no node is constant; and with a save and
 // restore between frames, so that every frame is read from scratch. The printed states must be equal in each frame.
 #include "folder.h"
+#include "petri-inspect.h"
 #include "player.h"
 
 enum { FRAMES = 9 };

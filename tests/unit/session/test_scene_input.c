@@ -1,4 +1,5 @@
 // test_scene_input.c: tests `!pointer` and `!key` in a `!window`, which show a script the input that the host reports.
+#include "petri-live.h"
 #include "player.h"
 
 static const char *const POINTER = "!window size=100;100\n    !pointer state=:m\n!see at=$:m left=$(:m;:left) "

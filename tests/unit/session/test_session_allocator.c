@@ -2,6 +2,8 @@
 // host's functions and release all of it, whichever allocation fails.
 #include "folder.h"
 #include "petri-draw.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "player.h"
 
 #include <pthread.h>

@@ -1,5 +1,6 @@
 // test_session_files.c: tests scripts, modules and includes in files (language.md L13, L14).
 #include "folder.h"
+#include "petri-inspect.h"
 #include "player.h"
 #include "session/session.h"
 

@@ -1,4 +1,5 @@
 // test_session_host.c: tests guarantees that petri.h gives to hosts.
+#include "petri-inspect.h"
 #include "player.h"
 
 #include <math.h>

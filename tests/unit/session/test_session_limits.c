@@ -1,4 +1,5 @@
 // test_session_limits.c: tests that a frame that exceeds a limit of work or memory is aborted without effect.
+#include "petri-inspect.h"
 #include "player.h"
 
 // Loops that would run practically forever exceed the work limit.

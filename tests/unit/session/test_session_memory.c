@@ -3,6 +3,8 @@
 #include "folder.h"
 #include "heap.h"
 #include "petri-draw.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "player.h"
 
 static const char *const SCRIPT = "%pragma tempo 60\n"

@@ -1,5 +1,6 @@
 // test_session_node_batch.c: tests that nodes which loops create as batches (lib/value/node_batch.h) behave like single
 // nodes and use less memory.
+#include "petri-inspect.h"
 #include "player.h"
 #include "session/session.h"
 

@@ -1,6 +1,7 @@
 // test_session_optimisations.c: tests that each script of the tests and samples gives the same results with and without
 // the simplifier, and with and without batches of loop iterations: tree, state, log, errors and diagnostics of each
 // frame. argv[1..]: folders of scripts.
+#include "petri-inspect.h"
 #include "player.h"
 #include "scripts.h"
 

@@ -1,5 +1,6 @@
 // test_session_parameters.c: tests parameters (`let NAME=NAME or DEFAULT`), and warnings about unused definitions.
 #include "folder.h"
+#include "petri-live.h"
 #include "player.h"
 #include "session/session.h"
 

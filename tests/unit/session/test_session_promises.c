@@ -1,5 +1,7 @@
 // test_session_promises.c: tests that lifetimes, snapshots and NULL arguments are as documented in petri.h.
 #include "folder.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "petri-ranks.h"
 #include "player.h"
 #include "session/session.h"

@@ -1,4 +1,6 @@
 // test_session_prompt.c: tests statements and expressions at the prompt.
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "player.h"
 
 static const char *const SCRIPT = "%pragma tempo 120\n"

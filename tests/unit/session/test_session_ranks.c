@@ -1,5 +1,6 @@
 // test_session_ranks.c: tests that several ranks give the same results as one process, bit for bit. In these tests, the
 // ranks are threads that communicate through queues. argv[1..]: folders of scripts.
+#include "petri-inspect.h"
 #include "petri-ranks.h"
 #include "player.h"
 #include "scripts.h"

@@ -1,6 +1,7 @@
 // test_session_reuse.c: tests that a reused session, as in petri sweep, gives the same tree, state and log in each
 // frame as a new session. The log of a missing file is an exception: it is reported only at the first read. argv[1..]:
 // folders of scripts.
+#include "petri-inspect.h"
 #include "player.h"
 #include "scripts.h"
 

@@ -1,5 +1,7 @@
 // test_session_rewind.c: tests snapshots, configurations, interrupts, reloading and changes of the clock.
 #include "folder.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "player.h"
 
 #include <pthread.h>

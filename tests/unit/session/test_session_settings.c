@@ -1,4 +1,6 @@
 // test_session_settings.c: tests pragmas, definitions (-D) and global names of the engine (language.md L12, L16).
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "player.h"
 
 #include <math.h>

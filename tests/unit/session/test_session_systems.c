@@ -1,4 +1,5 @@
 // test_session_systems.c: tests access to particle systems through petri.h.
+#include "petri-inspect.h"
 #include "player.h"
 
 static const char *const SCRIPT = "%pragma fps 10\n"

@@ -1,5 +1,7 @@
 // test_session_versions.c: hosts that were compiled with an older or newer petri.h, whose structs are shorter or longer
 // than those of the library.
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "petri-ranks.h"
 #include "player.h"
 

@@ -1,6 +1,8 @@
 // test_src_history.c: tests that going back and forth in a session gives the same bits, and that memory is bounded.
 #include "cli/cli.h"
 #include "cli/history.h"
+#include "petri-inspect.h"
+#include "petri-live.h"
 #include "player.h"
 
 #include <stdarg.h>

@@ -1,6 +1,7 @@
 // test_src_options.c: tests of the command line, from words to values: src/cli/args.c and src/cli/options.c.
 #include "captured.h"
 #include "cli/options.h"
+#include "petri-inspect.h"
 
 #include <math.h>
 

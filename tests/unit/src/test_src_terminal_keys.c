@@ -1,6 +1,6 @@
 // test_src_terminal_keys.c: tests that the byte sequences of terminals are decoded to events.
 #include "check.h"
-#include "petri.h"
+#include "petri-live.h"
 #include "view/terminal_keys.h"
 
 #include <time.h>

@@ -1,0 +1,92 @@
+// petri-live.h: for hosts that run scripts live: the clock, the pointer and keys, and snapshots to go back to.
+//
+// The rules of petri.h apply.
+#ifndef PETRI_LIVE_H
+#define PETRI_LIVE_H
+
+#include "petri.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// Like petri_step, but sets the time (in seconds) and the beat of the frame. Later calls of petri_step continue from
+// them. Never waits. If the time is not later than that of the last frame, the systems are not advanced. Also returns
+// PETRI_INVALID if `time` or `beat` is not finite.
+PETRI_API PetriStatus petri_step_at(PetriSession *session, double time, double beat);
+
+// In real time, returns the seconds until the next frame is due. A host can use them for other work instead of waiting
+// in petri_step. Returns 0 if the frame is already due, before the first frame, and in lockstep.
+PETRI_API double petri_seconds_until_due(const PetriSession *session);
+
+// If the next frame is already late, discards the delay. That frame then follows the last one as if it were on time.
+// Call this function in real time after a pause or a slow operation of the host. It has no effect in lockstep.
+PETRI_API void petri_resync_clock(PetriSession *session);
+
+// User input, for scripts with `!pointer` and `!key` nodes in a `!window`. Report input when it happens. The next frame
+// finds the input in the state dictionary. A node takes effect in the second frame that contains it. A key or button
+// that is pressed and released between two frames counts as pressed for one frame. If the host never reports input, the
+// dictionary contains none.
+enum {
+    PETRI_BUTTON_LEFT = 1,
+    PETRI_BUTTON_MIDDLE = 2,
+    PETRI_BUTTON_RIGHT = 4, // further buttons: 8, 16, 32, 64, 128
+};
+typedef struct PetriPointer {
+    size_t size;      // sizeof(PetriPointer)
+    bool inside;      // true if the pointer is over the window; if false, x and y are ignored
+    double x;         // 0 at the left edge to 1 at the right edge; values outside are clamped
+    double y;         // 0 at the top to 1 at the bottom
+    unsigned buttons; // bits of the pressed buttons
+} PetriPointer;
+
+// Reports the pointer's position and buttons. NULL means that the window lost focus: the pointer is outside, and all
+// buttons and keys are released. Returns PETRI_INVALID if the position is not finite.
+PETRI_API PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer);
+
+// Reports that a key was pressed or released. `name` is a letter, a digit, or a word such as "space", "left",
+// "page_up", "f1" or "left_shift" (see src/manual/view.md). Returns PETRI_INVALID for unknown names.
+PETRI_API PetriStatus petri_report_key(PetriSession *session, const char *name, bool pressed);
+
+// Returns true if a `!key` node of the last frame uses the key. The host should then not use the key for anything else.
+PETRI_API bool petri_key_is_bound(PetriSession *session, const char *name);
+
+// Sets the tempo in beats per minute from now on, without a jump of frame number, time or beat. Returns PETRI_INVALID
+// unless it is positive and finite.
+PETRI_API PetriStatus petri_set_tempo(PetriSession *session, double tempo);
+
+// Sets the frames per second from now on, without a jump of frame number, time or beat. Returns PETRI_INVALID unless it
+// is positive and finite.
+PETRI_API PetriStatus petri_set_fps(PetriSession *session, double fps);
+
+// Sets the maximum simulation time step of all systems, overriding their `resolution` attributes. The unit is that of a
+// system's time: seconds, unless the system sets `time`. 0 (the default) uses the systems' own attributes. Returns
+// PETRI_INVALID if it is negative or not finite.
+PETRI_API PetriStatus petri_set_resolution(PetriSession *session, double resolution);
+
+// Returns the value set by petri_set_resolution.
+PETRI_API double petri_resolution(const PetriSession *session);
+
+// A copy of everything that determines how a session continues: state, systems, input, clock and configuration.
+typedef struct PetriSnapshot PetriSnapshot;
+
+// Returns a snapshot of the session, or NULL if out of memory. Free it with petri_snapshot_free before the session is
+// closed.
+PETRI_API PetriSnapshot *petri_snapshot(PetriSession *session);
+
+// Frees a snapshot. NULL is ignored.
+PETRI_API void petri_snapshot_free(PetriSnapshot *snapshot);
+
+// Returns the size of a snapshot in bytes, without its configuration, which is shared.
+PETRI_API size_t petri_snapshot_bytes(const PetriSnapshot *snapshot);
+
+// Restores a snapshot of the same session, to the point directly after the snapshot's frame. The following frames are
+// bit-identical to those computed before, if the files that the script reads are unchanged. petri_tree returns null
+// until the next step. On failure, returns PETRI_OUT_OF_MEMORY and changes nothing.
+PETRI_API PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
