@@ -281,19 +281,28 @@ void phys_parallel_short(const PhysSystem *system, int chunks, uint64_t units, P
         phys_tuner_learn(tuner, chunks > 1, (double)(clock_nanoseconds() - begin) / (double)units);
 }
 
-void phys_parallel(const PhysSystem *system, int chunks, PhysTask *work, void *context) {
-    if (chunks > 1 && has_helpers(system->threads)) {
-        run_in_parallel(system->threads, chunks, work, context);
+void phys_threads_run(PhysThreads *threads, int chunks, PhysTask *work, void *context) {
+    if (chunks > 1 && has_helpers(threads)) {
+        run_in_parallel(threads, chunks, work, context);
         return;
     }
     for (int chunk = 0; chunk < chunks; chunk++)
         work(context, chunk, chunks);
 }
 
-int phys_chunk_count(const PhysSystem *system, size_t count, size_t min_count) {
-    int threads = system->options.threads;
-    if (threads < 2 || count < min_count)
-        return 1;
+void phys_parallel(const PhysSystem *system, int chunks, PhysTask *work, void *context) {
+    phys_threads_run(chunks > 1 ? system->threads : NULL, chunks, work, context);
+}
+
+static int chunks_for(int threads) {
     int chunks = threads * PHYS_CHUNKS_PER_THREAD;
-    return chunks < PHYS_MAX_CHUNKS ? chunks : PHYS_MAX_CHUNKS;
+    return threads < 2 ? 1 : chunks < PHYS_MAX_CHUNKS ? chunks : PHYS_MAX_CHUNKS;
+}
+
+int phys_threads_chunks(const PhysThreads *threads) {
+    return threads ? chunks_for(threads->wanted) : 1;
+}
+
+int phys_chunk_count(const PhysSystem *system, size_t count, size_t min_count) {
+    return count < min_count ? 1 : chunks_for(system->options.threads);
 }

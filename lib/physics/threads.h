@@ -19,6 +19,11 @@ typedef void PhysTask(void *context, int chunk, int chunks);
 // runs on the caller's thread. If there is only one chunk, `system` may be NULL.
 void phys_parallel(const PhysSystem *system, int chunks, PhysTask *work, void *context);
 
+// Like phys_parallel, for work that does not belong to a system. If `threads` is NULL, the caller does all of it.
+void phys_threads_run(PhysThreads *threads, int chunks, PhysTask *work, void *context);
+// Returns the number of chunks for work that can be divided freely: 1 if `threads` is NULL.
+int phys_threads_chunks(const PhysThreads *threads);
+
 // Returns how many threads to use for a job of `units` of work that takes 10 to 50 µs, which is too short to wake a
 // sleeping thread. 0: do the work without phys_parallel_short. 1: call phys_parallel_short with one chunk, which runs
 // on the caller's thread and is timed. If such jobs arrive in quick succession, wakes sleeping threads for later jobs.

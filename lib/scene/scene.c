@@ -31,6 +31,10 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
+PhysThreads *scene_threads(const Scene *scene) {
+    return scene->physics.pool;
+}
+
 Origin scene_force_origin(const Scene *scene, const SceneView *view, uint32_t force) {
     const PhysicsSystem *system = view->system;
     bool valid = scene->origins_valid && system->origins_frame == scene->frame_number && force < system->origin_count;

@@ -1,5 +1,13 @@
 // digest.c: the digest of the state (spec digest.md).
+#include "physics/threads.h"
 #include "session/session.h"
+
+// If there are fewer numbers, waking the other threads would take longer than hashing all numbers.
+enum { MIN_SHARED_NUMBERS = 1 << 17 };
+
+static void hash_part(void *context, int part, int parts) {
+    state_digest_part(context, part, parts);
+}
 
 void session_digest(PetriSession *session, uint8_t digest[STATE_DIGEST_SIZE]) {
     Arena *arena = &session->text_arena;
@@ -12,7 +20,8 @@ void session_digest(PetriSession *session, uint8_t digest[STATE_DIGEST_SIZE]) {
         arena_exhausted(arena);
     }
     arena_charge(arena, numbers / BUDGET_NUMBERS);
-    state_digest_part(state, 0, 1);
+    PhysThreads *threads = numbers < MIN_SHARED_NUMBERS ? NULL : scene_threads(session->scene);
+    phys_threads_run(threads, phys_threads_chunks(threads), hash_part, state);
     state_digest_end(state, digest);
 }
 
