@@ -71,7 +71,7 @@ OPTION(FOR_RENDER, "output", 'o', "FILE", read_text, output, "write to OUT.png, 
 OPTION(FOR_RENDER, "format", 0, "F", read_text, format, "select the format for '-o -': png, svg, pdf, mp4, webm or gif (default: png)")
 OPTION(FOR_RENDER, "frame", 0, "N", WHOLE(0, INT64_MAX - 1), frame, "draw only frame N, counted from 0 (default: the last)")
 OPTION(FOR_OPEN, "output", 'o', "FILE", read_text, output, "write the script (FILE.fl, - for standard output) or the picture of the frame (.png, .svg, .pdf)")
-OPTION(FOR_LINK, "frame", 0, "N", WHOLE(0, 1000000), frame, "also store the frame number N and the hash of that frame's state")
+OPTION(FOR_LINK, "frame", 0, "N", WHOLE(0, 1000000), frame, "also store the frame number N and the digest of that frame's state")
 OPTION(FOR_LINK, "page", 0, "ADDRESS", read_text, page, "print a whole URL, with the playground at ADDRESS (default: print only the part from '#')")
 OPTION(FOR_VIEW, "terminal", 0, NULL, read_flag, terminal, "show the picture in the terminal even if there is a display")
 OPTION(FOR_VIEW, "auto", 0, NULL, read_flag, automatic, "show the particles instead of the script's canvas")

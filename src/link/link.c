@@ -54,7 +54,7 @@ static int make_link(const CommandContext *context, Options *options, LinkSessio
         return STATUS_FAILED;
     if (status != OPTIONS_READ)
         return status;
-    linked->hash = options->frame < 0 ? NULL : link_session_hash(link_session);
+    linked->digest = options->frame < 0 ? NULL : link_session_digest(link_session, PETRI_PRINT_DIGEST);
     return print_link(linked, options->page);
 }
 
@@ -71,7 +71,7 @@ const Command LINK_COMMAND = {
     .summary = "print a link that contains a script",
     .details =
         "Prints a link that contains the compressed script, its parameters (-D) and, with --frame, a frame number and\n"
-        "the hash of the state. 'petri open' and the playground run it to that frame and verify that the state is\n"
+        "the digest of the state. 'petri open' and the playground run it to that frame and verify that the state is\n"
         "bit-identical. The data follows the '#', so browsers do not send it to any server. Scripts that read files,\n"
         "modules or images cannot be linked, nor scripts of more than 100000 characters when compressed.",
     .examples = "  petri link dish.fl                              only the fragment, from '#'\n"

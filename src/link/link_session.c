@@ -123,13 +123,11 @@ int link_session_run(LinkSession *link_session, const CommandContext *host, Opti
     return make_frames(link_session);
 }
 
-char *link_session_hash(const LinkSession *link_session) {
-    enum { DIGITS = 64 };
+char *link_session_digest(const LinkSession *link_session, unsigned section) {
     SCOPED_TEXT text = {0};
-    bool printed = petri_print(link_session->frames.session, PETRI_PRINT_HASH, text_collect, &text) == PETRI_OK;
-    if (!printed || text.len < DIGITS + 1)
-        return memory_strdup("");
-    return memory_strndup(text.bytes + text.len - DIGITS - 1, DIGITS);
+    bool printed = petri_print(link_session->frames.session, section, text_collect, &text) == PETRI_OK;
+    const char *last = printed && text.len > 0 ? strrchr(text.bytes, ' ') : NULL;
+    return last ? memory_strndup(last + 1, strcspn(last + 1, "\n")) : memory_strdup("");
 }
 
 bool link_session_print_files(const LinkSession *link_session, const char *prefix, const char *suffix) {

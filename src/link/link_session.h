@@ -20,8 +20,9 @@ extern ShaderTester link_shader_tester; // for painters of links
 // in the link. Returns OPTIONS_READ, or an exit status after a message. The caller calls link_session_close even after
 // a failure.
 int link_session_run(LinkSession *link_session, const CommandContext *context, Options *options);
-// Returns the hash of the state. The caller frees it.
-char *link_session_hash(const LinkSession *link_session);
+// Returns the digest of the state (PETRI_PRINT_DIGEST) or its hash (PETRI_PRINT_HASH) in hexadecimal. The caller frees
+// it.
+char *link_session_digest(const LinkSession *link_session, unsigned section);
 // Prints a message with the names of the requested files between prefix and suffix. Returns false, without
 // a message, if there are none.
 bool link_session_print_files(const LinkSession *link_session, const char *prefix, const char *suffix);

@@ -47,7 +47,7 @@ static int show_picture(PetriSession *session, PetriPainter *painter, const Opti
                   terminal_picture_possible() && progress_possible() && petri_has_picture(session);
     if (!wanted)
         return STATUS_DONE;
-    enum { LINES_BELOW = 6 }; // terminal rows reserved for the hash and messages
+    enum { LINES_BELOW = 6 }; // terminal rows reserved for the digest and messages
     Output output;
     output_start(&output, STDOUT_FILENO);
     PetriStatus status = still_show(session, painter, !options->monochrome, LINES_BELOW, output_write, &output);
@@ -83,19 +83,22 @@ static bool check_output(const char *file) {
     return good;
 }
 
-// Reports whether the hash of the state equals the hash in the link. Without --output, also prints the state's hash to
-// standard output, like `petri run --print hash`. Returns the exit status.
+// Reports whether the digest of the state equals the digest in the link. Without --output, also prints the digest to
+// standard output, like `petri run --print digest`. For links of petri 0.2, uses the hash instead. Returns the exit
+// status.
 static int compare_state(const LinkSession *link_session, const Options *options) {
     const Linked *linked = &link_session->linked;
     SCOPED_TEXT text = {0};
-    petri_print(link_session->frames.session, PETRI_PRINT_HASH, text_collect, &text);
+    const char *expected = linked->digest ? linked->digest : linked->hash;
+    unsigned section = linked->hash && !linked->digest ? PETRI_PRINT_HASH : PETRI_PRINT_DIGEST;
+    petri_print(link_session->frames.session, section, text_collect, &text);
     int status = !options->output ? output_text(text.bytes, text.len, STATUS_DONE) : STATUS_DONE;
-    SCOPED_STRING hash = link_session_hash(link_session);
-    if (!linked->hash) {
-        message("%s: no state to compare: the link has no hash; 'petri link --frame N' adds one", linked->name);
+    SCOPED_STRING digest = link_session_digest(link_session, section);
+    if (!expected) {
+        message("%s: no state to compare: the link has no digest; 'petri link --frame N' adds one", linked->name);
         return status;
     }
-    bool same = strcmp(hash, linked->hash) == 0;
+    bool same = strcmp(digest, expected) == 0;
     message(same ? "%s: frame %" PRId64 ": state matches the link exactly"
                  : "%s: frame %" PRId64
                    ": state differs from the link, probably because another version of petri made the link",
@@ -138,9 +141,9 @@ const Command OPEN_COMMAND = {
     .summary = "run a link's script and verify its frame",
     .details =
         "Runs the script in a link (from petri link or the playground) to the frame of the link, with the same\n"
-        "changes of parameters, and compares the hash of the state. Exits with 1 if it differs. Prints the hash and,\n"
-        "in a terminal, the picture; --output saves the script or the picture instead. The script can neither read\n"
-        "nor write files. All frames together may use three times the limit of --work, about half a minute by\n"
+        "changes of parameters, and compares the digest of the state. Exits with 1 if it differs. Prints the digest\n"
+        "and, in a terminal, the picture; --output saves the script or the picture instead. The script can neither\n"
+        "read nor write files. All frames together may use three times the limit of --work, about half a minute by\n"
         "default.\n"
         "\n"
         "LINK is the whole URL or the part from '#', in quotes; - reads it from standard input.",

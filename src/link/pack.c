@@ -15,6 +15,7 @@ void link_free(Linked *linked) {
     }
     free(linked->changes);
     free(linked->name);
+    free(linked->digest);
     free(linked->hash);
     text_free(&linked->text);
     *linked = (Linked){0};
@@ -91,9 +92,9 @@ static void add_json(Text *out, const Linked *linked) {
         text_add_c(out, "]");
     }
     text_add_c(out, "]");
-    if (linked->hash) {
-        text_add_format(out, ",\"f\":%" PRId64 ",\"h\":", linked->frame);
-        json_add_text(out, linked->hash);
+    if (linked->digest) {
+        text_add_format(out, ",\"f\":%" PRId64 ",\"d\":", linked->frame);
+        json_add_text(out, linked->digest);
     }
     text_add_c(out, "}");
 }
@@ -204,13 +205,15 @@ static const char *parse_changes(Linked *linked, json_object *changes) {
 // Returns NULL, or the reason why the link is invalid.
 static const char *parse_link(Linked *linked, json_object *all) {
     json_object *frame = json_object_object_get(all, "f"), *name = json_object_object_get(all, "n");
-    json_object *hash = json_object_object_get(all, "h");
+    json_object *digest = json_object_object_get(all, "d"), *hash = json_object_object_get(all, "h");
     const char *text = string_value(json_object_object_get(all, "t"));
     if (!text || (name && (!string_value(name) || !is_printable(string_value(name)))) ||
-        (hash && !string_value(hash)) || (frame && !integer_value(frame, &linked->frame)))
+        (digest && !string_value(digest)) || (hash && !string_value(hash)) ||
+        (frame && !integer_value(frame, &linked->frame)))
         return NOT_A_LINK;
     text_add_c(&linked->text, text);
     linked->name = memory_strdup(!name || string_value(name)[0] == '\0' ? "script.fl" : string_value(name));
+    linked->digest = !digest ? NULL : memory_strdup(string_value(digest));
     linked->hash = !hash ? NULL : memory_strdup(string_value(hash));
     return parse_changes(linked, json_object_object_get(all, "c"));
 }
@@ -235,9 +238,9 @@ static bool read_json(Linked *linked, const Text *text) {
 }
 
 bool link_read(Linked *linked, const Text *link) {
-    const char *hash = link->len == 0 ? NULL : memchr(link->bytes, '#', link->len);
-    const char *start = !hash ? link->bytes : hash + 1;
-    size_t length = !hash ? link->len : link->len - (size_t)(start - link->bytes);
+    const char *mark = link->len == 0 ? NULL : memchr(link->bytes, '#', link->len);
+    const char *start = !mark ? link->bytes : mark + 1;
+    size_t length = !mark ? link->len : link->len - (size_t)(start - link->bytes);
     SCOPED_TEXT packed = {0}, json = {0};
     bool too_long = length > MAX_LENGTH;
     if (too_long) {

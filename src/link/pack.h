@@ -1,8 +1,9 @@
 // pack.h: links that contain a script, shared with the playground (src/web/page/link.mjs).
 //
 // A link is `#` and compressed JSON (deflate without a header, then base64url). `v` is the version, `t` the script
-// text, `n` the file name, `f` a frame and `h` the hash of the state in that frame. `c` contains changes of parameters,
-// each as [frame after which it is made, name, value].
+// text, `n` the file name, `f` a frame and `d` the digest of the state in that frame. `c` contains changes of
+// parameters, each as [frame after which it is made, name, value]. Links of petri 0.2 have `h`, the SHA-256 of the
+// printed state, instead of `d`.
 #pragma once
 
 #include "cli/memory.h"
@@ -20,7 +21,8 @@ typedef struct Linked {
     LinkedChange *changes; // ordered by frame
     size_t change_count;
     int64_t frame; // frame to which the script runs; -1: no frame was computed
-    char *hash;    // SHA-256 of the state in that frame, in hexadecimal; NULL: not in the link
+    char *digest;  // digest of the state in that frame, in hexadecimal; NULL: not in the link
+    char *hash;    // SHA-256 of the printed state, in links of petri 0.2; NULL: not in the link
 } Linked;
 
 // Returns true if petri was built with the libraries for links. Otherwise returns false after a message.

@@ -6,7 +6,7 @@ cat >count.fl <<'TEXT'
 let N=N or 3
 !counter state=:c rate=N
 TEXT
-# A link written by src/web/page/link.mjs, with a frame and changes of a parameter.
+# A link of petri 0.2, written by src/web/page/link.mjs, with a frame and changes of a parameter.
 page_link='#JcdBCsIwEEDRq4x_PUpDKcJAr5ALpFmUkOKipBBHEcS7i7h6vDdPLCiOsVeXOEc5uoxLO5Xj0bx2ufvqdbYi_WdcGkrDKJdtRylYSuegRJSJrCkM_1zJWdmwcVBuGC8-Xw'
 
 petri link count.fl
@@ -18,11 +18,11 @@ check "a link without a frame has no state to compare" has err "no state to comp
 petri link count.fl -D N=5 --frame 30 --page http://127.0.0.1:8080/
 check "a link contains a URL, a parameter and a frame" grep -q '^http://127.0.0.1:8080/#' out
 link=$(cat out)
-petri run count.fl -D N=5 --frames 31 --every 30 --print hash
-tail -n 1 out >hash
+petri run count.fl -D N=5 --frames 31 --every 30 --print digest
+tail -n 1 out >digest
 petri open "$link"
 check "open runs to the frame of the link" status_is 0
-check "open prints the same hash as run" [ "$(tail -n 1 out)" = "$(cat hash)" ]
+check "open prints the same digest as run" [ "$(tail -n 1 out)" = "$(cat digest)" ]
 check "open reports that the state matches" has err "count.fl: frame 30: state matches the link exactly"
 echo "$link" | timeout 100 "$petri" open - >out 2>err
 check "open reads a link from standard input" has err "frame 30: state matches the link exactly"
@@ -99,6 +99,12 @@ data = packer.compress(sys.stdin.buffer.read()) + packer.flush()
 print("#" + base64.urlsafe_b64encode(data).decode().rstrip("="))'
 }
 if /usr/bin/python3 -I -c 'import zlib' 2>/dev/null; then
+    petri run count.fl --frames 31 --every 30 --print hash
+    tail -n 1 out >hash
+    old_link=$(pack "{\"v\": 1, \"t\": \"let N=N or 3\\n!counter state=:c rate=N\\n\", \"f\": 30, \"h\": \"$(cut -c 3- hash)\"}")
+    petri open "$old_link"
+    check "a link of petri 0.2 is compared by its hash" has err "frame 30: state matches the link exactly"
+    check "for a link of petri 0.2, open prints the hash" [ "$(tail -n 1 out)" = "$(cat hash)" ]
     petri open "$(pack '{"v": 1, "t": "!a\n", "n": "a.fl: frame 0: state matches the link exactly\nb.fl", "f": 0}')"
     check "a name with a line break is refused" one_message "not a petri link"
     petri open "$(pack "{\"v\": 1, \"t\": \"!a\\n\", \"c\": [$(repeat 10000 '[0,"N","1"],')[0,\"N\",\"1\"]]}")"
@@ -145,7 +151,7 @@ console.log(await packLink({ ...linked, text: linked.text + '-- é\n', changes: 
 TEXT
     node page.mjs "${link#*8080/}" >page_output
     check "the playground reads links of petri" has page_output '"name":"count.fl","changes":[[-1,"N","5"]]'
-    check "the playground reads text, frame and hash" has page_output "\"frame\":30,\"hash\":\"$(cut -c 3- hash)\""
+    check "the playground reads text, frame and digest" has page_output "\"frame\":30,\"digest\":\"$(cut -c 3- digest)\",\"hash\":null"
     petri open "$(tail -n 1 page_output)" -o -
     check "petri reads links of the playground" [ "$(tail -n 1 out)" = '-- é' ]
     check "open applies the changes of parameters in a playground's link" has err "state differs from the link"

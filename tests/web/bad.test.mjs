@@ -19,7 +19,7 @@ test(LINKS, options, () => opened('', {
     use: async page => {
         await typed(page, SQUARE);
         await page.waitForFunction(() => document.body.dataset.checked === '0');
-        const link = await packLink({ text: SQUARE.replace('64;32', '32;32'), name: 'a.fl', frame: 3, hash: 'f'.repeat(64) });
+        const link = await packLink({ text: SQUARE.replace('64;32', '32;32'), name: 'a.fl', frame: 3, digest: 'f'.repeat(32) });
         const bad = [
             [link.slice(0, -9), /copied completely/], [`#${'A'.repeat(150000)}`, /too long/], ['#%%%', /damaged/],
             [await packed({ v: 2, text: [] }), /newer petri/], [await packed({ v: 1, t: ' '.repeat(5 << 20) }), /more than 4 MiB/],

@@ -51,17 +51,17 @@ test('after the WebGL context is restored, the names of lost objects are unused,
 test('the example of README gives its values', async () => {
     const [, code] = read('src/web/engine/README.md').match(/```js\n([^]*?)```/);
     const act = code.replace("'petri'", JSON.stringify(pathToFileURL(join(folder, 'petri.mjs')).href));
-    const shown = act.replace('session.hash();', 'globalThis.shown = [session.frame.number, session.state.get(":p;2"), '
+    const shown = act.replace('session.digest();', 'globalThis.shown = [session.frame.number, session.state.get(":p;2"), '
         + 'session.systems[0].position.data[2 * session.systems[0].position.stride + 1], session.evaluate("$(:p;2)[1]").number, '
-        + 'session.hash()];');
+        + 'session.digest()];');
     await import(`data:text/javascript,${encodeURIComponent(shown)}`);
-    const [number, place, seen, evaluated, hash] = globalThis.shown;
+    const [number, place, seen, evaluated, digest] = globalThis.shown;
     assert.equal(number, 59);
     assert.equal(place.length, 2);
     assert.ok(place[1] < -4 && place[1] > -5, `${place}`);
     assert.equal(seen, place[1]);
     assert.equal(evaluated, place[1]);
-    assert.match(hash, /^[0-9a-f]{64}$/);
+    assert.match(digest, /^[0-9a-f]{32}$/);
 });
 
 test('petri.d.ts declares exactly the methods that exist', () => {

@@ -1,8 +1,11 @@
 // link.test.mjs: links from the page to `petri open`, and from `petri link` to the page. Skipped without petri or the libraries for links.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
+import { mkdtempSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { deflateRawSync } from 'node:zlib';
 import { packLink } from '../../src/web/page/link.mjs';
 import { atFrame, frameOf, opened, options, root } from './browser.mjs';
 
@@ -16,16 +19,32 @@ test('a link of petri opens in the page with the same state', ways, async () => 
             use: async page => {
                 await atFrame(page, frame);
                 await page.waitForFunction(() => document.getElementById('message').textContent !== '');
-                assert.match(await page.textContent('#message'), /the state matches the link exactly/);
+                assert.match(await page.textContent('#message'), /the state matches the link exactly \(digest [0-9a-f]{32}\)/);
                 assert.equal(await page.inputValue('#parameter-DROPS'), words.length ? '9' : '220');
             },
         });
 });
 
+test('a link of petri 0.2 is compared by its hash', ways, async () => {
+    const text = '!counter state=:c rate=3\n';
+    const script = join(mkdtempSync(join(tmpdir(), 'petri-')), 'c.fl');
+    writeFileSync(script, text);
+    const hash = execFileSync(petri, ['run', script, '--frames', '5', '--every', '4', '--print', 'hash'], { encoding: 'utf8' }).trim().slice(-64);
+    for (const [h, message] of [[hash, `Frame 4: the state matches the link exactly (SHA-256 ${hash}).`], ['0'.repeat(64), 'differs from the link']]) {
+        const link = `#${deflateRawSync(JSON.stringify({ v: 1, t: text, n: 'c.fl', f: 4, h })).toString('base64url')}`;
+        await opened(link, {
+            use: async page => {
+                await page.waitForFunction(() => document.getElementById('message').textContent !== '');
+                assert.ok((await page.textContent('#message')).includes(message));
+            },
+        });
+    }
+});
+
 // With `petri open --work 1M`, the limit of the link is 3 * 2^20. The page has no options, so the test changes its limit.
 test('a link that exceeds the limit of work stops in the page after the same frame as in petri', ways, async () => {
     const LIMIT = 3 * 2 ** 20, text = '!a v=len(i for i in ..300000+0*frame)\n!counter state=:c rate=1\n';
-    const link = await packLink({ text, name: 'heavy.fl', changes: [], frame: 1000000, hash: '0'.repeat(64) });
+    const link = await packLink({ text, name: 'heavy.fl', changes: [], frame: 1000000, digest: '0'.repeat(32) });
     const { status, stderr } = spawnSync(petri, ['open', '--work', '1M', link], { encoding: 'utf8' });
     assert.equal(status, 1);
     const [, frame] = stderr.match(new RegExp(`stopped after frame (\\d+): the link exceeded its limit of ${LIMIT} units`));

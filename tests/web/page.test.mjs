@@ -216,15 +216,15 @@ test('a slider changes a parameter, and a link restores everything', options, ()
 
 test('an invalid link is reported and changes nothing', options, async () => {
     const { packLink, readLink } = await import('../../src/web/page/link.mjs');
-    const link = await packLink({ text: DISH, name: 'dish.fl', frame: 3, hash: 'f'.repeat(64), changes: [[1, 'A', '2']] });
+    const link = await packLink({ text: DISH, name: 'dish.fl', frame: 3, digest: 'f'.repeat(32), changes: [[1, 'A', '2']] });
     assert.match(link, /^#[A-Za-z0-9_-]+$/);
-    assert.deepEqual(await readLink(link), { text: DISH, name: 'dish.fl', frame: 3, hash: 'f'.repeat(64), changes: [[1, 'A', '2']] });
+    assert.deepEqual(await readLink(link), { text: DISH, name: 'dish.fl', frame: 3, digest: 'f'.repeat(32), hash: null, changes: [[1, 'A', '2']] });
     await assert.rejects(readLink(link.slice(0, -9)), /copied completely/);
     await assert.rejects(readLink('#!!'), /damaged/);
     await assert.rejects(readLink(`#${'A'.repeat(200000)}`), /too long/);
     await assert.rejects(readLink(await packLink({ text: 7 })), /not a petri link/);
     await assert.rejects(packLink({ text: Array.from({ length: 90000 }, (_, i) => Math.sin(i)).join(' ') }), /too long for a link/);
-    await opened(await packLink({ text: DISH, name: 'dish.fl', frame: 3, hash: 'f'.repeat(64) }), {
+    await opened(await packLink({ text: DISH, name: 'dish.fl', frame: 3, digest: 'f'.repeat(32) }), {
         use: async page => {
             assert.match(await page.textContent('#message'), /the state differs from the link/);
             await page.evaluate(() => (location.hash = '#AAAA'));

@@ -80,7 +80,7 @@ test('a script without a picture shows its particles', options, () => opened('',
     },
 }));
 
-test('a copied link has script, changes, frame and hash, and needs no network', options, () => {
+test('a copied link has script, changes, frame and digest, and needs no network', options, () => {
     const asked = [];
     return opened('', {
         settings: { permissions: ['clipboard-read', 'clipboard-write'] },
@@ -95,10 +95,10 @@ test('a copied link has script, changes, frame and hash, and needs no network', 
             await page.waitForFunction(() => /^Link copied/.test(document.getElementById('message').textContent));
             const copied = await page.evaluate(() => navigator.clipboard.readText());
             assert.equal(copied, page.url());
-            const { text, frame, hash, changes } = await readLink(new URL(copied).hash);
+            const { text, frame, digest, changes } = await readLink(new URL(copied).hash);
             assert.match(text, /^let A=A or 1/);
             assert.equal(frame, 1);
-            assert.match(hash, /^[0-9a-f]{64}$/);
+            assert.match(digest, /^[0-9a-f]{32}$/);
             assert.deepEqual(changes, [[0, 'A', '7']]);
             assert.deepEqual(asked, []);
         },

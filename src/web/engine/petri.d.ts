@@ -178,7 +178,9 @@ export interface Session {
     readonly systems: System[];
     /** Maps printed keys to arrays of numbers, or to the printed value if not all elements are numbers. */
     readonly state: Map<string, number[] | string>;
-    /** Returns the SHA-256 of the state, which is the same on every machine. */
+    /** Returns the digest of the state, which is the same on every machine. Takes little time. */
+    digest(): string;
+    /** Returns the SHA-256 of the printed state, which takes a hundred times as long as the digest. */
     hash(): string;
     /** Returns the particles of the last frame as comma-separated values, as written by `petri run --trajectory run.csv`. The first
      * call includes a header and returns the number of dimensions, which must be passed to later calls.

@@ -244,7 +244,12 @@ export class Session {
         return { text: this.written.join(''), dimensions: has };
     }
 
-    // Returns the SHA-256 of the state.
+    // Returns the digest of the state.
+    digest() {
+        return this.print('digest').match(/[0-9a-f]{32}/)[0];
+    }
+
+    // Returns the SHA-256 of the printed state.
     hash() {
         return this.print('hash').match(/[0-9a-f]{64}/)[0];
     }

@@ -110,17 +110,19 @@ export class Dish {
         return true;
     }
 
-    // Loads a script and goes to a frame. Returns true on success, false on failure, or the hash of the state if it differs from `hash`.
-    async open(text, name, { changes = [], frame = 0, hash = null } = {}) {
+    // Loads a script and goes to a frame. Returns null on failure. On success, returns an object: `digest` is the digest of the state, or
+    // its hash, if the argument with the same name is not null; `same` is true if it equals the argument.
+    async open(text, name, { changes = [], frame = 0, digest = null, hash = null } = {}) {
         if (!await this.load(text, name, changes))
-            return false;
-        const shown = await this.showAnswer('seek', { frame: frame || (hash ? 0 : FIRST_SEEN), limited: true });
+            return null;
+        const expected = digest ?? hash;
+        const shown = await this.showAnswer('seek', { frame: frame || (expected ? 0 : FIRST_SEEN), limited: true });
         if (shown?.limit)
             await this.fail(new Error(`Stopped after frame ${shown.frame}: opening exceeded the limit of ${shown.limit} units of work.`));
         if (!shown || shown.limit)
-            return false;
-        const answer = hash && await this.attempt('hash');
-        return !answer || answer.hash === hash || answer.hash;
+            return null;
+        const answer = expected && await this.attempt(digest ? 'digest' : 'hash'), own = answer && (answer.digest ?? answer.hash);
+        return { digest: own, same: own === expected };
     }
 
     run() {

@@ -199,7 +199,7 @@ class PetriDish extends HTMLElement {
     // Opens the playground with a link to the current script.
     async linkOut(event) {
         event.preventDefault();
-        const answer = this.dish.loaded === this.text ? await this.dish.attempt('hash') : null;
+        const answer = this.dish.loaded === this.text ? await this.dish.attempt('digest') : null;
         const link = await packLink({ text: this.text, name: this.name, ...(answer ?? {}) }).catch(error => this.say(error.message, true));
         if (link)
             open(new URL('./', import.meta.url).href + link, '_blank', 'noopener');

@@ -1,5 +1,6 @@
 // link.mjs: links that contain a script: `#` and compressed JSON (deflate-raw, base64url). v: version, t: text, n: file name, c: parameter
-// changes as [last frame before the change, name, value], f: frame, h: hash of the state after this frame.
+// changes as [last frame before the change, name, value], f: frame, d: digest of the state after this frame.
+// Links of petri 0.2 have h, the SHA-256 of the printed state, instead of d.
 
 const VERSION = 1;
 const MAX_LENGTH = 100000; // characters; longer links are truncated by some browsers and mail programs
@@ -23,10 +24,10 @@ async function through(stream, bytes, most = Infinity) {
     return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
-export async function packLink({ text, name, changes = [], frame, hash }) {
+export async function packLink({ text, name, changes = [], frame, digest }) {
     if (changes.length > MAX_CHANGES)
         throw new Error(`too many parameter changes for a link: ${changes.length}, at most ${MAX_CHANGES}; press Reset to discard them`);
-    const json = JSON.stringify({ v: VERSION, t: text, n: name, c: changes, f: frame, h: hash });
+    const json = JSON.stringify({ v: VERSION, t: text, n: name, c: changes, f: frame, d: digest });
     const packed = await through(new CompressionStream('deflate-raw'), new TextEncoder().encode(json));
     let binary = '';
     for (const byte of packed)
@@ -59,11 +60,11 @@ export async function readLink(link) {
     }
     if (json?.v > VERSION)
         throw new Error('the link is from a newer petri; reload the page to get the latest version');
-    const { t: text, n: name = 'script.fl', c: changes = [], f: frame = 0, h: hash = null } = json ?? {};
+    const { t: text, n: name = 'script.fl', c: changes = [], f: frame = 0, d: digest = null, h: hash = null } = json ?? {};
     if (Array.isArray(changes) && changes.length > MAX_CHANGES)
         throw new Error('the link contains more than 10000 parameter changes, so it is not opened');
     if (typeof text !== 'string' || !isFileName(name) || !Array.isArray(changes) || !changes.every(isChange)
-        || !Number.isInteger(frame) || frame < -1 || frame > 1e6 || !(hash === null || typeof hash === 'string'))
+        || !Number.isInteger(frame) || frame < -1 || frame > 1e6 || [digest, hash].some(value => value !== null && typeof value !== 'string'))
         throw new Error('not a petri link');
-    return { text, name, changes, frame, hash };
+    return { text, name, changes, frame, digest, hash };
 }

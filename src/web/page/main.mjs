@@ -103,17 +103,17 @@ async function openText(text, called, wanted = {}) {
     editor.text = text;
     opening = false;
     const opened = await dish.open(text, name, wanted);
-    if (opened && wanted.hash)
-        say(opened === true ? `Frame ${wanted.frame}: the state matches the link exactly.`
+    if (opened?.digest)
+        say(opened.same ? `Frame ${wanted.frame}: the state matches the link exactly (${wanted.digest ? 'digest' : 'SHA-256'} ${opened.digest}).`
             : `Frame ${wanted.frame}: the state differs from the link, probably because another version of petri made the link.`,
-        opened !== true);
+        !opened.same);
 }
 
 // --- links and files
 
 async function copyLink() {
     const loaded = dish.loaded === editor.text && dish.frame >= 0;
-    const answer = loaded ? await dish.attempt('hash') : null;
+    const answer = loaded ? await dish.attempt('digest') : null;
     const link = await packLink({ text: editor.text, name, ...(answer ?? {}) }).catch(error => say(error.message, true));
     if (!link)
         return;

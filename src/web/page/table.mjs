@@ -6,7 +6,7 @@ export class Table {
     constructor(root, dish) {
         const $ = id => root.getElementById(id);
         Object.assign(this, {
-            dish, body: $('state-rows'), count: $('state-count'), seen: false, asking: false, from: 0, by: null, down: false,
+            dish, body: $('state-rows'), count: $('state-count'), digest: $('state-digest'), seen: false, asking: false, from: 0, by: null, down: false,
         });
         this.filter = $('state-filter');
         this.filter.oninput = () => this.go(0);
@@ -48,7 +48,7 @@ export class Table {
         this.asking = false;
     }
 
-    show({ rows, matching, total }) {
+    show({ rows, matching, total, digest }) {
         this.body.replaceChildren(...rows.map(([key, value]) => {
             const row = document.createElement('tr'), head = document.createElement('th'), cell = document.createElement('td');
             head.scope = 'row';
@@ -60,6 +60,7 @@ export class Table {
         const to = this.from + rows.length;
         this.count.textContent = (matching ? `${this.from + 1} to ${to} of ${matching}` : 'no rows')
             + (matching < total ? ` (${total} without the filter)` : '');
+        this.digest.textContent = digest ? `digest ${digest}` : '';
         this.moves[0].disabled = this.from === 0;
         this.moves[1].disabled = to >= matching;
     }

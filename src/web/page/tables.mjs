@@ -12,12 +12,12 @@ export class StateTable {
     rows(player, { filter, by, down, from, count }) {
         const { session, frame } = player;
         if (this.made?.session !== session || this.made.frame !== frame)
-            this.made = { session, frame, all: Array.from(session.state), sorted: null };
+            this.made = { session, frame, all: Array.from(session.state), digest: frame < 0 ? null : session.digest(), sorted: null };
         const signature = JSON.stringify([filter, by, down]);
         if (this.made.signature !== signature)
             Object.assign(this.made, { signature, sorted: this.sort(filter, by, down) });
-        const { sorted, all } = this.made;
-        return { total: all.length, matching: sorted.length, rows: sorted.slice(from, from + count) };
+        const { sorted, all, digest } = this.made;
+        return { digest, total: all.length, matching: sorted.length, rows: sorted.slice(from, from + count) };
     }
 
     sort(filter, by, down) {

@@ -88,9 +88,10 @@ const acts = {
         player.set(name, value);
         return shown();
     },
-    hash() {
-        return { type: 'hash', hash: player.session.hash(), changes: player.changes, frame: player.frame };
+    digest() {
+        return { type: 'digest', digest: player.session.digest(), changes: player.changes, frame: player.frame };
     },
+    hash: () => ({ type: 'hash', hash: player.session.hash() }),
     prompt({ text }) {
         return { type: 'printed', text: player.session.prompt(text), told: take() };
     },
