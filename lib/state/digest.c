@@ -200,16 +200,42 @@ static void add_range(ChunkHash *chunk, const KeyRange *range, StateSlot slot, S
     }
 }
 
+// Adds the values of at most `count` consecutive entries, and returns how many it has added. Values that an owner has
+// stored one after the other are hashed without being copied.
+static uint32_t add_entries(ChunkHash *chunk, const StateEntry *entry, uint32_t count, uint32_t skipped) {
+    uint32_t len = entry->value.len, added = 1;
+    if (entry->owner == 0 || len < 2) {
+        add_value(chunk, &entry->value, skipped);
+        return added;
+    }
+    const double *numbers = entry->value.as.numbers;
+    size_t used = len;
+    for (; added < count && used - skipped < chunk->missing; added++, used += len)
+        if (entry[added].owner != entry->owner || entry[added].value.len != len ||
+            entry[added].value.as.numbers != numbers + used)
+            break;
+    add_to_chunk(chunk, numbers + skipped, used - skipped);
+    return added;
+}
+
+// Returns the number of slots from `slot` to end - 1 before the next key range.
+static uint32_t entries_before_range(const State *state, StateSlot slot, StateSlot end) {
+    for (uint32_t i = 0; i < state->range_count; i++)
+        if (state->ranges[i].first > slot && state->ranges[i].first < end)
+            return state->ranges[i].first - slot;
+    return end - slot;
+}
+
 // Adds the values of slots `slot` to end - 1 until the chunk is complete.
 static void add_slots(ChunkHash *chunk, const State *state, StateSlot slot, StateSlot end, uint32_t skipped) {
     while (slot < end && chunk->missing) {
         const KeyRange *range = state_key_range(state, slot);
-        StateSlot stop = slot + 1;
+        StateSlot stop = end;
         if (range) {
             stop = range->first + range->count < end ? range->first + range->count : end;
             add_range(chunk, range, slot, stop, skipped);
         } else {
-            add_value(chunk, &state_entry(state, slot)->value, skipped);
+            stop = slot + add_entries(chunk, state_entry(state, slot), entries_before_range(state, slot, end), skipped);
         }
         slot = stop;
         skipped = 0;

@@ -193,6 +193,31 @@ static void test_ranges_can_interleave(void **unused) {
     free(rows);
 }
 
+// Values of separate entries that an owner has stored one after the other are hashed together, across chunks and until
+// another value interrupts them.
+static void test_consecutive_values_of_entries_have_the_digests_of_single_ones(void **unused) {
+    enum { ENTRIES = 9000 };
+    (void)unused;
+    State *state = state_new(NULL);
+    double *rows[2] = {random_rows(ENTRIES), random_rows(ENTRIES)};
+    StateOwner owners[2] = {state_add_owner(state), state_add_owner(state)};
+    for (StateSlot i = 0; i < ENTRIES; i++) {
+        assert_int_equal(state_slot(state, value_number(3 * i)), i);
+        state_slot_reference(state, i, owners[0], rows[0] + NUMBERS * i, NUMBERS);
+    }
+    assert_string_equal(digest_in_parts(state, 3).text, digest_of_copy(state).text);
+    for (StateSlot i = 0; i < ENTRIES; i += 501) {
+        state_slot_reference(state, i, owners[i % 2], rows[1] + NUMBERS * i, NUMBERS);
+        assert_true(state_slot_set(state, i + 100, value_number(i)));
+        assert_true(state_slot_set(state, i + 200, VALUE_NULL));
+        assert_true(state_slot_detach(state, i + 300, owners[0]));
+    }
+    assert_string_equal(digest_in_parts(state, 3).text, digest_of_copy(state).text);
+    state_free(state);
+    free(rows[0]);
+    free(rows[1]);
+}
+
 static void test_parts_do_not_matter(void **unused) {
     (void)unused;
     State *state = state_new(NULL);
@@ -307,6 +332,7 @@ int main(int argc, char **argv) {
         WORLD_TEST(test_examples_have_the_specified_digests),
         cmocka_unit_test(test_ranges_have_the_digests_of_entries),
         cmocka_unit_test(test_ranges_can_interleave),
+        cmocka_unit_test(test_consecutive_values_of_entries_have_the_digests_of_single_ones),
         cmocka_unit_test(test_parts_do_not_matter),
         WORLD_TEST(test_changed_states_have_the_digests_of_new_ones),
         WORLD_TEST(test_only_numbers_are_hashed_if_no_length_changes),
