@@ -3,6 +3,7 @@
 #include "cli/output.h"
 #include "cli/script.h"
 #include "link/link_session.h"
+#include "petri-inspect.h"
 
 #include <string.h>
 #include <unistd.h>
