@@ -1,9 +1,13 @@
 # constants.awk: generates names of enumerators as JavaScript, from public headers and the rows of
-# composite_list.h. Arrays are indexed by the values; in objects, names are mapped to values.
+# composite_list.h. Arrays are indexed by the values; in objects, names are mapped to values. With -v language=ts,
+# generates the types of the names in TypeScript.
 BEGIN {
     arrays["PetriStatus"] = "STATUSES"; prefixes["PetriStatus"] = "PETRI_"
     arrays["PetriLevel"] = "LEVELS"; prefixes["PetriLevel"] = "PETRI_"
     arrays["PetriTokenKind"] = "TOKENS"; prefixes["PetriTokenKind"] = "PETRI_TOKEN_"
+    split("STATUSES Status LEVELS Level TOKENS TokenKind SECTIONS Section COMPOSITES Composite", pairs)
+    for (i = 1; i in pairs; i += 2)
+        types[pairs[i]] = pairs[i + 1]
 }
 { sub(/ *\/\/.*/, "") }
 /^typedef enum / { kind = $3 }
@@ -35,8 +39,16 @@ kind in arrays || kind == "enum" {
 END { print_list("COMPOSITES", "[", composites, "]") }
 # Breaks lines after at most 120 characters.
 function print_list(name, open, list, close_,    line) {
-    line = "export const " name " = " open list close_ ";"
-    while (length(line) > 120 && match(substr(line, 1, 120), /.*, /)) {
+    if (language == "ts") {
+        gsub(/: [0-9]+/, "", list)
+        gsub(/[^, ']+/, "'&'", list)
+        gsub(/''/, "'", list)
+        gsub(/, /, " | ", list)
+        line = "export type " types[name] " = " list ";"
+    } else {
+        line = "export const " name " = " open list close_ ";"
+    }
+    while (length(line) > 120 && match(substr(line, 1, 120), /.*[,|] /)) {
         print substr(line, 1, RLENGTH - 1)
         line = "    " substr(line, RLENGTH + 1)
     }

@@ -1,4 +1,7 @@
 // petri.d.ts: types and documentation of petri.mjs.
+import type { Level, Section, Status as StatusName, TokenKind } from './constants.mjs';
+
+export type { Level, Section, TokenKind };
 
 /** The bytes of engine.wasm, a compiled module, a URL, or the response of a fetch. Default: engine.wasm next to petri.mjs. */
 export type EngineSource = BufferSource | WebAssembly.Module | Response | URL | string;
@@ -6,12 +9,12 @@ export type EngineSource = BufferSource | WebAssembly.Module | Response | URL | 
 /** Compiles the engine, which takes about ten milliseconds. */
 export function loadEngine(source?: EngineSource): Promise<Engine>;
 
-export type Status = 'ok' | 'invalid' | 'limit' | 'memory' | 'missing' | 'interrupted';
+export type Status = Exclude<StatusName, 'limit_exceeded' | 'out_of_memory' | 'unsupported'> | 'limit' | 'memory' | 'missing';
 export const STATUS: Status[];
 
 /** A message about a script. Lines and columns count from 1. Columns count characters. */
 export interface Diagnostic {
-    level: 'error' | 'warning' | 'note';
+    level: Level;
     file: string | null;
     line: number;
     column: number;
@@ -116,8 +119,7 @@ export interface System {
 }
 
 export interface Token {
-    kind: 'name' | 'keyword' | 'number' | 'string' | 'symbol' | 'node' | 'tag' | 'operator' | 'comment' | 'invalid'
-        | 'newline' | 'indent' | 'dedent';
+    kind: TokenKind;
     /** Offsets in bytes of the UTF-8 text; `end` is the offset after the token. */
     start: number;
     end: number;
@@ -133,8 +135,6 @@ export interface Help {
     unit: string;
     help: string;
 }
-
-export type Section = 'tree' | 'state' | 'log' | 'error' | 'hash' | 'digest';
 
 /** A picture rendered by the engine: with WebGL 2, or because it has filters or noise. */
 export interface RenderedImage {
