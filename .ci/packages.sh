@@ -28,6 +28,7 @@ pkg-config --exists yaml-0.1: libyaml-dev
 pkg-config --exists json-c: libjson-c-dev
 pkg-config --exists zlib  : zlib1g-dev
 pkg-config --exists hdf5  : libhdf5-dev
+pkg-config --exists sqlite3 : libsqlite3-dev
 "
 # For the Python module:
 PYTHON_NEEDS="
@@ -111,7 +112,7 @@ STATIC_NEEDS='command -v musl-gcc: musl-tools'
 WITHOUT='-Dauto_features=disabled -Dtests=false -Ddefault_library=static'
 CLEAN_INSTALL_NEEDS='command -v debootstrap: debootstrap'
 # Libraries that meson uses if they are installed. If this set changes, build folders are configured again.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 json-c cmocka x11 ompi-c mpfr python3'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 sqlite3 json-c cmocka x11 ompi-c mpfr python3'
 
 # missing NEEDS: prints the packages whose test commands fail.
 missing() {

@@ -140,8 +140,8 @@ static bool copy_host_file(Arena *arena, Str host_bytes, size_t limit, Str *byte
     return true;
 }
 
-bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
-               Str *version, const char **problem) {
+static bool read_file(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit,
+                      Str *bytes, Str *version, const char **problem) {
     Str host_bytes;
     if (file_access && file_access->read_file && !file_access_read(file_access, path, &host_bytes)) {
         *problem = strerror(errno);
@@ -177,6 +177,13 @@ bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bo
     *bytes = text_str(&reading.text);
     *problem = reading.problem;
     return !reading.problem;
+}
+
+bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
+               Str *version, const char **problem) {
+    bool read = read_file(arena, file_access, path, regular, limit, bytes, version, problem);
+    file_access_report(file_access, path, read ? *bytes : (Str){0});
+    return read;
 }
 
 int file_open_at(int folder, const char *name, int flags, mode_t mode) {

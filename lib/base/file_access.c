@@ -52,6 +52,7 @@ FileAccess file_access_copy(Arena *arena, const FileAccess *file_access) {
     }
     copy.script_folder = str_copy(arena, copy.script_folder);
     copy.directory = str_copy(arena, copy.directory);
+    copy.on_read = NULL;
     return copy;
 }
 
@@ -131,6 +132,11 @@ bool file_access_resolve(const FileAccess *file_access, FileAccessKind kind, con
         return false;
     errno = EXDEV;
     return file_access_allows(file_access, kind, resolved);
+}
+
+void file_access_report(const FileAccess *file_access, const char *path, Str bytes) {
+    if (file_access && file_access->on_read)
+        file_access->on_read(file_access->on_read_user_data, path, bytes);
 }
 
 // Opens the path `rest` below `folder` one component at a time, without following links. Used on systems without

@@ -24,6 +24,11 @@ typedef struct FileAccess {
     // If not NULL, returns the unsaved text of an existing file, or NULL if it has none. `name` is the canonical path
     // of the file.
     const char *(*read_unsaved)(void *user_data, const char *name, size_t *length);
+    // If not NULL, receives the contents of each file that was read, and the names in each folder that was listed, in
+    // the form that read_file returns. Receives NULL bytes if there is no such file. `path` of a folder ends in a
+    // slash.
+    void (*on_read)(void *user_data, const char *path, Str bytes);
+    void *on_read_user_data;
 } FileAccess;
 
 // Allows a kind of access to the folders in `names`, a NULL-terminated list. If `names` is NULL, does nothing. Folders
@@ -32,7 +37,7 @@ void file_access_add(Arena *arena, FileAccess *file_access, FileAccessKind kind,
 // Returns the canonical path of a directory; an empty name means the working directory. Returns an empty string if the
 // directory does not exist.
 Str file_access_folder(Arena *arena, Str directory);
-// Returns a copy whose strings are also copied to the arena.
+// Returns a copy whose strings are also copied to the arena. The copy has no on_read.
 FileAccess file_access_copy(Arena *arena, const FileAccess *file_access) PRIVATE_API(file_access_copy);
 
 // Returns true if access to a canonical path is allowed. If file_access is NULL, all paths are allowed.
@@ -47,6 +52,8 @@ bool file_access_read_unsaved(const FileAccess *file_access, const char *path, S
 // Removes ".", ".." and double slashes from a path without accessing the disk. Returns false with errno set if the path
 // is too long.
 bool file_access_normalise(const char *path, char normal[PATH_MAX]);
+// Calls on_read, if there is one. NULL is ignored.
+void file_access_report(const FileAccess *file_access, const char *path, Str bytes);
 // Opens a file if reading it is allowed. `flags` are those of open. On failure returns -1 with errno set (EXDEV: not
 // allowed).
 int file_access_open(const FileAccess *file_access, const char *path, int flags);

@@ -160,6 +160,7 @@ static bool read_bytes(const BuiltinContext *context, const char *path, char *by
 // return (base/arena.h) and would leave the file open.
 static const void *load_entry(const BuiltinContext *context, FileEntry *entry, const char *path, const char **problem) {
     if (entry->stamp.error) {
+        file_access_report(context->file_access, path, (Str){0});
         *problem = describe_error(entry->stamp.error);
         return NULL;
     }
@@ -169,7 +170,9 @@ static const void *load_entry(const BuiltinContext *context, FileEntry *entry, c
     }
     size_t size = (size_t)entry->stamp.size, len;
     char *bytes = arena_alloc(&entry->arena, size);
-    if (!read_bytes(context, path, bytes, size, &len, problem))
+    bool read = read_bytes(context, path, bytes, size, &len, problem);
+    file_access_report(context->file_access, path, read ? (Str){bytes, len} : (Str){0});
+    if (!read)
         return NULL;
     return entry->parse(&entry->arena, bytes, len, problem);
 }

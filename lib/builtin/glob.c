@@ -178,6 +178,22 @@ static void scan_directory(Arena *arena, const char *path, Str *names, char *byt
     closedir(directory);
 }
 
+static bool is_directory(const FileAccess *file_access, const char *path, bool follow_links);
+
+// Reports the names in a folder, one per line; those of folders end in a slash.
+static void report_names(const Glob *glob, const char *path, const Str *names, size_t count) {
+    if (!glob->file_access || !glob->file_access->on_read)
+        return;
+    Text list = text_new(glob->arena);
+    text_add_c(&list, "");
+    for (size_t i = 0; i < count; i++) {
+        Str below = path_join(glob->arena, str_from(path), names[i]);
+        text_add(&list, names[i]);
+        text_add_c(&list, is_directory(NULL, str_to_c(glob->arena, below), true) ? "/\n" : "\n");
+    }
+    file_access_report(glob->file_access, str_format(glob->arena, "%s/", path).bytes, text_str(&list));
+}
+
 static size_t list_directory(Glob *glob, const char *path, Str **names) {
     arena_charge(glob->arena, LISTING_WORK);
     if (glob->listings++ == MAX_LISTINGS)
@@ -196,6 +212,7 @@ static size_t list_directory(Glob *glob, const char *path, Str **names) {
     *names = arena_alloc_array(glob->arena, count, sizeof **names);
     char *bytes = arena_alloc(glob->arena, size);
     scan_directory(glob->arena, path, *names, bytes, &count, &size);
+    report_names(glob, path, *names, count);
     return count;
 }
 

@@ -294,5 +294,6 @@ PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot) {
         return PETRI_OUT_OF_MEMORY;
     petri_config_apply(session, snapshot->config);
     clock_follow_frame(&session->clock);
+    recorder_jump(session);
     return PETRI_OK;
 }

@@ -85,6 +85,25 @@ void clock_advance_to(Clock *clock, double time, double beat) {
     clock_follow_frame(clock);
 }
 
+void clock_advance_recorded(Clock *clock, const FrameClock *recorded) {
+    if (clock->realtime)
+        wait_for_frame(clock);
+    clock->realtime = !recorded->lockstep && recorded->realtime;
+    clock->wall.performance = recorded->lockstep ? 2 : recorded->performance;
+    clock->wall.slow_frame = !recorded->lockstep && recorded->slow_frame;
+    if (recorded->lockstep) {
+        clock_advance(clock);
+        return;
+    }
+    double last_beat = clock->beat;
+    clock->number++;
+    clock->time = recorded->time;
+    clock->beat = recorded->beat;
+    clock->delta = clock->number == 0 ? 0 : clock->beat - last_beat;
+    if (recorded->is_base)
+        clock->base = (ClockBase){clock->number, clock->time, clock->beat};
+}
+
 double clock_seconds_until_due(const Clock *clock) {
     return clock->wall.running ? fmax(0, clock->wall.due - wall_time(clock)) : 0;
 }

@@ -29,6 +29,18 @@ typedef struct WallClock {
     bool slow_frame;    // value of `slow_frame` in scripts
 } WallClock;
 
+// The time of a frame in a recording, and other values that scripts see in real time.
+typedef struct FrameClock {
+    bool lockstep; // true: the time follows from the frame number and the rates; the other fields are not used
+    bool realtime; // value of `realtime` in scripts
+    bool slow_frame;
+    bool is_base; // true: the time and beat of later frames are counted from this frame (petri_step_at)
+    double time;
+    double beat;
+    double performance;
+    double unix_time; // value of `clock` in scripts
+} FrameClock;
+
 typedef struct Clock {
     bool realtime;
     int64_t number; // number of the current frame; -1: before the first frame
@@ -48,6 +60,9 @@ void clock_set_rates(Clock *clock, const ClockRates *rates);
 void clock_advance(Clock *clock);
 // Advances to the next frame at the given time and beat, from which the clock then continues.
 void clock_advance_to(Clock *clock, double time, double beat);
+// Advances to the next frame, whose time was recorded. In real time, waits until it is due. Afterwards, `realtime` has
+// its recorded value; the caller restores it after the frame.
+void clock_advance_recorded(Clock *clock, const FrameClock *recorded);
 // Sets the clock to a frame that was restored. Computes time and beat from its number and the current rates.
 void clock_resume(Clock *clock, int64_t number);
 // Makes real time continue from the time of the current frame. Must be called after a clock was replaced by a copy.

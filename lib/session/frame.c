@@ -143,6 +143,7 @@ void petri_reset(PetriSession *session) {
     session_clear_frame(session);
     rewind_clock(session);
     session_change_config(session, false);
+    recorder_jump(session);
 }
 
 double petri_seconds_until_due(const PetriSession *session) {
@@ -315,9 +316,11 @@ bool petri_clear_interrupt(PetriSession *session) {
 
 // Evaluates the script for the current frame. If the frame will be undone, removes the input that was written to the
 // state.
-static PetriStatus evaluate_frame(PetriSession *session) {
+static PetriStatus evaluate_frame(PetriSession *session, const FrameClock *recorded) {
     InputUndo undo = {.last = NULL};
     session_set_globals(session, &session->vm);
+    if (recorded)
+        session->vm.globals[ENGINE_CLOCK] = value_number(recorded->realtime ? recorded->unix_time : 0);
     session->frame.physics_steps = 0;
     PetriStatus status = session_protect(session, NULL, evaluate_script, &undo);
     session_report_abort(session, status, "the frame");
@@ -354,6 +357,30 @@ static PetriStatus update_frame(PetriSession *session) {
     return status;
 }
 
+static void record_frame(PetriSession *session, bool at_given_time, bool complete) {
+    const Clock *clock = &session->clock;
+    if (session->recorder.after_frame)
+        session->recorder.after_frame(session->recorder.user_data,
+                                      &(FrameClock){.lockstep = !clock->realtime && !at_given_time,
+                                                    .realtime = clock->realtime,
+                                                    .slow_frame = clock->wall.slow_frame,
+                                                    .is_base = at_given_time,
+                                                    .time = clock->time,
+                                                    .beat = clock->beat,
+                                                    .performance = clock->wall.performance,
+                                                    .unix_time = session->vm.globals[ENGINE_CLOCK].as.number},
+                                      complete);
+}
+
+static void advance_clock(PetriSession *session, const ClockBase *at, const FrameClock *recorded) {
+    if (recorded)
+        clock_advance_recorded(&session->clock, recorded);
+    else if (at)
+        clock_advance_to(&session->clock, at->time, at->beat);
+    else
+        clock_advance(&session->clock);
+}
+
 // Computes the next frame at the time and beat in `at`. If `at` is NULL, the clock determines time and beat.
 static PetriStatus step_session(PetriSession *session, const ClockBase *at) {
     if (!session || !session->config.program || session->call_depth > 0)
@@ -362,23 +389,30 @@ static PetriStatus step_session(PetriSession *session, const ClockBase *at) {
         return PETRI_INTERRUPTED;
     if (session->rollback_pending && !session_rollback(session))
         return PETRI_OUT_OF_MEMORY;
+    FrameClock recorded;
+    bool replays = false;
+    PetriStatus status = session->recorder.before_frame
+                             ? session->recorder.before_frame(session->recorder.user_data, &recorded, &replays)
+                             : PETRI_OK;
+    if (status != PETRI_OK)
+        return status;
     session->undo_of_frame = false;
     if (session->options.rollback_frames && !checkpoint_save(&session->undo, session))
         return PETRI_OUT_OF_MEMORY;
     Clock clock = session->clock;
     session_clear_frame(session);
-    if (at)
-        clock_advance_to(&session->clock, at->time, at->beat);
-    else
-        clock_advance(&session->clock);
-    PetriStatus status = evaluate_frame(session);
+    advance_clock(session, at, replays ? &recorded : NULL);
+    status = evaluate_frame(session, replays ? &recorded : NULL);
     bool counts = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
     if (status == PETRI_OK) {
         status = update_frame(session);
         counts = status == PETRI_OK || !session->options.rollback_frames;
     }
+    if (counts)
+        record_frame(session, at && !replays, status == PETRI_OK);
     if (!counts)
         session->clock = clock;
+    session->clock.realtime = clock.realtime;
     session->undo_of_frame = counts && session->options.rollback_frames;
     return status;
 }

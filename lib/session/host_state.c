@@ -65,7 +65,10 @@ PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue va
     StateRequest request = {.key = key, .value = value};
     if (!session || session->call_depth > 0)
         return PETRI_INVALID;
-    return session_run(session, set_entry, &request, "the assignment");
+    PetriStatus status = session_run(session, set_entry, &request, "the assignment");
+    if (status == PETRI_OK)
+        recorder_state(session, key, value);
+    return status;
 }
 
 bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value) {
@@ -151,7 +154,10 @@ PetriStatus petri_set_global(PetriSession *session, const char *name, PetriValue
     if (!session || !name || session->call_depth > 0)
         return PETRI_INVALID;
     GlobalRequest request = {str_from(name), value};
-    return session_run(session, set_global, &request, "the assignment");
+    PetriStatus status = session_run(session, set_global, &request, "the assignment");
+    if (status == PETRI_OK)
+        recorder_global(session, name, value);
+    return status;
 }
 
 void session_copy_host_globals(const PetriSession *session, PetriSession *to) {

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *given) {
+static PetriStatus report_pointer(PetriSession *session, const PetriPointer *given) {
     PetriPointer pointer = {0};
     if (!session)
         return PETRI_INVALID;
@@ -24,6 +24,13 @@ PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *give
     return PETRI_OK;
 }
 
+PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer) {
+    PetriStatus status = report_pointer(session, pointer);
+    if (status == PETRI_OK)
+        recorder_pointer(session, pointer);
+    return status;
+}
+
 PetriStatus petri_report_key(PetriSession *session, const char *name, bool pressed) {
     if (!session || !name)
         return PETRI_INVALID;
@@ -31,6 +38,7 @@ PetriStatus petri_report_key(PetriSession *session, const char *name, bool press
     if (key == INPUT_KEY_NONE)
         return PETRI_INVALID;
     input_report_key(scene_input(session->scene), key, pressed);
+    recorder_key(session, name, pressed);
     return PETRI_OK;
 }
 

@@ -251,6 +251,7 @@ Unit *unit_load_text(PetriSession *session, Str name, Str text) {
     Unit *unit = session->loader.pending = unit_new(session);
     set_script_folder(session, unit, name);
     unit->path = str_copy(&unit->arena, name);
+    recorder_file(session, unit->path.bytes, text);
     load_text(session, unit, name, text, false);
     return unit;
 }
@@ -302,7 +303,10 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     unit->path = file_canonical(&unit->arena, &session->reach, file);
     // The script itself may be anywhere, because the host chose it.
     const FileAccess *reach = module ? &session->reach : host_files(session);
-    if (file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
+    bool read = file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem);
+    if (!reach)
+        recorder_file(session, file, read ? text : (Str){0});
+    if (read)
         load_text(session, unit, str_from(file), text, module);
     else
         unit->error = str_copy(&unit->arena, str_from(problem));
@@ -343,6 +347,7 @@ const Program *session_module(void *host, Str path, Str *reason) {
     const char *file = str_to_c(&session->frame.arena, path);
     Str version;
     if (!file_version(&session->frame.arena, host_files(session), file, &version)) {
+        recorder_file(session, file, (Str){0});
         *reason = STR("no such file");
         return NULL;
     }

@@ -354,6 +354,41 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
     return status;
 }
 
+// Compiles a statement and prepares a list that also contains it.
+static PetriStatus append_statement(PetriSession *session, void *context) {
+    Job *job = context;
+    job->unit = unit_parse(session, job->text);
+    if (!job->unit->ast || job->unit->ast->count != 1)
+        return PETRI_INVALID;
+    job->ast = job->unit->ast->children[0];
+    bool adds_nodes = !binds(job->ast) && makes_nodes(job->ast);
+    const char *text = statement_text(session, job);
+    wrap_statement(session, job);
+    job->program = unit_compile(session, job->unit, job->ast, false, session->config.prompts->names);
+    arena_free(&job->unit->scratch);
+    if (!job->program)
+        return PETRI_INVALID;
+    job->list =
+        add_statement(session->config.prompts, &(PromptStatement){job->unit, text, job->ast, job->program, adds_nodes});
+    if (!job->list)
+        arena_exhausted(&session->arena);
+    return PETRI_OK;
+}
+
+PetriStatus session_restore_statement(PetriSession *session, Str text) {
+    Job job = {.text = text};
+    session->loader.pending = NULL;
+    PetriStatus status = session_run(session, append_statement, &job, "the input");
+    if (status == PETRI_OK) {
+        session_use_unit(session, job.unit);
+        session_set_prompts(session, job.list);
+        session_change_config(session, false);
+    }
+    unit_free(session->loader.pending);
+    session->loader.pending = NULL;
+    return status;
+}
+
 // Returns true if the text is a single expression. Otherwise, reports an error and returns false.
 static bool is_expression(PetriSession *session, const Unit *unit) {
     const Ast *ast = unit->ast;

@@ -11,10 +11,11 @@
 //
 // Values are in the language's printed form, which reads back as the same doubles. The hash detects files that were
 // truncated or edited.
-#include "ast/literal.h"
 #include "base/file.h"
 #include "base/number.h"
 #include "session/session.h"
+#include "session/state_text.h"
+#include "session/value_reader.h"
 #include "value/format.h"
 
 #include <inttypes.h>
@@ -63,15 +64,18 @@ static void report_state_error(PetriSession *session, const char *what, const ch
                         str_format(&session->text_arena, "%s '%s': %s", what, file, reason));
 }
 
-static PetriStatus save_state(PetriSession *session, void *context) {
-    const char *file = context;
+Str session_write_state(PetriSession *session) {
     Text out = text_new(&session->text_arena);
     text_add_c(&out, HEADER);
     text_add_format(&out, "frame %lld\n", (long long)session->clock.number);
     add_entries(&out, session);
     add_systems(&out, session);
     text_add_format(&out, "end %016" PRIx64 "\n", hash_bytes(0, out.bytes, out.len));
-    const char *problem = file_replace(file, text_str(&out), 0);
+    return text_str(&out);
+}
+
+static PetriStatus save_state(PetriSession *session, void *context) {
+    const char *file = context, *problem = file_replace(file, session_write_state(session), 0);
     if (problem)
         report_state_error(session, "cannot write the state to", file, problem);
     return problem ? PETRI_INVALID : PETRI_OK;
@@ -88,78 +92,17 @@ PetriStatus petri_save(PetriSession *session, const char *file) {
 
 // A state file that is being read.
 typedef struct Restore {
-    PetriSession *session;
-    Arena *arena;
-    Str rest;     // text not read yet
+    ValueReader in;
     State *state; // the new dictionary
     Incoming *incoming;
     int64_t frame;
     uint32_t omitted; // number of entries ignored because they are not finite; versions before 0.2.0 could save them
 } Restore;
 
-static bool consume_prefix(Restore *restore, Str prefix) {
-    if (!str_starts_with(restore->rest, prefix))
-        return false;
-    restore->rest = (Str){restore->rest.bytes + prefix.len, restore->rest.len - prefix.len};
-    return true;
-}
-
-// Returns the length of the element at the start of `rest`: a quoted string, or everything up to ";", ")", a space or
-// the end of the line. Returns 0 if a string is not terminated.
-static size_t element_length(Str rest) {
-    size_t at = 0;
-    char quote = rest.len && (rest.bytes[0] == '\'' || rest.bytes[0] == '"') ? rest.bytes[0] : 0;
-    if (!quote) {
-        while (at < rest.len && !strchr(";) \n", rest.bytes[at]))
-            at++;
-        return at;
-    }
-    for (at = 1; at < rest.len && rest.bytes[at] != quote; at++)
-        at += rest.bytes[at] == '\\';
-    return at < rest.len ? at + 1 : 0;
-}
-
-static bool read_element(Restore *restore, Vector *vector) {
-    size_t len = element_length(restore->rest);
-    Str text = {restore->rest.bytes, len};
-    double x;
-    if (len == 0)
-        return false;
-    restore->rest = (Str){restore->rest.bytes + len, restore->rest.len - len};
-    if (text.bytes[0] == ':') {
-        const Symbol *symbol = symbol_register(&restore->session->symbols, (Str){text.bytes + 1, len - 1});
-        if (symbol)
-            vector_add_number(vector, symbol->number);
-        return symbol;
-    }
-    if (text.bytes[0] == '\'' || text.bytes[0] == '"') {
-        Str string;
-        if (literal_string(restore->arena, text, &string))
-            return false;
-        vector_add(vector, value_string(restore->arena, string));
-        return true;
-    }
-    if (!literal_parse_number(text, &x))
-        return false;
-    vector_add_number(vector, x);
-    return true;
-}
-
-static bool read_value(Restore *restore, Value *value) {
-    Vector vector = vector_new(restore->arena);
-    if (!consume_prefix(restore, STR("null"))) {
-        do
-            if (!read_element(restore, &vector))
-                return false;
-        while (consume_prefix(restore, STR(";")));
-    }
-    *value = vector_finish(&vector);
-    return true;
-}
-
 static bool read_key(Restore *restore, StateSlot *slot) {
     Value key;
-    if (!consume_prefix(restore, STR("$(")) || !read_value(restore, &key) || !consume_prefix(restore, STR(")")))
+    if (!value_reader_skip(&restore->in, STR("$(")) || !value_reader_read(&restore->in, &key) ||
+        !value_reader_skip(&restore->in, STR(")")))
         return false;
     *slot = state_slot(restore->state, key);
     return *slot != STATE_NO_SLOT;
@@ -168,8 +111,8 @@ static bool read_key(Restore *restore, StateSlot *slot) {
 static bool read_entry(Restore *restore) {
     StateSlot slot;
     Value value;
-    if (!read_key(restore, &slot) || !consume_prefix(restore, STR(" = ")) || !read_value(restore, &value) ||
-        !consume_prefix(restore, STR("\n")))
+    if (!read_key(restore, &slot) || !value_reader_skip(&restore->in, STR(" = ")) ||
+        !value_reader_read(&restore->in, &value) || !value_reader_skip(&restore->in, STR("\n")))
         return false;
     if (value.kind == VALUE_NUMBERS && !numbers_finite(value_numbers(&value), value.len, 1)) {
         restore->omitted++;
@@ -180,22 +123,23 @@ static bool read_entry(Restore *restore) {
 
 static bool read_integer(Restore *restore, int64_t *x) {
     enum { MAX_DIGITS = 18 };
-    bool negative = consume_prefix(restore, STR("-"));
+    bool negative = value_reader_skip(&restore->in, STR("-"));
     size_t len = 0;
     *x = 0;
-    for (; len < restore->rest.len && restore->rest.bytes[len] >= '0' && restore->rest.bytes[len] <= '9'; len++) {
+    for (; len < restore->in.rest.len && restore->in.rest.bytes[len] >= '0' && restore->in.rest.bytes[len] <= '9';
+         len++) {
         if (len == MAX_DIGITS)
             return false;
-        *x = *x * 10 + (restore->rest.bytes[len] - '0');
+        *x = *x * 10 + (restore->in.rest.bytes[len] - '0');
     }
     *x = negative ? -*x : *x;
-    restore->rest = (Str){restore->rest.bytes + len, restore->rest.len - len};
+    restore->in.rest = (Str){restore->in.rest.bytes + len, restore->in.rest.len - len};
     return len > 0;
 }
 
 // Returns the slot of the velocity that belongs to a position.
 static StateSlot velocity_slot(Restore *restore, StateSlot position) {
-    Vector key = vector_new(restore->arena);
+    Vector key = vector_new(restore->in.arena);
     vector_add(&key, state_slot_key(restore->state, position));
     vector_add_number(&key, symbol_number(STR("velocity")));
     return state_slot(restore->state, vector_finish(&key));
@@ -205,22 +149,22 @@ static bool read_system(Restore *restore) {
     int64_t occurrence;
     uint32_t capacity = 0; // always even, so there is room for both slots of a particle, position and velocity
     SceneSystem system = {0};
-    if (!read_integer(restore, &occurrence) || !consume_prefix(restore, STR(" ")) ||
-        !read_key(restore, &system.prefix) || !consume_prefix(restore, STR("\n")))
+    if (!read_integer(restore, &occurrence) || !value_reader_skip(&restore->in, STR(" ")) ||
+        !read_key(restore, &system.prefix) || !value_reader_skip(&restore->in, STR("\n")))
         return false;
     if (occurrence < 0 || occurrence > UINT32_MAX)
         return false;
     system.occurrence = (uint32_t)occurrence;
     StateSlot *slots = NULL;
-    while (consume_prefix(restore, STR("particle "))) {
-        slots = arena_grow_array(restore->arena, slots, system.slot_count, &capacity, sizeof *slots);
-        if (!read_key(restore, &slots[system.slot_count]) || !consume_prefix(restore, STR("\n")))
+    while (value_reader_skip(&restore->in, STR("particle "))) {
+        slots = arena_grow_array(restore->in.arena, slots, system.slot_count, &capacity, sizeof *slots);
+        if (!read_key(restore, &slots[system.slot_count]) || !value_reader_skip(&restore->in, STR("\n")))
             return false;
         slots[system.slot_count + 1] = velocity_slot(restore, slots[system.slot_count]);
         system.slot_count += 2;
     }
     system.slots = slots;
-    checkpoint_restore_system(restore->session, restore->incoming, &system);
+    checkpoint_restore_system(restore->in.session, restore->incoming, &system);
     return true;
 }
 
@@ -238,46 +182,56 @@ static bool hash_matches(Str *text) {
 }
 
 static bool read_body(Restore *restore) {
-    if (!consume_prefix(restore, STR(HEADER)) || !consume_prefix(restore, STR("frame ")) ||
+    if (!value_reader_skip(&restore->in, STR(HEADER)) || !value_reader_skip(&restore->in, STR("frame ")) ||
         !read_integer(restore, &restore->frame) || restore->frame < -1 || restore->frame > MAX_FRAMES ||
-        !consume_prefix(restore, STR("\n")))
+        !value_reader_skip(&restore->in, STR("\n")))
         return false;
-    while (str_starts_with(restore->rest, STR("$")))
+    while (str_starts_with(restore->in.rest, STR("$")))
         if (!read_entry(restore))
             return false;
-    while (consume_prefix(restore, STR("system ")))
+    while (value_reader_skip(&restore->in, STR("system ")))
         if (!read_system(restore))
             return false;
-    return restore->rest.len == 0;
+    return restore->in.rest.len == 0;
 }
 
 // Reads the text of a state file. Returns NULL on success, else the reason for the failure.
 static const char *restore_text(Restore *restore) {
-    if (!str_starts_with(restore->rest, STR("petri-state ")))
+    if (!str_starts_with(restore->in.rest, STR("petri-state ")))
         return "not a petri state file";
-    if (!str_starts_with(restore->rest, STR(HEADER)))
+    if (!str_starts_with(restore->in.rest, STR(HEADER)))
         return "written by another version of petri";
-    bool good = utf8_find_error(restore->rest) == restore->rest.len && hash_matches(&restore->rest);
+    bool good = utf8_find_error(restore->in.rest) == restore->in.rest.len && hash_matches(&restore->in.rest);
     return good && read_body(restore) ? NULL : "file is truncated or corrupt";
+}
+
+const char *session_read_state(PetriSession *session, Incoming *incoming, Str text, int64_t *frame, uint32_t *omitted) {
+    Arena *arena = &incoming->arena;
+    Restore restore = {.in = {session, arena, text}, .state = incoming->state, .incoming = incoming};
+    const char *reason = restore_text(&restore);
+    if (state_clear_exhausted(incoming->state)) // running out of memory must not be reported as a corrupt file
+        arena_exhausted(arena);
+    *frame = restore.frame;
+    *omitted = restore.omitted;
+    return reason;
 }
 
 static PetriStatus read_state_file(PetriSession *session, Incoming *incoming, void *context) {
     const char *file = context, *reason = NULL;
-    Arena *arena = &incoming->arena;
-    Restore restore = {.session = session, .arena = arena, .state = incoming->state, .incoming = incoming};
-    if (file_read(arena, NULL, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &reason))
-        reason = restore_text(&restore);
-    if (state_clear_exhausted(incoming->state)) // running out of memory must not be reported as a corrupt file
-        arena_exhausted(arena);
-    if (restore.omitted && !reason)
+    int64_t frame = 0;
+    uint32_t omitted = 0;
+    Str text;
+    if (file_read(&incoming->arena, NULL, file, true, MAX_STATE_BYTES, &text, NULL, &reason))
+        reason = session_read_state(session, incoming, text, &frame, &omitted);
+    if (omitted && !reason)
         session_report_text(session, DIAG_WARNING, "state-file",
                             str_format(&session->text_arena,
                                        "'%s' contains values that are not finite; number of ignored values: %u", file,
-                                       restore.omitted));
+                                       omitted));
     if (reason)
         report_state_error(session, "cannot load the state from", file, reason);
     else
-        clock_resume(&incoming->clock, restore.frame);
+        clock_resume(&incoming->clock, frame);
     return reason ? PETRI_INVALID : PETRI_OK;
 }
 
@@ -287,7 +241,9 @@ PetriStatus petri_restore(PetriSession *session, const char *file) {
     if (!file_exists(file))
         return PETRI_OK;
     PetriStatus status = checkpoint_replace(session, read_state_file, (void *)file);
-    if (status == PETRI_OK)
+    if (status == PETRI_OK) {
         session_change_config(session, false);
+        recorder_jump(session);
+    }
     return status;
 }

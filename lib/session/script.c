@@ -137,6 +137,8 @@ static PetriStatus load_script(PetriSession *session, Load *load, LoadPurpose pu
     PetriStatus status = session_protect(session, NULL, make_unit, load);
     if (status == PETRI_OK) {
         install_script(session, load, session->config.program ? purpose : LOAD_RESTART);
+        if (purpose == LOAD_RESTART)
+            recorder_jump(session);
         return PETRI_OK;
     }
     session->reach = before;

@@ -20,6 +20,7 @@
 #include "session/draw_access.h"
 #include "session/frame.h"
 #include "session/prompt.h"
+#include "session/recorder.h"
 #include "session/unit.h"
 #include "state/digest.h"
 #include "vm/vm.h"
@@ -115,6 +116,7 @@ struct PetriSession {
     Checkpoint undo;             // taken before the current frame was computed, if PetriOptions.rollback_frames is set
     bool undo_of_frame;          // true if `undo` is the state from which the current frame was computed
     PhysExplanation explanation; // result of petri_explain_force, until the next one or the end of the frame
+    Recorder recorder;           // callbacks of an archive; all NULL: none
     bool rollback_pending;       // true if an aborted frame could not be rolled back yet, because memory ran out
 };
 
@@ -148,6 +150,8 @@ bool session_check_definitions(PetriSession *session, Unit *unit);
 
 // Records that the configuration has changed. If `frame_valid` is true, the results of the last frame stay valid.
 void session_change_config(PetriSession *session, bool frame_valid);
+// Adds a statement to the prompt without evaluating it. Returns PETRI_INVALID if it is not valid.
+PetriStatus session_restore_statement(PetriSession *session, Str text);
 // Replaces the list of prompt statements. Takes over the caller's reference to `list`.
 void session_set_prompts(PetriSession *session, PromptList *list);
 

@@ -20,7 +20,8 @@ enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128
 // a golden file of petri test.
 // clang-format off
 enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64,
-       FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512, FOR_LINK = 1024, FOR_OPEN = 2048, FOR_DIFF = 4096 };
+       FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512, FOR_LINK = 1024, FOR_OPEN = 2048, FOR_DIFF = 4096, FOR_VERIFY = 8192,
+       FOR_INFO = 16384 };
 // clang-format on
 
 typedef struct OptionSpec {
@@ -87,6 +88,8 @@ extern const Command LSP_COMMAND;
 extern const Command SEND_COMMAND;
 extern const Command LINK_COMMAND;
 extern const Command OPEN_COMMAND;
+extern const Command VERIFY_COMMAND;
+extern const Command INFO_COMMAND;
 extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 

@@ -5,6 +5,7 @@
 
 #include "cli/cli.h"
 #include "cli/mpirun.h"
+#include "petri-archive.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -20,11 +21,25 @@ enum { HAS_ALL = false };
 #endif
 
 bool helper_exec_is_pictures_command(const char *first) {
-    static const char *const words[] = {"view", "render", "repl", "link", "open", "complete", "help", "--help", "-h"};
+    static const char *const words[] = {"view", "render",   "repl", "link",   "open", "verify",
+                                        "info", "complete", "help", "--help", "-h"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
         if (strcmp(first, words[i]) == 0)
             return !HAS_ALL;
     return false;
+}
+
+bool helper_exec_needs_archives(char **argv) {
+#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
+    (void)argv;
+    return false;
+#else
+    for (char **word = argv + 1; *word; word++)
+        if (strcmp(*word, "--archive") == 0 || strncmp(*word, "--archive=", strlen("--archive=")) == 0 ||
+            petri_archive_is(*word))
+            return true;
+    return false;
+#endif
 }
 
 bool helper_exec_forwards_unknown(void) {

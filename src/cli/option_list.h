@@ -26,6 +26,10 @@ FIELD(bool,         against,      false)          // diff: options of the second
 FIELD(const char *, with,         NULL)           // diff: program of the second run; NULL: this one
 FIELD(bool,         json,         false)
 FIELD(const char *, shard,        NULL)
+FIELD(const char *, archive,      NULL)           // file; NULL: none
+FIELD(int64_t,      keyframe_every, 1000)
+FIELD(int64_t,      digest_every, 1)
+FIELD(int64_t,      sample_segments, 0)           // verify: 0: all
 FIELD(int64_t,      frames,       -1)             // -1: not given; INT64_MAX: unlimited
 FIELD(double,       run_time,     NAN)            // seconds; NaN: unlimited
 FIELD(int64_t,      every,        1)
@@ -127,8 +131,8 @@ OPTION(FOR_REPL, "limit", 0, "N", WHOLE(1, INT64_MAX), limit, "limit .run and .u
 OPTION(FOR_DIFF | FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_LINK | FOR_OPEN | FOR_VIEW, "threads", 0, "N", WHOLE(1, 1024), threads, "use N worker threads (default: number of CPUs); does not change results")
 OPTION(FOR_SWEEP, "threads", 0, "N", WHOLE(1, 1024), threads, "use N worker threads per run (default: 1); does not change results")
 OPTION(FOR_TEST, "threads", 0, "N", read_text, as_threads, "run all scripts with --threads N")
-OPTION(FOR_DIFF | FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_LINK | FOR_OPEN | FOR_VIEW, "memory", 0, "BYTES", read_amount, memory, "limit the script's memory, e.g. 512M (default: 2G)")
-OPTION(FOR_DIFF | FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_LINK | FOR_OPEN | FOR_VIEW, "work", 0, "N", read_amount, work, "limit each frame to N units of work (default: 1G, about 10 s)")
+OPTION(FOR_DIFF | FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_LINK | FOR_OPEN | FOR_VIEW | FOR_VERIFY | FOR_INFO, "memory", 0, "BYTES", read_amount, memory, "limit the script's memory, e.g. 512M (default: 2G)")
+OPTION(FOR_DIFF | FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_LINK | FOR_OPEN | FOR_VIEW | FOR_VERIFY, "work", 0, "N", read_amount, work, "limit each frame to N units of work (default: 1G, about 10 s)")
 OPTION(FOR_DIFF | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "neighbours", 0, "WHEN", ONE_OF(read_choice, "auto", "never", "always"), neighbours, "use neighbour lists: auto, never or always; does not change results")
 OPTION(FOR_TEST, "neighbours", 0, "WHEN", read_text, as_neighbours, "run all scripts with --neighbours WHEN")
 OPTION(FOR_DIFF | FOR_TEST | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "nosimplify", 0, NULL, read_flag, unsimplified, "evaluate the whole script in every frame, without simplifying it; does not change results")
@@ -136,8 +140,13 @@ OPTION(FOR_DIFF | FOR_TEST | FOR_RUN, "no-batches", 0, NULL, read_flag, no_batch
 OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "show the picture in the terminal for 10 seconds, or for the length that --runtime or --frames sets; ignored without a terminal or with text output such as --print")
 OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "print timings and each system's energy at the end")
 OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write all particles to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state, append to FILE")
+OPTION(FOR_RUN, "archive", 0, "FILE", read_text, archive, "write an archive of the run, which 'petri verify' can verify, to FILE.petri")
+OPTION(FOR_RUN, "keyframe-every", 0, "N", WHOLE(1, INT64_MAX - 1), keyframe_every, "store the state in the archive every N frames (default: 1000)")
+OPTION(FOR_RUN, "digest-every", 0, "K", WHOLE(1, INT64_MAX - 1), digest_every, "store a digest of every K-th frame in the archive (default: 1)")
+OPTION(FOR_VERIFY, "sample", 0, "K", WHOLE(1, INT64_MAX), sample_segments, "verify only K segments, chosen at random")
+OPTION(FOR_VERIFY, "threads", 0, "N", WHOLE(1, 1024), threads, "verify N segments at a time (default: number of CPUs)")
 OPTION(FOR_RUN | FOR_GOLDEN, "profile", 0, NULL, read_flag, profile, "print the time per source line, slowest first")
-OPTION(FOR_DIFF | FOR_CHECK | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_LINK | FOR_OPEN | FOR_VIEW, "quiet", 0, NULL, VERBOSITY(LOG_QUIET), verbosity, "report only errors")
+OPTION(FOR_DIFF | FOR_CHECK | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_LINK | FOR_OPEN | FOR_VIEW | FOR_VERIFY, "quiet", 0, NULL, VERBOSITY(LOG_QUIET), verbosity, "report only errors")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "verbose", 0, NULL, VERBOSITY(LOG_VERBOSE), verbosity, "also report a summary at the end")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "debug", 0, NULL, VERBOSITY(LOG_DEBUG), verbosity, "also report the time that each printed frame took")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "trace", 0, NULL, VERBOSITY(LOG_TRACE), verbosity, "also report the time that every frame took")

@@ -1,5 +1,6 @@
 // run.c: `petri run`, which runs frames without drawing them and prints the requested results.
 #include "base/clock.h"
+#include "cli/archive.h"
 #include "cli/helper_exec.h"
 #include "cli/memory.h"
 #include "cli/output.h"
@@ -26,6 +27,7 @@ typedef struct Run {
     bool truncated;      // true if the output of a frame is incomplete
     Stats stats;
     Trajectory trajectory;
+    Archiving archiving; // the archive of the run
     Output output;
 } Run;
 
@@ -92,6 +94,7 @@ static bool run_frame(Run *run) {
     report_frame(run, &frame, printed);
     if (!run->truncated)
         frames_save_state(&run->frames);
+    archiving_check(&run->archiving);
     return !run->truncated;
 }
 
@@ -181,6 +184,8 @@ static int list_parameters(Run *run) {
 
 static int run_session(Run *run) {
     const Options *options = run->frames.options;
+    if (!archiving_begin(&run->archiving, options, "run", run->frames.session))
+        return STATUS_FAILED;
     if (!frames_load(&run->frames))
         return run->frames.invalid_definition ? STATUS_USAGE : STATUS_FAILED;
     if (options->parameters)
@@ -275,7 +280,7 @@ static bool check_rank_options(const PetriRanks *ranks, Options *options) {
         return false;
     }
     if (ranks->rank > 0) { // only rank 0 writes output
-        options->trajectory = NULL;
+        options->trajectory = options->archive = NULL;
         options->sections = 0;
     }
     return true;
@@ -294,6 +299,8 @@ static int run_run(const CommandContext *host, Options *options) {
         exec_view(options, host);
     if (status == OPTIONS_READ)
         status = output_finish(&run.output, run_session(&run));
+    if (!archiving_end(&run.archiving) && status == STATUS_DONE)
+        status = STATUS_FAILED;
     petri_close(&run.frames.session);
     return status;
 }

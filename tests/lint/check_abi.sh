@@ -31,7 +31,7 @@ check() {
 # can_draw LIBRARY: succeeds if it was built with Cairo and OpenGL.
 can_draw() { [ "$(nm -D "$1" | grep -c -e ' U cairo_create$' -e ' U epoxy_eglBindAPI$')" -eq 2 ]; }
 
-grep -v -e '^petri-draw ' -e '^#' "$listed" | sed 's/.* //' | sort >"$scratch/petri"
+grep -v -e '^petri-draw ' -e '^petri-archive ' -e '^#' "$listed" | sed 's/.* //' | sort >"$scratch/petri"
 sed -n "s/^petri-draw //p" "$listed" | sort >"$scratch/draw"
 check petri lib/session/libpetri.so -D
 check draw lib/draw/libpetri-draw.so -D
@@ -49,7 +49,7 @@ if [ -e lib/draw/libpetri-draw.so ]; then
     fi
 fi
 
-for header in petri petri-draw petri-edit petri-inspect petri-live petri-ranks; do
+for header in petri petri-archive petri-draw petri-edit petri-inspect petri-live petri-ranks; do
     awk 'match($0, /[ *]petri_[a-z_]+\(/) && /^PETRI_API/ { print substr($0, RSTART + 1, RLENGTH - 2) }' \
         "$headers/$header.h" | sort >"$scratch/declared"
     grep "^$header " "$listed" | sed 's/.* //' | sort >"$scratch/wanted"

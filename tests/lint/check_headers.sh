@@ -22,6 +22,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
         pkg-config --exists hdf5 2>/dev/null || continue
         isa=$(pkg-config --cflags hdf5)
         ;;
+    lib/recording/archive.h) pkg-config --exists sqlite3 2>/dev/null || continue ;;
     lib/gl/internal.h) pkg-config --exists epoxy 2>/dev/null || continue ;;
     esac
     # The header is included in another file, because compilers report unused definitions in the main file.
@@ -36,7 +37,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
 done
 
 if command -v "${CXX:-c++}" >/dev/null 2>&1; then
-    printf '#include "petri-draw.h"\n#include "petri-edit.h"\n#include "petri-inspect.h"\n#include "petri-live.h"\n#include "petri-ranks.h"\nint main() { return petri_version() == nullptr || petri_picture_can_save(""); }\n' >"$scratch/alone.cc"
+    printf '#include "petri-archive.h"\n#include "petri-draw.h"\n#include "petri-edit.h"\n#include "petri-inspect.h"\n#include "petri-live.h"\n#include "petri-ranks.h"\nint main() { return petri_version() == nullptr || petri_picture_can_save(""); }\n' >"$scratch/alone.cc"
     if ! "${CXX:-c++}" -std=c++17 -fsyntax-only -Wall -Wextra -Werror -Ilib/include "$scratch/alone.cc"; then
         echo "a public header does not compile as C++"
         faults=1

@@ -5,7 +5,7 @@ set -eu
 cd "$1/lib/include"
 grep -q "^// - Only one thread at a time may use a session" petri.h
 grep -q 'take no handle may be called by any thread' petri.h
-for header in petri petri-edit petri-ranks petri-draw; do
+for header in petri petri-edit petri-ranks petri-archive petri-draw; do
     awk -v header=$header.h '
         function fault(what) {
             print header ":" FNR ": " name " " what

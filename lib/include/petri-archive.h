@@ -1,0 +1,146 @@
+// petri-archive.h: archives of runs. An archive is a file from which anyone can replay, continue and verify a run.
+//
+// An archive is an SQLite database with everything that determines a run: files, parameters, inputs, and complete
+// states (keyframes) from time to time. It also has a digest of each frame, so that a replay can be compared with the
+// original run. src/archive/README.md describes its tables. The rules of petri.h apply.
+//
+// Archives need SQLite. In a build without it, petri_archive_problem returns this reason for each archive.
+#ifndef PETRI_ARCHIVE_H
+#define PETRI_ARCHIVE_H
+
+#include "petri.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// An archive that is written or read. Created by petri_archive_create or petri_archive_open, freed by
+// petri_archive_close. Only one thread at a time may use an archive together with its session.
+typedef struct PetriArchive PetriArchive;
+
+// Options of a new archive. Start with petri_archive_default_options.
+typedef struct PetriArchiveOptions {
+    size_t size;            // sizeof(PetriArchiveOptions)
+    int64_t keyframe_every; // number of frames from one keyframe to the next. Default 1000
+    int64_t digest_every;   // number of frames from one digest to the next. Default 1
+    const char *command;    // command line that created the archive; NULL (the default): not stored
+} PetriArchiveOptions;
+
+// Writes the default options to the first `size` bytes of `options`. Use petri_archive_default_options instead.
+PETRI_API void petri_archive_options_init(PetriArchiveOptions *options, size_t size);
+
+// Returns the default options.
+static inline PetriArchiveOptions petri_archive_default_options(void) {
+    PetriArchiveOptions options;
+    petri_archive_options_init(&options, sizeof options);
+    return options;
+}
+
+// Creates an archive and records the session in it from the next frame on. Call it before petri_load, so that the
+// archive also has the script's files. Replaces an existing archive, but no other file. Check petri_archive_problem
+// after the call, and when you want to know if recording has stopped, for example because the disk is full. The
+// session is not affected by such problems. Returns NULL if out of memory. Free it with petri_archive_close before
+// the session. Host functions (petri_add_function) cannot be recorded.
+PETRI_API PetriArchive *petri_archive_create(PetriSession *session, const char *file,
+                                             const PetriArchiveOptions *options);
+
+// Returns true if a file starts like an archive. Needs no SQLite.
+PETRI_API bool petri_archive_is(const char *file);
+
+// Opens an archive to read it. Reads at most `memory_limit` bytes of its files; 0: 2 GiB. Check petri_archive_problem
+// after the call. Returns NULL if out of memory. Free it with petri_archive_close.
+PETRI_API PetriArchive *petri_archive_open(const char *file, size_t memory_limit);
+
+// Closes an archive and sets the handle to NULL. NULL handles are ignored. A written archive is completed: its session
+// must still be open. An archive that was read must be closed after the sessions that replay it.
+PETRI_API void petri_archive_close(PetriArchive **archive);
+
+// Returns the first problem of an archive, or NULL if there is none: why it cannot be read or written any more, or
+// which table and row is damaged. Valid until the archive is closed.
+PETRI_API const char *petri_archive_problem(const PetriArchive *archive);
+
+// Adds a note to an archive that is written. Returns PETRI_INVALID if it cannot be written.
+PETRI_API PetriStatus petri_archive_add_note(PetriArchive *archive, const char *text);
+
+// Contents of an archive.
+typedef struct PetriArchiveInfo {
+    size_t size;         // number of bytes of the struct that are filled
+    const char *script;  // file name of the first script
+    const char *command; // command line that created the archive; "": unknown
+    const char *version; // version of petri that created the archive
+    int64_t first_frame; // first recorded frame
+    int64_t last_frame;  // last recorded frame; less than first_frame: none
+    int64_t keyframes;
+    int64_t digests;
+    int64_t inputs;
+    int64_t files;          // versions of files
+    int64_t file_bytes;     // total size of these files
+    int64_t sealed_frame;   // frame of the last keyframe, up to which `sha256` covers the archive
+    const char *sha256;     // digest of the run, in hexadecimal digits
+    int64_t digest_every;   // number of frames from one digest to the next
+    int64_t keyframe_every; // number of frames from one keyframe to the next
+} PetriArchiveInfo;
+
+// Gets the contents of an archive that was opened. The strings are valid until the archive is closed. Returns false if
+// the archive cannot be read.
+PETRI_API bool petri_archive_info(PetriArchive *archive, PetriArchiveInfo *info, size_t size);
+
+// A version of a file in an archive.
+typedef struct PetriArchiveFile {
+    size_t size;      // number of bytes of the struct that are filled
+    const char *name; // relative to the script's folder
+    int64_t frame;    // first frame that used this version
+    const char *sha256;
+    const char *bytes; // NULL: from this frame on, there was no such file
+    size_t length;
+} PetriArchiveFile;
+
+// Gets a version of a file by number, in the order in which they were read. Returns false past the last, or if the
+// archive cannot be read. The pointers are valid until the archive is closed.
+PETRI_API bool petri_archive_file(PetriArchive *archive, size_t number, PetriArchiveFile *file, size_t size);
+
+// Gets a parameter of the first script, by number. Returns false past the last. The strings are valid until the next
+// call of this function.
+PETRI_API bool petri_archive_parameter(PetriArchive *archive, size_t number, const char **name, const char **value);
+
+// A keyframe of an archive.
+typedef struct PetriArchiveKeyframe {
+    size_t size; // number of bytes of the struct that are filled
+    int64_t frame;
+    // True if the host set this state, so that it does not follow from earlier frames. This is the case for the first
+    // keyframe, and after petri_reset, petri_rewind and petri_restore.
+    bool given;
+    int64_t end; // last recorded frame before the next keyframe, or that keyframe's frame
+} PetriArchiveKeyframe;
+
+// Gets a keyframe by number. Returns false past the last, or if the archive cannot be read.
+PETRI_API bool petri_archive_keyframe(PetriArchive *archive, size_t number, PetriArchiveKeyframe *keyframe,
+                                      size_t size);
+
+// Gets the recorded digest of a frame (petri_digest). Returns false if there is none.
+PETRI_API bool petri_archive_digest(PetriArchive *archive, int64_t frame, uint8_t digest[16]);
+
+// Provides the files of an archive: set PetriOptions.read_file to this function and read_user_data to the archive.
+// Returns the version of a file that the next frame of the replay uses, or NULL. Valid until the archive is closed.
+PETRI_API const char *petri_archive_read(void *archive, const char *name, size_t *length);
+
+// Replays an archive in a session that was opened for it (petri_archive_read) and has no script yet. Loads the nearest
+// keyframe at or before `frame`, then computes the frames up to `frame`; -1 only loads the first keyframe. After that,
+// petri_step computes the recorded frames with their recorded inputs and times. After the last recorded frame, the run
+// continues without recorded input. Returns PETRI_INVALID, with petri_archive_problem or a diagnostic, if the archive
+// is damaged, and otherwise the statuses of petri_step. Call it again to go to another frame.
+PETRI_API PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, int64_t frame);
+
+// Returns true if the current frame of a replay has a keyframe with another state. Returns false if it has no keyframe,
+// or if the keyframe's state was given.
+PETRI_API bool petri_archive_keyframe_differs(PetriArchive *archive);
+
+// Checks that an archive is not damaged: reads all rows and computes the digest of the run again. Returns
+// PETRI_INVALID, with petri_archive_problem, if it is damaged.
+PETRI_API PetriStatus petri_archive_check(PetriArchive *archive);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

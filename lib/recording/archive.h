@@ -1,0 +1,143 @@
+// archive.h: internal declarations of archives; petri-archive.h is their public interface.
+#pragma once
+
+#include "base/sha256.h"
+#include "base/str.h"
+#include "petri-archive.h"
+#include "recording/recognise.h"
+#include "session/recorder.h"
+
+#include <pthread.h>
+#include <sqlite3.h>
+
+#define ARCHIVE_FORMAT 1      // user version of the database
+#define ARCHIVE_SEMANTICS "1" // changes if a new version of petri computes other results
+#define ARCHIVE_MAX_FRAME INT64_C(100000000000000000)
+
+// Statements, which are prepared when they are used first (database.c).
+typedef enum ArchiveStatement {
+    SQL_ADD_META,
+    SQL_ADD_PARAMETER,
+    SQL_ADD_FILE,
+    SQL_ADD_INPUT,
+    SQL_ADD_DIGEST,
+    SQL_ADD_KEYFRAME,
+    SQL_ADD_NOTE,
+    SQL_META,
+    SQL_PARAMETERS,
+    SQL_PARAMETER,
+    SQL_FILES,
+    SQL_FILE_BYTES,
+    SQL_FILES_BETWEEN,
+    SQL_INPUTS,
+    SQL_INPUTS_BETWEEN,
+    SQL_NOTES_BETWEEN,
+    SQL_DIGEST,
+    SQL_DIGESTS_BETWEEN,
+    SQL_KEYFRAMES,
+    SQL_KEYFRAME,
+    SQL_LAST_KEYFRAME,
+    SQL_LAST_RECORDED,
+    SQL_COUNT_INPUTS,
+    SQL_COUNT_DIGESTS,
+    SQL_COUNT,
+} ArchiveStatement;
+
+// A version of a file. `bytes` are read when they are requested, and are then kept.
+typedef struct ArchiveFile {
+    int64_t id;
+    int64_t frame;
+    char *name;
+    char sha256[SHA256_DIGITS + 1]; // empty: the file was removed
+    size_t length;
+    char *bytes; // NULL: not read yet
+} ArchiveFile;
+
+typedef struct ArchiveKeyframe {
+    int64_t frame;
+    bool given;
+} ArchiveKeyframe;
+
+struct PetriArchive {
+    sqlite3 *database;
+    sqlite3_stmt *statements[SQL_COUNT];
+    char problem[256]; // empty: none
+    PetriSession *session;
+    ArchiveFile *files; // in the order of their ids
+    uint32_t file_count;
+    uint32_t file_capacity;
+    // Writing
+    PetriArchiveOptions options;
+    bool writes;
+    bool needs_keyframe;   // the next frame does not follow from the last one
+    bool in_frame;         // the frame after last_frame is being computed
+    bool has_new_notes;    // there are notes since the last frame
+    bool mentions_clock;   // a script may use `clock`
+    uint64_t revision;     // revision of the configuration that was recorded last
+    int64_t last_frame;    // last recorded frame; -2: none
+    int64_t last_keyframe; // -2: none
+    bool state_modified;   // the host has modified the state since the last frame
+    double last_commit;    // times of the monotonic clock in seconds
+    double last_frame_end; // 0: no frame yet
+    // Reading
+    pthread_mutex_t mutex; // for petri_archive_read, which threads that draw can call
+    size_t memory_limit;
+    size_t memory; // size of the files that are in memory
+    ArchiveKeyframe *keyframes;
+    uint32_t keyframe_count;
+    uint32_t keyframe_capacity;
+    int64_t recorded_end; // last recorded frame; less than 0: none
+    int64_t replay_start; // keyframe from which the replay has started
+    int64_t replay_frame; // frame that is replayed; selects versions of files
+    char *strings[8];     // results of petri_archive_info and petri_archive_parameter
+};
+
+// database.c: the database, its statements and its rows.
+
+// Records the first problem. Returns false.
+bool archive_fail(PetriArchive *archive, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool archive_fails(const PetriArchive *archive);
+// Records the problem that SQLite reports. Returns false.
+bool archive_fail_sqlite(PetriArchive *archive, int result);
+PetriArchive *archive_new(void);
+void archive_free(PetriArchive *archive);
+bool archive_create_database(PetriArchive *archive, const char *file);
+bool archive_open_database(PetriArchive *archive, const char *file);
+bool archive_execute(PetriArchive *archive, const char *sql);
+// Returns a statement, ready for binding. Returns NULL after a problem.
+sqlite3_stmt *archive_statement(PetriArchive *archive, ArchiveStatement number);
+// Goes to the next row of a query. Returns false at the end or after a problem.
+bool archive_next(PetriArchive *archive, sqlite3_stmt *statement);
+// Executes a statement that returns no rows, unless it is NULL. Returns false after a problem.
+bool archive_run(PetriArchive *archive, sqlite3_stmt *statement);
+bool archive_bind_text(sqlite3_stmt *statement, int column, Str text);
+// Columns of the current row. If the value has the wrong type, they record a problem and return false.
+bool archive_column_integer(PetriArchive *archive, sqlite3_stmt *row, int column, int64_t min, int64_t max, int64_t *x);
+bool archive_column_text(PetriArchive *archive, sqlite3_stmt *row, int column, Str *text);
+bool archive_column_blob(PetriArchive *archive, sqlite3_stmt *row, int column, Str *bytes);
+
+// write.c: completes an archive that is written.
+void archive_complete(PetriArchive *archive);
+
+// files.c: the versions of files.
+
+// Adds a version to the list. Copies the name. Returns NULL after a problem.
+ArchiveFile *archive_add_file(PetriArchive *archive, int64_t id, int64_t frame, Str name);
+// Returns the last version of a file at or before `frame`, or NULL.
+ArchiveFile *archive_find_file(const PetriArchive *archive, Str name, int64_t frame);
+// Reads the list of the files. Returns false after a problem.
+bool archive_read_files(PetriArchive *archive);
+// Reads the bytes of a file and checks them. Returns false after a problem.
+bool archive_load_file(PetriArchive *archive, ArchiveFile *file);
+
+// chain.c: the digest of a run. Computes the digest of the keyframe `frame`, which covers all rows after the frame
+// `previous` (the keyframe before it; -2: none) and the digest of that keyframe. Returns false after a problem.
+typedef struct ArchiveSeal {
+    int64_t previous;
+    const char *previous_sha256; // 64 digits; NULL: none
+    int64_t frame;
+    bool given;
+    Str setup;
+    Str state;
+} ArchiveSeal;
+bool archive_seal(PetriArchive *archive, const ArchiveSeal *seal, char sha256[SHA256_DIGITS]);

@@ -1,0 +1,248 @@
+// replay.c: replays of archives, and checks for damage.
+#include "base/heap.h"
+#include "base/number.h"
+#include "recording/archive.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+static PetriStatus fail(PetriArchive *archive) {
+    return archive_fails(archive) ? PETRI_INVALID : PETRI_OK;
+}
+
+// A keyframe that was read. Its texts are copies, because the session can read further rows while it uses them.
+typedef struct KeyframeTexts {
+    char *setup;
+    char *state;
+    Str setup_text;
+    Str state_text;
+    char sha256[SHA256_DIGITS];
+} KeyframeTexts;
+
+static void free_keyframe(KeyframeTexts *texts) {
+    heap_free(texts->setup);
+    heap_free(texts->state);
+    *texts = (KeyframeTexts){0};
+}
+
+// Reads a keyframe, which the caller frees. Returns false after a problem.
+static bool read_keyframe(PetriArchive *archive, int64_t frame, KeyframeTexts *texts) {
+    Str setup, state, sha256;
+    *texts = (KeyframeTexts){0};
+    sqlite3_stmt *row = archive_statement(archive, SQL_KEYFRAME);
+    if (row)
+        sqlite3_bind_int64(row, 1, frame);
+    if (!archive_next(archive, row))
+        return archive_fail(archive, "the archive is damaged: table keyframe: row %" PRId64 " is missing", frame);
+    if (!archive_column_text(archive, row, 0, &setup) || !archive_column_text(archive, row, 1, &state) ||
+        !archive_column_text(archive, row, 2, &sha256))
+        return false;
+    if (sha256.len != SHA256_DIGITS)
+        return archive_fail(archive, "the archive is damaged: table keyframe: row %" PRId64 " is not valid", frame);
+    memcpy(texts->sha256, sha256.bytes, SHA256_DIGITS);
+    texts->setup = heap_strndup(setup.bytes, setup.len);
+    texts->state = heap_strndup(state.bytes, state.len);
+    texts->setup_text = (Str){texts->setup, setup.len};
+    texts->state_text = (Str){texts->state, state.len};
+    sqlite3_reset(row);
+    if (texts->setup && texts->state)
+        return true;
+    free_keyframe(texts);
+    return archive_fail(archive, "out of memory");
+}
+
+static PetriStatus restore_keyframe(PetriArchive *archive, PetriSession *session, int64_t frame) {
+    KeyframeTexts texts;
+    archive->replay_frame = frame + 1;
+    if (!read_keyframe(archive, frame, &texts))
+        return PETRI_INVALID;
+    PetriStatus status = recorder_restore(session, texts.setup_text, texts.state_text);
+    free_keyframe(&texts);
+    if (status == PETRI_OK && petri_frame_number(session) != frame)
+        status = PETRI_INVALID;
+    if (status == PETRI_INVALID)
+        archive_fail(archive, "the archive is damaged: table keyframe: row %" PRId64 " is not valid", frame);
+    return status;
+}
+
+static const ArchiveKeyframe *find_keyframe(const PetriArchive *archive, int64_t frame) {
+    const ArchiveKeyframe *found = archive->keyframe_count > 0 ? &archive->keyframes[0] : NULL;
+    for (uint32_t i = 0; i < archive->keyframe_count && archive->keyframes[i].frame <= frame; i++)
+        found = &archive->keyframes[i];
+    return found;
+}
+
+// --- frames
+
+// Reads the numbers of a recorded clock, separated by semicolons.
+static bool read_clock(Str text, FrameClock *clock) {
+    double numbers[7];
+    for (size_t i = 0, at = 0; i < 7; i++) {
+        size_t end = at;
+        while (end < text.len && text.bytes[end] != ';')
+            end++;
+        char digits[NUMBER_TEXT];
+        if (end == at || end - at >= sizeof digits || (i == 6) != (end == text.len))
+            return false;
+        memcpy(digits, text.bytes + at, end - at);
+        digits[end - at] = '\0';
+        if (digits[strspn(digits, "0123456789+-.e")] != '\0')
+            return false;
+        numbers[i] = number_parse((Str){digits, end - at});
+        if (!isfinite(numbers[i]))
+            return false;
+        at = end + 1;
+    }
+    *clock = (FrameClock){.time = numbers[0],
+                          .beat = numbers[1],
+                          .performance = numbers[2],
+                          .slow_frame = numbers[3] != 0,
+                          .realtime = numbers[4] != 0,
+                          .is_base = numbers[5] != 0,
+                          .unix_time = numbers[6]};
+    return true;
+}
+
+// Gives the inputs of a frame to the session.
+static PetriStatus apply_inputs(PetriArchive *archive, int64_t frame, FrameClock *clock) {
+    Str kind, payload;
+    sqlite3_stmt *rows = archive_statement(archive, SQL_INPUTS);
+    if (rows)
+        sqlite3_bind_int64(rows, 1, frame);
+    while (archive_next(archive, rows)) {
+        if (!archive_column_text(archive, rows, 0, &kind) || !archive_column_text(archive, rows, 1, &payload))
+            return PETRI_INVALID;
+        PetriStatus status = str_equal(kind, STR("clock")) ? read_clock(payload, clock) ? PETRI_OK : PETRI_INVALID
+                                                           : recorder_apply_input(archive->session, kind, payload);
+        if (status == PETRI_INVALID)
+            archive_fail(archive, "the archive is damaged: table input: a row of frame %" PRId64 " is not valid",
+                         frame);
+        if (status != PETRI_OK)
+            return status;
+    }
+    return fail(archive);
+}
+
+static PetriStatus before_frame(void *user_data, FrameClock *clock, bool *has_clock) {
+    PetriArchive *archive = user_data;
+    int64_t frame = petri_frame_number(archive->session);
+    const ArchiveKeyframe *keyframe = find_keyframe(archive, frame);
+    if (archive_fails(archive))
+        return PETRI_INVALID;
+    if (keyframe && keyframe->given && keyframe->frame == frame && frame != archive->replay_start) {
+        PetriStatus status = restore_keyframe(archive, archive->session, frame);
+        if (status != PETRI_OK)
+            return status;
+        archive->replay_start = frame;
+    }
+    archive->replay_frame = frame + 1;
+    if (frame >= archive->recorded_end)
+        return PETRI_OK; // the run continues after its recorded frames
+    *clock = (FrameClock){.lockstep = true};
+    *has_clock = true;
+    return apply_inputs(archive, frame + 1, clock);
+}
+
+PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, int64_t frame) {
+    if (!archive || !session || archive->writes || archive_fails(archive))
+        return PETRI_INVALID;
+    const ArchiveKeyframe *keyframe = find_keyframe(archive, frame);
+    if (!keyframe) {
+        archive_fail(archive, "the archive has no frames");
+        return PETRI_INVALID;
+    }
+    recorder_set(session, NULL);
+    archive->session = session;
+    archive->replay_start = keyframe->frame;
+    PetriStatus status = restore_keyframe(archive, session, keyframe->frame);
+    recorder_set(session, &(Recorder){.user_data = archive, .before_frame = before_frame});
+    while (status == PETRI_OK && petri_frame_number(session) < frame)
+        status = petri_step(session);
+    return status;
+}
+
+bool petri_archive_keyframe_differs(PetriArchive *archive) {
+    PetriSession *session = archive ? archive->session : NULL;
+    KeyframeTexts texts;
+    Str setup, state;
+    int64_t frame = petri_frame_number(session);
+    const ArchiveKeyframe *keyframe = session && !archive->writes ? find_keyframe(archive, frame) : NULL;
+    if (!keyframe || keyframe->given || keyframe->frame != frame || !read_keyframe(archive, frame, &texts))
+        return false;
+    // Inputs that followed the last frame can have changed the setup of the last keyframe.
+    bool last = keyframe == &archive->keyframes[archive->keyframe_count - 1];
+    bool same = recorder_write_setup(session, &setup) == PETRI_OK &&
+                recorder_write_state(session, &state) == PETRI_OK && (last || str_equal(setup, texts.setup_text)) &&
+                str_equal(state, texts.state_text);
+    free_keyframe(&texts);
+    return !same;
+}
+
+// --- checks
+
+// Computes the digest of each keyframe again. Returns false after a problem.
+static bool check_seals(PetriArchive *archive) {
+    char sha256[SHA256_DIGITS], previous[SHA256_DIGITS];
+    ArchiveSeal seal = {.previous = -2};
+    for (uint32_t i = 0; i < archive->keyframe_count; i++) {
+        KeyframeTexts texts;
+        seal.frame = archive->keyframes[i].frame;
+        seal.given = archive->keyframes[i].given;
+        if (!read_keyframe(archive, seal.frame, &texts))
+            return false;
+        seal.setup = texts.setup_text;
+        seal.state = texts.state_text;
+        bool good = archive_seal(archive, &seal, sha256), same = memcmp(sha256, texts.sha256, SHA256_DIGITS) == 0;
+        memcpy(previous, texts.sha256, SHA256_DIGITS);
+        free_keyframe(&texts);
+        if (!good)
+            return false;
+        if (!same)
+            return archive_fail(archive,
+                                "the archive is damaged: table keyframe: row %" PRId64 " has another SHA-256 than the "
+                                "rows after frame %" PRId64 " up to it",
+                                seal.frame, seal.previous < 0 ? 0 : seal.previous);
+        seal.previous = seal.frame;
+        seal.previous_sha256 = previous;
+    }
+    return true;
+}
+
+// Checks the rows after the last keyframe, which no digest of the run covers.
+static bool check_rest(PetriArchive *archive) {
+    char sha256[SHA256_DIGITS], previous[SHA256_DIGITS] = "";
+    int64_t last = archive->keyframe_count > 0 ? archive->keyframes[archive->keyframe_count - 1].frame : -2;
+    ArchiveSeal rest = {.previous = last, .previous_sha256 = previous, .frame = INT64_MAX};
+    return archive_seal(archive, &rest, sha256);
+}
+
+static bool check_pages(PetriArchive *archive) {
+    sqlite3_stmt *statement = NULL;
+    int result = sqlite3_prepare_v2(archive->database, "PRAGMA integrity_check(1)", -1, &statement, NULL);
+    if (result == SQLITE_OK)
+        result = sqlite3_step(statement);
+    const char *text = result == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+    bool good = text && strcmp(text, "ok") == 0;
+    if (!good)
+        archive_fail(archive, "the archive is damaged: %s", text ? text : sqlite3_errstr(result));
+    sqlite3_finalize(statement);
+    return good;
+}
+
+PetriStatus petri_archive_check(PetriArchive *archive) {
+    if (!archive || archive->writes || archive_fails(archive) || !check_pages(archive))
+        return PETRI_INVALID;
+    for (uint32_t i = 0; i < archive->file_count; i++) {
+        ArchiveFile *file = &archive->files[i];
+        bool loaded = file->bytes;
+        if (!archive_load_file(archive, file))
+            return PETRI_INVALID;
+        if (loaded || !file->bytes)
+            continue;
+        archive->memory -= file->length; // a replay reads the file again if it needs it
+        heap_free(file->bytes);
+        file->bytes = NULL;
+    }
+    return check_seals(archive) && check_rest(archive) ? PETRI_OK : PETRI_INVALID;
+}

@@ -1,0 +1,84 @@
+// verify.c: `petri verify`, which computes a run again and compares it with its archive.
+#include "archive/open.h"
+#include "archive/segments.h"
+#include "base/clock.h"
+#include "cli/memory.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+static void print_difference(const Verification *verification, Output *output) {
+    const SegmentResult *found = &verification->result;
+    output_format(output, "frame %" PRId64 " differs\n", found->frame);
+    if (found->has_digests)
+        output_format(output, "- digest %s  (archive)\n+ digest %s  (computed)\n", found->digests[0],
+                      found->digests[1]);
+    if (found->details.len > 0)
+        output_write(output, found->details.bytes, found->details.len);
+}
+
+static void print_success(const Verification *verification, const PetriArchiveInfo *info, Output *output) {
+    output_format(output, "verified: %" PRId64 " of %" PRId64 " frames, %zu of %zu segments", verification->frames,
+                  info->last_frame - info->first_frame + 1, verification->chosen, verification->count);
+    if (verification->given > 1)
+        output_format(output, "; %zu states were given, not computed", verification->given - 1);
+    output_format(output, "\ndigest %s%s\n", info->sha256,
+                  info->sealed_frame < info->last_frame ? " (does not cover the last frames)" : "");
+}
+
+static int verify_archive(const CommandContext *context, const Options *options, PetriArchive *archive,
+                          Output *output) {
+    PetriArchiveInfo info;
+    if (petri_archive_check(archive) != PETRI_OK || !petri_archive_info(archive, &info, sizeof info)) {
+        archive_report_problem(archive, options->script);
+        return STATUS_DAMAGED;
+    }
+    if (info.keyframes == 0) {
+        message("cannot verify '%s': it has no frames", options->script);
+        return STATUS_DAMAGED;
+    }
+    Verification verification = {.context = context, .options = options, .file = options->script};
+    segments_choose(&verification, archive, options->sample_segments);
+    bool done = segments_verify(&verification);
+    int status = STATUS_DAMAGED;
+    if (done && verification.differs)
+        print_difference(&verification, output);
+    else if (done)
+        print_success(&verification, &info, output);
+    if (done)
+        status = verification.differs ? STATUS_FAILED : STATUS_DONE;
+    segments_free(&verification);
+    return status;
+}
+
+static int verify_run(const CommandContext *context, Options *options) {
+    Output output;
+    PetriArchive *archive = archive_open(options, options->script);
+    if (!archive)
+        return STATUS_DAMAGED;
+    output_start(&output, STDOUT_FILENO);
+    int status = verify_archive(context, options, archive, &output);
+    petri_archive_close(&archive);
+    return output_finish(&output, status);
+}
+
+const Command VERIFY_COMMAND = {
+    .name = "verify",
+    .operands = "RUN.petri",
+    .summary = "compute an archived run again and compare every frame",
+    .details =
+        "Checks that an archive is not damaged, computes its run again and compares all recorded digests and states.\n"
+        "The frames between two keyframes are a segment; segments are verified in parallel. Exits with 0 if the run\n"
+        "is verified, 1 if a frame differs, and 2 if the archive is damaged or was made by a newer version of petri.",
+    .examples = "  petri run dish.fl --archive run.petri    write an archive\n"
+                "  petri verify run.petri                   verify all frames\n"
+                "  petri verify run.petri --sample 5        verify five random segments\n",
+    .missing_operand = "no archive given",
+    .no_stdin = "cannot read an archive from standard input; give a file",
+    .second_operand_error = "too many arguments: '%s'; petri verify takes one archive",
+    .options = FOR_VERIFY,
+    .run = verify_run,
+};

@@ -1,0 +1,265 @@
+// test_recording_replay.c: tests that replays of archives compute the recorded frames.
+#include "run.h"
+
+static uint8_t recorded[RUN_FRAMES][RUN_DIGEST];
+
+static void check_frame(PetriSession *session, int frame) {
+    uint8_t digest[RUN_DIGEST];
+    assert_int_equal(petri_frame_number(session), frame);
+    assert_int_equal(petri_digest(session, digest), PETRI_OK);
+    if (memcmp(digest, recorded[frame], RUN_DIGEST) != 0)
+        fail_msg("frame %d differs from the recording", frame);
+}
+
+static PetriArchive *open_archive(const char *file) {
+    PetriArchive *archive = petri_archive_open(file, 0);
+    assert_non_null(archive);
+    if (petri_archive_problem(archive))
+        fail_msg("%s", petri_archive_problem(archive));
+    return archive;
+}
+
+static int record(void **state) {
+    (void)state;
+    if (enter_folder() != 0)
+        return -1;
+    run_write_files();
+    run_record("run.petri", RUN_FRAMES, recorded);
+    // A replay needs none of the files.
+    return remove("run.fl") | remove("part.fl") | remove("module.fl") | remove("data.csv") | remove("more.csv");
+}
+
+static void test_replay_computes_recorded_frames(void **state) {
+    (void)state;
+    PetriArchive *archive = open_archive("run.petri");
+    PetriSession *session = run_open_replay(archive);
+    assert_int_equal(petri_archive_replay(archive, session, -1), PETRI_OK);
+    for (int i = 0; i < RUN_FRAMES; i++) {
+        assert_int_equal(petri_step(session), PETRI_OK);
+        check_frame(session, i);
+        assert_false(petri_archive_keyframe_differs(archive));
+    }
+    assert_int_equal(petri_step(session), PETRI_OK); // continues after the recorded frames
+    petri_close(&session);
+    petri_archive_close(&archive);
+}
+
+static void test_replay_starts_at_any_frame(void **state) {
+    (void)state;
+    PetriArchive *archive = open_archive("run.petri");
+    for (int from = 0; from < RUN_FRAMES; from++) {
+        PetriSession *session = run_open_replay(archive);
+        assert_int_equal(petri_archive_replay(archive, session, from), PETRI_OK);
+        check_frame(session, from);
+        for (int i = from + 1; i < RUN_FRAMES && i < from + 4; i++) {
+            assert_int_equal(petri_step(session), PETRI_OK);
+            check_frame(session, i);
+        }
+        petri_close(&session);
+    }
+    petri_archive_close(&archive);
+}
+
+static void test_replay_goes_to_other_frames(void **state) {
+    (void)state;
+    PetriArchive *archive = open_archive("run.petri");
+    PetriSession *session = run_open_replay(archive);
+    const int frames[] = {35, 4, 59, 44, 45, 0, 29};
+    for (size_t i = 0; i < sizeof frames / sizeof frames[0]; i++) {
+        assert_int_equal(petri_archive_replay(archive, session, frames[i]), PETRI_OK);
+        check_frame(session, frames[i]);
+    }
+    petri_close(&session);
+    petri_archive_close(&archive);
+}
+
+static void test_archive_is_intact(void **state) {
+    (void)state;
+    PetriArchive *archive = open_archive("run.petri");
+    PetriArchiveInfo info;
+    const char *name, *value;
+    if (petri_archive_check(archive) != PETRI_OK)
+        fail_msg("%s", petri_archive_problem(archive));
+    assert_true(petri_archive_info(archive, &info, sizeof info));
+    assert_string_equal(info.script, "run.fl");
+    assert_string_equal(info.command, "petri run run.fl");
+    assert_string_equal(info.version, petri_version());
+    assert_int_equal(info.first_frame, 0);
+    assert_int_equal(info.last_frame, RUN_FRAMES - 1);
+    assert_int_equal(info.sealed_frame, RUN_FRAMES - 1);
+    assert_int_equal(info.digests, RUN_FRAMES);
+    assert_int_equal(info.keyframe_every, 10);
+    assert_int_equal(strlen(info.sha256), 64);
+    assert_true(petri_archive_parameter(archive, 0, &name, &value));
+    assert_string_equal(name, "N");
+    assert_string_equal(value, "6");
+    assert_false(petri_archive_parameter(archive, 1, &name, &value));
+    petri_archive_close(&archive);
+}
+
+static void test_archive_has_versions_of_files(void **state) {
+    (void)state;
+    PetriArchive *archive = open_archive("run.petri");
+    PetriArchiveFile file;
+    int modules = 0;
+    for (size_t i = 0; petri_archive_file(archive, i, &file, sizeof file); i++) {
+        assert_null(strstr(file.name, "/tmp"));
+        if (strcmp(file.name, "module.fl") != 0)
+            continue;
+        assert_int_equal(file.frame, modules == 0 ? 0 : 20);
+        assert_string_equal(file.bytes, modules == 0 ? "let scale=1.5\n" : "let scale=2.5  -- changed\n");
+        modules++;
+    }
+    assert_int_equal(modules, 2);
+    petri_archive_close(&archive);
+}
+
+static void test_keyframes_state_where_they_come_from(void **state) {
+    (void)state;
+    PetriArchive *archive = open_archive("run.petri");
+    PetriArchiveKeyframe keyframe;
+    int given = 0, count = 0;
+    for (size_t i = 0; petri_archive_keyframe(archive, i, &keyframe, sizeof keyframe); i++, count++) {
+        if (keyframe.given)
+            assert_true(keyframe.frame == -1 || keyframe.frame == 43);
+        given += keyframe.given;
+        assert_true(keyframe.end >= keyframe.frame);
+    }
+    assert_int_equal(given, 2);
+    assert_int_equal(count, 8);
+    petri_archive_close(&archive);
+}
+
+static void test_recording_in_real_time_is_replayed(void **state) {
+    (void)state;
+    enum { FRAMES = 12 };
+    static const char script[] = "!counter state=:a rate=1+performance+slow_frame+realtime+delta maximum=1e300\n"
+                                 "!counter state=:b rate=time+clock maximum=1e300\n";
+    PetriOptions options = petri_default_options();
+    options.realtime = true;
+    options.fps = 500;
+    PetriSession *session = petri_open(&options);
+    PetriArchive *archive = petri_archive_create(session, "live.petri", NULL);
+    assert_int_equal(petri_load_text(session, "live.fl", script, PETRI_NUL_TERMINATED), PETRI_OK);
+    for (int i = 0; i < FRAMES; i++) {
+        assert_int_equal(petri_step(session), PETRI_OK);
+        assert_int_equal(petri_digest(session, recorded[i]), PETRI_OK);
+    }
+    petri_archive_close(&archive);
+    petri_close(&session);
+    archive = open_archive("live.petri");
+    session = run_open_replay(archive);
+    assert_int_equal(petri_archive_replay(archive, session, -1), PETRI_OK);
+    for (int i = 0; i < FRAMES; i++) {
+        assert_int_equal(petri_step(session), PETRI_OK);
+        check_frame(session, i);
+    }
+    assert_int_equal(petri_archive_check(archive), PETRI_OK);
+    petri_close(&session);
+    petri_archive_close(&archive);
+}
+
+static void test_reset_begins_again(void **state) {
+    (void)state;
+    PetriSession *session = run_open_session();
+    PetriArchive *archive = petri_archive_create(session, "reset.petri", NULL);
+    assert_int_equal(petri_load_text(session, "a.fl", "!counter state=:a rate=1\n", PETRI_NUL_TERMINATED), PETRI_OK);
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(petri_step(session), PETRI_OK);
+    petri_reset(session);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(petri_step(session), PETRI_OK);
+    petri_archive_close(&archive);
+    petri_close(&session);
+    archive = open_archive("reset.petri");
+    PetriArchiveInfo info;
+    assert_true(petri_archive_info(archive, &info, sizeof info));
+    assert_int_equal(info.last_frame, 2);
+    assert_int_equal(info.digests, 3);
+    assert_int_equal(petri_archive_check(archive), PETRI_OK);
+    petri_archive_close(&archive);
+}
+
+static void test_create_keeps_other_files(void **state) {
+    (void)state;
+    write_file("notes.txt", "important\n");
+    PetriSession *session = run_open_session();
+    PetriArchive *archive = petri_archive_create(session, "notes.txt", NULL);
+    assert_non_null(strstr(petri_archive_problem(archive), "not an archive"));
+    petri_archive_close(&archive);
+    archive = petri_archive_create(session, "missing/run.petri", NULL);
+    assert_non_null(petri_archive_problem(archive));
+    petri_archive_close(&archive);
+    petri_close(&session);
+    char text[16] = "";
+    FILE *stream = fopen("notes.txt", "r");
+    assert_non_null(fgets(text, sizeof text, stream));
+    fclose(stream);
+    assert_string_equal(text, "important\n");
+}
+
+static PetriValue call_nothing(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count) {
+    (void)call;
+    (void)user_data;
+    (void)arguments;
+    (void)count;
+    return (PetriValue){0};
+}
+
+static void test_host_functions_end_recording(void **state) {
+    (void)state;
+    PetriSession *session = run_open_session();
+    PetriArchive *archive = petri_archive_create(session, "host.petri", NULL);
+    petri_add_function(
+        session, &(PetriFunction){.size = sizeof(PetriFunction), .name = "f", .parameters = "x", .call = call_nothing});
+    assert_int_equal(petri_load_text(session, "a.fl", "!counter state=:a rate=1\n", PETRI_NUL_TERMINATED), PETRI_OK);
+    assert_int_equal(petri_step(session), PETRI_OK);
+    assert_non_null(strstr(petri_archive_problem(archive), "functions of the host"));
+    assert_int_equal(petri_step(session), PETRI_OK);
+    petri_archive_close(&archive);
+    petri_close(&session);
+}
+
+static void test_memory_limit_holds_for_files(void **state) {
+    (void)state;
+    PetriArchive *archive = petri_archive_open("run.petri", 10);
+    PetriArchiveFile file;
+    assert_false(petri_archive_file(archive, 0, &file, sizeof file));
+    assert_non_null(petri_archive_problem(archive));
+    petri_archive_close(&archive);
+}
+
+static void test_functions_reject_missing_arguments(void **state) {
+    (void)state;
+    PetriArchive *none = NULL;
+    size_t length;
+    assert_false(petri_archive_is(NULL));
+    assert_null(petri_archive_open(NULL, 0));
+    assert_null(petri_archive_create(NULL, "x", NULL));
+    assert_null(petri_archive_problem(NULL));
+    assert_null(petri_archive_read(NULL, "x", &length));
+    assert_false(petri_archive_keyframe_differs(NULL));
+    assert_int_equal(petri_archive_check(NULL), PETRI_INVALID);
+    assert_int_equal(petri_archive_replay(NULL, NULL, 0), PETRI_INVALID);
+    assert_int_equal(petri_archive_add_note(NULL, "x"), PETRI_INVALID);
+    petri_archive_close(&none);
+    petri_archive_close(NULL);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_replay_computes_recorded_frames),
+        cmocka_unit_test(test_replay_starts_at_any_frame),
+        cmocka_unit_test(test_replay_goes_to_other_frames),
+        cmocka_unit_test(test_archive_is_intact),
+        cmocka_unit_test(test_archive_has_versions_of_files),
+        cmocka_unit_test(test_keyframes_state_where_they_come_from),
+        cmocka_unit_test(test_memory_limit_holds_for_files),
+        cmocka_unit_test(test_recording_in_real_time_is_replayed),
+        cmocka_unit_test(test_reset_begins_again),
+        cmocka_unit_test(test_create_keeps_other_files),
+        cmocka_unit_test(test_host_functions_end_recording),
+        cmocka_unit_test(test_functions_reject_missing_arguments),
+    };
+    return cmocka_run_group_tests(tests, record, leave_folder);
+}
