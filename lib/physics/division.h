@@ -4,6 +4,12 @@
 
 #include "physics/pair_wavefront.h"
 
+// This process among all processes of a division.
+typedef struct PhysProcesses {
+    int self; // from 0
+    int count;
+} PhysProcesses;
+
 struct PhysDivision {
     // Begins a frame. The columns and forces of the system are up to date, except as lib/ranks left them after the last
     // frame. Sets system->failed if out of memory.
@@ -15,6 +21,9 @@ struct PhysDivision {
     bool (*end_frame)(PhysSystem *system, bool keep_last_finite);
     // Computes all pairs of a region. Returns false and computes nothing if they are too few to be divided.
     bool (*compute_pairs)(PhysSystem *system, const PairRegion *region);
+    PhysProcesses (*processes)(const PhysSystem *system);
+    // Copies the elements starts[r] to starts[r + 1] - 1 of each process r to all processes.
+    void (*gather)(PhysSystem *system, double *numbers, const size_t *starts);
     // Frees PhysSystem.division.
     void (*free)(PhysSystem *system);
 };

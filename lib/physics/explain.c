@@ -6,6 +6,7 @@
 #define LANES 1
 #include "physics/explain.h"
 
+#include "physics/far_force.h"
 #include "physics/integrate.h"
 #include "physics/neighbour_list.h"
 #include "physics/pair_wavefront.h"
@@ -149,6 +150,7 @@ static void explain_links(Probe *probe, ForceRange forces) {
 // The pair forces of one pass.
 typedef struct PassForces {
     ForceRange forces;
+    bool divided;   // forces with `theta` are left out
     PairPass pairs; // argument of phys_pair_row
 } PassForces;
 
@@ -161,6 +163,8 @@ static bool explain_partners(Probe *probe, PassForces *pass, const Group *partne
         return false;
     for (size_t j = partners->first; j < (size_t)partners->first + partners->count && !system->failed; j++)
         for (size_t t = 0; t < terms && j != probe->target; t++) {
+            if (pass->divided && phys_is_far(system, &pass->forces.begin[t]))
+                continue;
             pass->pairs.terms = (const PairTerm *)system->terms.bytes + t;
             clear_sum(probe);
             phys_pair_row(&pass->pairs, probe->target, j, j + 1);
@@ -169,22 +173,70 @@ static bool explain_partners(Probe *probe, PassForces *pass, const Group *partne
     return !system->failed;
 }
 
+// Prepares to record the forces in a range. `divided`: leaves out forces with `theta`.
+static PassForces pass_forces(const Probe *probe, ForceRange forces, bool divided) {
+    PassForces pass = {forces, divided, phys_columns_pass(&probe->system->columns)};
+    phys_fill_terms(probe->system->terms.bytes, forces);
+    pass.pairs.term_count = 1;
+    return pass;
+}
+
+// Records the forces of `pass` between the particle and group `g`, if one of them is in `group`.
+static bool explain_group(Probe *probe, PassForces *pass, uint32_t group, uint32_t g) {
+    const Group *groups = probe->system->groups.bytes;
+    bool target_above = g == probe->group;
+    return phys_charge(probe->system, 1) && ((group != probe->group && !target_above) ||
+                                             explain_partners(probe, pass, &groups[target_above ? group : g]));
+}
+
+// Records one force with `theta` that group `sources` exerts on the particle, as one contribution.
+static bool explain_far_group(Probe *probe, Force *force, uint32_t sources) {
+    PhysSystem *system = probe->system;
+    clear_sum(probe);
+    if (!phys_far_force_on(system, force, (uint32_t)probe->target, probe->group, sources))
+        return false;
+    record(probe, force->number, PHYS_NO_PARTNER);
+    return !system->failed;
+}
+
+// Returns the nearest group with particles that encloses `g` and is `level` or inside it, or NO_GROUP.
+static uint32_t next_enclosing(const Group *groups, uint32_t g, uint32_t level) {
+    uint32_t next = g ? groups[groups[g].parent].populated : NO_GROUP;
+    return next != NO_GROUP && next >= level ? next : NO_GROUP;
+}
+
+// Records one force with `theta` of a divided pass.
+static bool explain_far_force(Probe *probe, Force *force, uint32_t group, uint32_t level) {
+    const Group *groups = probe->system->groups.bytes;
+    if (group == probe->group && !explain_far_group(probe, force, group))
+        return false;
+    for (uint32_t g = next_enclosing(groups, group, level); g != NO_GROUP; g = next_enclosing(groups, g, level)) {
+        if (groups[g].count < PHYS_FAR_MIN_PARTICLES) {
+            PassForces pass = pass_forces(probe, (ForceRange){force, force + 1}, false);
+            if (!explain_group(probe, &pass, group, g))
+                return false;
+        } else if ((group == probe->group && !explain_far_group(probe, force, g)) ||
+                   (g == probe->group && !explain_far_group(probe, force, group))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // Records the forces of the pass over the particles of `group` and of the enclosing groups up to `level`.
 static bool explain_pass(Probe *probe, uint32_t group, uint32_t level) {
     PhysSystem *system = probe->system;
     const Group *groups = system->groups.bytes;
-    PassForces pass = {phys_forces(system, level, STAGE_PAIR), phys_columns_pass(&system->columns)};
-    phys_fill_terms(system->terms.bytes, pass.forces);
-    pass.pairs.term_count = 1;
+    ForceRange forces = phys_forces(system, level, STAGE_PAIR);
+    PassForces pass = pass_forces(probe, forces, phys_far_divides(system, &groups[group], forces));
     if (group == probe->group && !explain_partners(probe, &pass, &groups[group]))
         return false;
-    for (uint32_t g = group ? groups[groups[group].parent].populated : NO_GROUP; g != NO_GROUP && g >= level;
-         g = g ? groups[groups[g].parent].populated : NO_GROUP) {
-        bool target_above = g == probe->group;
-        if (!phys_charge(system, 1) || ((group == probe->group || target_above) &&
-                                        !explain_partners(probe, &pass, &groups[target_above ? group : g])))
+    for (uint32_t g = next_enclosing(groups, group, level); g != NO_GROUP; g = next_enclosing(groups, g, level))
+        if (!explain_group(probe, &pass, group, g))
             return false;
-    }
+    for (Force *force = forces.begin; force < forces.end && pass.divided; force++)
+        if (phys_is_far(system, force) && !explain_far_force(probe, force, group, level))
+            return false;
     return true;
 }
 

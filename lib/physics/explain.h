@@ -3,13 +3,13 @@
 // A frame stores only the rows from which it started (PhysOptions.keep_forces). phys_explain copies the system,
 // computes the steps before the requested one again, and then evaluates the forces on one particle, in the order of
 // summation (spec physics.md section 4). A pass with kernels, threads or processes adds the same terms in the same
-// order, so the sum is equal to the last bit.
+// order, so the sum is equal to the last bit. A force with `theta` is one contribution for each group that exerts it.
 #pragma once
 
 #include "physics/system.h"
 
 #define PHYS_OWN_FORCE UINT32_MAX  // in PhysExplanation.forces: the particle's `force` attribute
-#define PHYS_NO_PARTNER UINT32_MAX // in PhysExplanation.partners: the force has no other particle
+#define PHYS_NO_PARTNER UINT32_MAX // in PhysExplanation.partners: the force has no other particle, or has `theta`
 
 // Results of phys_explain, valid until phys_explanation_free.
 typedef struct PhysExplanation {

@@ -1,6 +1,7 @@
 // force_pair.c: forces between all pairs of particles (spec physics.md 4.1), in passes. The formulas are in
 // pair_formulas.h.
 #include "physics/division.h"
+#include "physics/far_force.h"
 #include "physics/integrate.h"
 #include "physics/internal.h"
 #include "physics/neighbour_list.h"
@@ -38,18 +39,28 @@ PairPass phys_columns_pass(const Columns *columns) {
     };
 }
 
-static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
+// Fills terms with the forces that the main part of a pass computes. Returns their number.
+static size_t fill_pass_terms(PhysSystem *system, ForceRange forces, bool divided) {
+    PairTerm *terms = system->terms.bytes;
+    size_t count = 0;
+    for (Force *force = forces.begin; force < forces.end; force++)
+        if (!divided || !phys_is_far(system, force))
+            phys_fill_terms(&terms[count++], (ForceRange){force, force + 1});
+    return count;
+}
+
+// `divided`: leaves out the forces with `theta`.
+static Pass prepare_pass(PhysSystem *system, ForceRange forces, bool divided) {
     enum { MIN_FOR_LANES = 4 }; // with fewer particles, vectors do not pay off
     const Columns *columns = &system->columns;
     Pass pass = {.system = system};
-    phys_fill_terms(system->terms.bytes, forces);
     pass.pairs = phys_columns_pass(columns);
-    pass.pairs.term_count = (size_t)(forces.end - forces.begin);
+    pass.pairs.term_count = fill_pass_terms(system, forces, divided);
     pass.pairs.terms = system->terms.bytes;
     // With several processes, an abort must not skip rows, because other processes wait for them.
     pass.pairs.stop = system->options.division ? NULL : phys_stop(system);
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MAX_TERMS &&
-        columns->count >= MIN_FOR_LANES) {
+        columns->count >= MIN_FOR_LANES && pass.pairs.term_count > 0) {
         pass.kernels = phys_kernels(system);
         pass.kernel = pass.kernels->pair(&pass.pairs);
     }
@@ -129,31 +140,73 @@ static bool charge_pairs(const Pass *pass, uint64_t pairs) {
     return phys_charge(pass->system, GROUP_WORK + units);
 }
 
-// Computes the pair forces that group `level` declares, on the particles of `group`. `level` is `group` itself or a
-// group that encloses it. The partners of a particle are the later particles of `group`, then the particles of the
-// enclosing groups up to `level`.
-static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Move *move) {
+// Returns the next group that encloses `group`, has particles and is `level` or inside it; NULL: there is none. Group
+// numbers ascend from parent to child, so an enclosing group with a smaller number than `level` is outside of `level`.
+static const Group *next_enclosing(const PhysSystem *system, const Group *group, uint32_t level) {
     const Group *groups = system->groups.bytes;
-    uint32_t number = (uint32_t)(group - groups);
-    Pass pass = prepare_pass(system, phys_forces(system, level, STAGE_PAIR));
-    pass.move = move;
-    if (pass.kernels && phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, number, level, move))
-        return;
+    if (group == groups)
+        return NULL;
+    uint32_t next = groups[group->parent].populated;
+    return next != NO_GROUP && next >= level ? &groups[next] : NULL;
+}
+
+// Computes the forces of `pass` for all pairs of a particle of `group` with later particles of `group`, and with
+// particles of the enclosing groups up to `level`.
+static void compute_pass(const Pass *pass, const Group *group, uint32_t level) {
+    PhysSystem *system = pass->system;
     if (system->column_order == ORDER_BY_CELL)
         phys_restore_order(system);
     system->unlisted = true;
     size_t first = group->first, end = first + group->count;
-    if (!charge_pairs(&pass, (uint64_t)group->count * group->count / 2))
+    if (!charge_pairs(pass, (uint64_t)group->count * group->count / 2))
         return;
-    pass_triangle(&pass, first, end);
-    // Group numbers ascend from parent to child, so an enclosing group with a smaller number than `level` is outside of
-    // `level`.
-    for (uint32_t g = number ? groups[group->parent].populated : NO_GROUP; g != NO_GROUP && g >= level;) {
-        if (!charge_pairs(&pass, (uint64_t)group->count * groups[g].count))
+    pass_triangle(pass, first, end);
+    for (const Group *other = next_enclosing(system, group, level); other;
+         other = next_enclosing(system, other, level)) {
+        if (!charge_pairs(pass, (uint64_t)group->count * other->count))
             return;
-        pass_rectangle(&pass, first, end, groups[g].first, (size_t)groups[g].first + groups[g].count);
-        g = g ? groups[groups[g].parent].populated : NO_GROUP;
+        pass_rectangle(pass, first, end, other->first, (size_t)other->first + other->count);
     }
+}
+
+// Adds one force with `theta` of a divided pass. Enclosing groups with few particles compute all pairs.
+static bool add_far_force(PhysSystem *system, const Group *group, uint32_t level, Force *force) {
+    const Group *groups = system->groups.bytes;
+    uint32_t own = (uint32_t)(group - groups);
+    if (!phys_far_forces(system, force, own, own))
+        return false;
+    for (const Group *other = next_enclosing(system, group, level); other;
+         other = next_enclosing(system, other, level)) {
+        if (other->count >= PHYS_FAR_MIN_PARTICLES) {
+            uint32_t outer = (uint32_t)(other - groups);
+            if (!phys_far_forces(system, force, own, outer) || !phys_far_forces(system, force, outer, own))
+                return false;
+            continue;
+        }
+        Pass pass = prepare_pass(system, (ForceRange){force, force + 1}, false);
+        if (!charge_pairs(&pass, (uint64_t)group->count * other->count))
+            return false;
+        pass_rectangle(&pass, group->first, (size_t)group->first + group->count, other->first,
+                       (size_t)other->first + other->count);
+    }
+    return true;
+}
+
+// Computes the pair forces that group `level` declares, on the particles of `group`. `level` is `group` itself or a
+// group that encloses it. The partners of a particle are the later particles of `group`, then the particles of the
+// enclosing groups up to `level`.
+static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Move *move) {
+    uint32_t number = (uint32_t)(group - (const Group *)system->groups.bytes);
+    ForceRange forces = phys_forces(system, level, STAGE_PAIR);
+    bool divided = phys_far_divides(system, group, forces);
+    Pass pass = prepare_pass(system, forces, divided);
+    pass.move = divided ? NULL : move;
+    if (pass.pairs.term_count && (!pass.kernels || !phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, number,
+                                                                             level, pass.move)))
+        compute_pass(&pass, group, level);
+    for (Force *force = forces.begin; force < forces.end && divided; force++)
+        if (phys_is_far(system, force) && !add_far_force(system, group, level, force))
+            return;
 }
 
 void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move) {

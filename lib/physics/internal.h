@@ -29,6 +29,8 @@ typedef struct Buffer {
     bool shown;        // the host may still be reading the memory, so phys_buffer_free retires it (arena_retire)
 } Buffer;
 
+typedef struct FarForest FarForest; // far_field.h
+
 #define NO_GROUP UINT32_MAX
 #define NO_COLUMN UINT32_MAX
 
@@ -197,6 +199,7 @@ struct PhysSystem {
     // retained between steps and frames
     uint64_t frame;              // number of the current frame
     struct NeighbourList *lists; // PHYS_MAX_LISTS elements
+    FarForest *forests;          // PHYS_FORESTS elements
     ColumnOrder column_order;
     // versions
     uint64_t radius_version;      // increases when a radius may have changed

@@ -203,4 +203,5 @@ const Kernels PER_ISA(phys_kernels) = {
     .list_forces = PER_ISA(list_forces),
     .range_forces = PER_ISA(range_forces),
     .integrate = PER_ISA(integrate_all),
+    .far = &PER_ISA(far_kernels),
 };

@@ -88,6 +88,8 @@ struct ListChunk;
 struct IntegratePass; // integrate.h
 typedef void IntegrateKernel(struct IntegratePass *pass, size_t first, size_t end);
 
+typedef struct FarKernels FarKernels; // far_field.h
+
 typedef struct Kernels {
     size_t lanes;
     // Returns the fastest kernels for the forces of a pass.
@@ -108,9 +110,11 @@ typedef struct Kernels {
     // the handle of the particle in column i. Stops early if a value of the next LANES particles is not finite or would
     // replace a zero of the other sign. Returns the first column that was not copied.
     size_t (*write_rows)(const struct Columns *columns, const uint32_t *order, double *rows, size_t first, size_t end);
+    // Evaluate forces with `theta`.
+    const FarKernels *far;
 } Kernels;
 
-// kernel_list.c, kernel_search.c, kernel_integrate.c and kernel_pair.c, compiled once per instruction set.
+// kernel_list.c, kernel_search.c, kernel_integrate.c, kernel_pair.c and kernel_far.c, compiled once per instruction set.
 #define ISA_KERNELS(isa)                                                                                               \
     bool list_refresh_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                     \
     void list_search_##isa(const struct ListSearch *search, struct ListChunk *part);                                   \
@@ -122,6 +126,9 @@ typedef struct Kernels {
 ISA_KERNELS(two)
 ISA_KERNELS(avx2)
 ISA_KERNELS(avx512)
+extern const FarKernels far_kernels_two;
+extern const FarKernels far_kernels_avx2;
+extern const FarKernels far_kernels_avx512;
 extern const Kernels phys_kernels_two;
 extern const Kernels phys_kernels_avx2;
 extern const Kernels phys_kernels_avx512;

@@ -1,4 +1,5 @@
 // step.c: one step, in the order of spec physics.md section 4.
+#include "physics/far_force.h"
 #include "physics/integrate.h"
 #include "physics/threads.h"
 
@@ -53,6 +54,7 @@ static void start_forces(PhysSystem *system, double clock) {
 
 void phys_start_step(PhysSystem *system, double clock) {
     ease_strengths(system, clock);
+    phys_far_forget(system);
     start_forces(system, clock);
 }
 
@@ -74,7 +76,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     }
     // Before the step can be aborted, because a pass may have moved particles.
     system->motion_version++;
-    if (!phys_may_continue(system))
+    if (!phys_may_continue(system) || system->failed)
         return false;
     // 2. Single-particle forces, motion and barriers.
     for (uint32_t g = 0; g < system->group_count && !move.done; g++)

@@ -1,5 +1,6 @@
 // system.c: the description of a system (system.h).
 #include "physics/division.h"
+#include "physics/far_force.h"
 #include "physics/neighbour_list.h"
 #include "physics/threads.h"
 
@@ -19,6 +20,7 @@ PhysSystem *phys_new(void) {
     struct {
         PhysSystem system;
         NeighbourList lists[PHYS_MAX_LISTS];
+        FarForest forests[PHYS_FORESTS];
     } * memory;
     arena_init(&home, "physics", SIZE_MAX);
     memory = arena_try_alloc(&home, sizeof *memory); // one block, so that nothing needs to be freed on failure
@@ -26,9 +28,10 @@ PhysSystem *phys_new(void) {
         return NULL;
     PhysSystem *system = &memory->system;
     NeighbourList *lists = memory->lists;
-    *system = (PhysSystem){.home = home, .lists = lists};
+    *system = (PhysSystem){.home = home, .lists = lists, .forests = memory->forests};
     system->particles.shown = system->rows.shown = system->last_rows.shown = system->force_rows.shown = true;
     memset(lists, 0, PHYS_MAX_LISTS * sizeof *lists);
+    memset(memory->forests, 0, sizeof memory->forests);
     phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_detected.level});
     phys_begin(system, 1);
     return system;
@@ -50,6 +53,8 @@ void phys_free(PhysSystem *system) {
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MAX_LISTS; i++)
         phys_neighbour_list_free(&system->lists[i]);
+    for (int i = 0; i < PHYS_FORESTS; i++)
+        phys_far_free(&system->forests[i]);
     free_division(system);
     if (!system->options.pool)
         phys_threads_free(system->threads);

@@ -42,6 +42,8 @@ typedef enum PhysForceKind {
         PHYS_FORCE_KINDS,
 } PhysForceKind;
 
+enum { PHYS_FAR_MIN_PARTICLES = 768 }; // PhysForce.theta has no effect in groups with fewer particles
+
 // One force applier or barrier. Some fields are used only by the kinds of forces that their comments name first.
 // phys_add_force copies the vectors.
 typedef struct PhysForce {
@@ -50,6 +52,7 @@ typedef struct PhysForce {
     double ease;         // ramp time of `strength`, in units of the simulation clock; <= 0: none
     double power;        // distance, collision, barrier: exponent of the displacement; a negative value counts as 0
     double max_distance; // pair forces: distance below which the force acts; <= 0: no limit
+    double theta;        // gravity, electrostatic: opening angle of the far field; <= 0: none, all pairs are exact
     double overlap;      // adhesion: overlap of two particles at rest; lib/scene clamps it to 0…1
     double density;      // buoyancy: density of the medium
     double restitution;  // barrier: factor of the velocity in a reflection; lib/scene clamps it to 0…1

@@ -2,6 +2,7 @@
 #include "ranks/domain.h"
 
 #include "base/clock.h"
+#include "physics/far_force.h"
 
 enum {
     MIN_PARTICLES = 8000, // with fewer particles, communication costs more than it saves
@@ -10,7 +11,7 @@ enum {
 // If the largest time of a rank is more than this many times the mean time of all ranks, patches are rebalanced.
 #define MAX_IMBALANCE 1.15
 
-// Returns true if a pair force has unlimited range, or if there is no pair force. Otherwise sets *reach.
+// Returns true if a pair force has unlimited range or a far field, or if there is no pair force. Otherwise sets *reach.
 static bool has_unbounded_force(const PhysSystem *system, ForceReach *reach) {
     const Force *forces = system->forces.bytes;
     bool any = false;
@@ -22,6 +23,8 @@ static bool has_unbounded_force(const PhysSystem *system, ForceReach *reach) {
             continue;
         double limit = forces[f].given.max_distance;
         any = true;
+        if (phys_is_far(system, &forces[f]))
+            return true;
         if (row.reach == REACH_CONTACT)
             reach->contact = true;
         else if (limit > 0)

@@ -87,3 +87,16 @@ bool ranks_compute_pairs(PhysSystem *system, const PairRegion *region) {
     stats->decomposition = PETRI_FORCE_DECOMPOSED;
     return true;
 }
+
+PhysProcesses ranks_processes(const PhysSystem *system) {
+    return (PhysProcesses){ranks_of(system)->rank, ranks_of(system)->rank_count};
+}
+
+void ranks_gather(PhysSystem *system, double *numbers, const size_t *starts) {
+    const PetriRanks *ranks = ranks_of(system);
+    PetriRankStats *stats = &((Domain *)system->division.bytes)->stats;
+    ranks->allgatherv(ranks->user_data, numbers, starts);
+    stats->step_messages++;
+    stats->step_bytes += (starts[ranks->rank + 1] - starts[ranks->rank]) * sizeof *numbers;
+    stats->decomposition = PETRI_FORCE_DECOMPOSED;
+}

@@ -6,7 +6,14 @@
 const PhysDivision *ranks_init(Ranks *ranks, const PetriRanks *calls) {
     if (!calls || calls->rank_count <= 1)
         return NULL;
-    *ranks = (Ranks){{domain_begin, domain_step, domain_end, ranks_compute_pairs, domain_free}, *calls};
+    *ranks = (Ranks){{.begin_frame = domain_begin,
+                      .step = domain_step,
+                      .end_frame = domain_end,
+                      .compute_pairs = ranks_compute_pairs,
+                      .processes = ranks_processes,
+                      .gather = ranks_gather,
+                      .free = domain_free},
+                     *calls};
     return &ranks->division;
 }
 

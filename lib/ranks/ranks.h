@@ -33,3 +33,6 @@ static inline uint32_t ranks_self(const PhysSystem *system) {
 
 // pair_ranks.c: implements PhysDivision.compute_pairs.
 bool ranks_compute_pairs(PhysSystem *system, const PairRegion *region);
+// pair_ranks.c: implement PhysDivision.processes and PhysDivision.gather, which passes with `theta` use.
+PhysProcesses ranks_processes(const PhysSystem *system);
+void ranks_gather(PhysSystem *system, double *numbers, const size_t *starts);

@@ -228,6 +228,22 @@ static bool resolve_bound(double fixed, double *bound) {
     return given;
 }
 
+// Reports a `theta` that cannot have an effect, and sets it to 0. If `lint` is set, also reports a `theta` without
+// benefit.
+static void check_theta(const PhysicsTree *tree, const Reader *reader, PhysForce *force) {
+    if (tree->dimensions != 2 && tree->dimensions != 3) {
+        reader_report_attr(reader, "no-far-field", ATTR_THETA,
+                           STR("attribute 'theta' needs 2 or 3 dimensions; all pairs are computed"));
+        force->theta = 0;
+    } else if (reader->schema->lint && tree->body_count < PHYS_FAR_MIN_PARTICLES) {
+        Str text = str_format(reader->arena,
+                              "attribute 'theta' has no effect on fewer than %d particles; all pairs are computed, "
+                              "which is faster and exact",
+                              PHYS_FAR_MIN_PARTICLES);
+        reader_report_attr(reader, "small-far-field", ATTR_THETA, text);
+    }
+}
+
 // Fills `force` from the node of a force or barrier. Returns false if the node must be ignored.
 static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms, PhysForce *force) {
     ForceAttrs read = tree->scene->force_defaults[schema_force(reader->kind)];
@@ -235,6 +251,8 @@ static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms
     *force = read.force;
     force->has_minimum = resolve_bound(read.fixed, &force->minimum);
     force->has_maximum = resolve_bound(read.fixed, &force->maximum);
+    if (force->theta > 0)
+        check_theta(tree, reader, force);
     ForceRow row = phys_force_row(force->kind);
     if (row.need == NEED_STREAM)
         force->key = physics_random_key(tree, randoms);

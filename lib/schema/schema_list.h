@@ -66,6 +66,7 @@ TYPE(NUMBER, NUMBER, -INFINITY, INFINITY, false, "number")
 TYPE(ABOVE_ZERO, NUMBER, -INFINITY, INFINITY, false, "number above 0")  // other numbers are allowed and have a special meaning
 TYPE(FROM_ZERO, NUMBER, 0, INFINITY, false, "number, 0 or more")
 TYPE(PART, NUMBER, 0, 1, false, "number from 0 to 1")
+TYPE(OPENING, NUMBER, 0, 1.5, false, "number from 0 to 1.5")
 TYPE(INTEGER, INTEGER, -INFINITY, INFINITY, false, "whole number")
 TYPE(DIMENSIONS, INTEGER, -INFINITY, INFINITY, false, "whole number, 1 or more")
 TYPE(TIME, TIME, -INFINITY, INFINITY, false, "number")
@@ -121,6 +122,8 @@ TYPE(UV_REMAP, WORD, 0, 0, false, ":sphere, :plane or :book")
     ATTR(kind, POWER, FROM_ZERO, TO_FORCE(force.power), IS(1), "", "exponent in the formula; 1 gives a linear spring")
 #define REACH_ROW(kind) \
     ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), DESCRIBED(0, ""), "", "distance beyond which the force is 0")
+#define THETA_ROW(kind) \
+    ATTR(kind, THETA, OPENING, TO_FORCE(force.theta), DESCRIBED(0, ""), "", "opening angle of the far field, which approximates distant particles; with 0, all pairs are computed")
 #define BOUND_ROWS(kind) \
     ATTR(kind, FIXED, NUMBER, TO_FORCE(fixed), NONE, "", "sets both minimum and maximum, and takes precedence over them") \
     ATTR(kind, MINIMUM, NUMBER, TO_FORCE(force.minimum), NONE, "", "distance below which the force pushes") \
@@ -197,12 +200,14 @@ FORCE(GRAVITY, "gravity", "masses attract each other",
 STRENGTH_ROW(GRAVITY)
 EASE_ROW(GRAVITY)
 REACH_ROW(GRAVITY)
+THETA_ROW(GRAVITY)
 
 FORCE(ELECTROSTATIC, "electrostatic", "like charges repel each other, opposite charges attract each other",
     "D = max(l, r₁ + r₂)\nF = strength · q₁ · q₂ / D² if max_distance ≤ 0 or l < max_distance\nF = 0")
 STRENGTH_ROW(ELECTROSTATIC)
 EASE_ROW(ELECTROSTATIC)
 REACH_ROW(ELECTROSTATIC)
+THETA_ROW(ELECTROSTATIC)
 
 FORCE(ADHESION, "adhesion", "particles that touch stick together",
     "o = r₁ + r₂ − l\na = |r₁ − r₂|·overlap + (r₁ + r₂)·(1 − overlap)\nF = −strength · o · (l − a) if l < r₁ + r₂\nF = 0")

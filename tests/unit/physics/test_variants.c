@@ -293,11 +293,45 @@ static void test_many(void **state) {
     check_scene(&scene);
 }
 
+static PhysForce far_force(PhysForceKind kind, double theta, double max_distance) {
+    PhysForce force = pair_force(kind, 2, 1, max_distance);
+    force.theta = theta;
+    return force;
+}
+
+// Forces with `theta`, alone and beside forces with neighbour lists, which reorder columns.
+static void test_far(void **state) {
+    (void)state;
+    for (int layout = 0; layout < LAYOUTS; layout++) {
+        Scene scene = {.name = "far", .dimensions = 2 + (uint32_t)(layout & 1), .count = 1501, .groups = 1};
+        scene.layout = (Layout)layout;
+        scene.size = 40;
+        scene.extremes = layout == SPREAD ? 0.02 : 0;
+        scene.frames = 3;
+        scene.forces[scene.force_count++] = far_force(PHYS_GRAVITY, 0.8, 0);
+        check_scene(&scene);
+        scene.forces[scene.force_count++] = pair_force(PHYS_COLLISION, 30, 1, 0);
+        scene.forces[scene.force_count++] = far_force(PHYS_ELECTROSTATIC, 1.3, 11);
+        check_scene(&scene);
+    }
+}
+
+static void test_far_in_groups(void **state) {
+    (void)state;
+    Scene scene = {.name = "far in groups", .dimensions = 3, .count = LARGE, .groups = 3, .size = 30, .frames = 2};
+    scene.forces[scene.force_count++] = far_force(PHYS_GRAVITY, 1.2, 0);
+    scene.forces[scene.force_count] = far_force(PHYS_ELECTROSTATIC, 0.9, 0);
+    scene.force_group[scene.force_count++] = 1;
+    scene.forces[scene.force_count++] = pair_force(PHYS_ADHESION, 3, 1, 0);
+    check_scene(&scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_small),     cmocka_unit_test(test_contact),       cmocka_unit_test(test_bounded),
         cmocka_unit_test(test_unbounded), cmocka_unit_test(test_moved_at_once), cmocka_unit_test(test_nested),
-        cmocka_unit_test(test_strange),   cmocka_unit_test(test_many),
+        cmocka_unit_test(test_strange),   cmocka_unit_test(test_many),     cmocka_unit_test(test_far),
+        cmocka_unit_test(test_far_in_groups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

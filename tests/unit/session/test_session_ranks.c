@@ -285,6 +285,34 @@ static void test_ranks_match_single_rank(void **state) {
         }
 }
 
+// Forces with `theta` on groups of several sizes, with anchors, other forces and a limited range.
+static void test_far_fields_match_single_rank(void **state) {
+    (void)state;
+    static const char *const forces[] = {
+        "    !gravity strength=5 theta=0.7\n",
+        "    !electrostatic strength=100 theta=1.2\n    !collision strength=50\n    !gravity theta=0.5\n",
+        "    !gravity strength=9 max_distance=40 theta=0.9\n    !adhesion strength=10 overlap=0.3\n",
+    };
+    for (size_t i = 0; i < sizeof forces / sizeof *forces; i++)
+        for (int dimensions = 2; dimensions <= 3; dimensions++) {
+            char text[800];
+            snprintf(text, sizeof text,
+                     "!physics state=:a dimensions=%d resolution=1/120\n"
+                     "    for i in ..900\n"
+                     "        !particle id=i position=90*normal(:p)[i*%d..(i+1)*%d] charge=normal(:c)[i]*(i%%5>0) "
+                     "radius=1\n"
+                     "    !anchor id=:a position=3 mass=50\n"
+                     "    !group\n"
+                     "        for i in 1000..1800\n"
+                     "            !particle id=i position=90*normal(:p)[i*%d..(i+1)*%d] charge=1 mass=i%%3\n"
+                     "%s",
+                     dimensions, dimensions, dimensions, dimensions, dimensions, forces[i]);
+            uint64_t before = message_count;
+            assert_true(matches_single_rank(NULL, text, 3));
+            assert_true(message_count > before);
+        }
+}
+
 // Systems in which all forces have a limited range, and particles move far within a frame.
 static const char *const reaching[] = {
     // all features: groups, ancestors, links longer than any range, a few large particles, single-particle forces
@@ -484,6 +512,7 @@ int main(int argc, char **argv) {
     scripts_set_folders(argc, argv);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scripts_match_single_process), cmocka_unit_test(test_ranks_match_single_rank),
+        cmocka_unit_test(test_far_fields_match_single_rank),
         cmocka_unit_test(test_domains_match_single_process), cmocka_unit_test(test_traffic_grows_with_surface),
         cmocka_unit_test(test_empty_halos_send_two_numbers)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,281 @@
+// test_far.c: forces with `theta` (spec far-field.md): accuracy, limits, hostile input and explanations. test_variants.c
+// compares variants, and tests/physics/far_field.py checks all bits.
+#include "physics/explain.h"
+#include "support.h"
+
+enum { COUNT = 3000 };
+
+typedef enum Layout { CUBE, CLUSTER, PLANE, ONE_POINT } Layout;
+
+typedef struct Setup {
+    uint32_t dimensions, count;
+    Layout layout;
+    PhysForce force;
+    double radius;
+    bool neutral; // charges of both signs
+    double scale; // factor of all positions; 0: 1
+    Budget *budget;
+    bool keep_forces;
+} Setup;
+
+static PhysForce far_force(PhysForceKind kind, double theta) {
+    PhysForce force = force_of(kind);
+    force.theta = theta;
+    return force;
+}
+
+static void place(const Setup *setup, Dice *dice, double *position) {
+    for (uint32_t k = 0; k < 4; k++) {
+        double x = dice_between(dice, -1, 1);
+        if (setup->layout == CLUSTER)
+            x = x * x * x * x * x;
+        if (setup->layout == ONE_POINT || (setup->layout == PLANE && k == 1))
+            x = 0.25;
+        position[k] = x * (setup->scale > 0 ? setup->scale : 1);
+    }
+}
+
+static PhysSystem *make_system(const Setup *setup) {
+    Dice dice = {setup->count * 31 + setup->dimensions};
+    PhysSystem *system = phys_new();
+    phys_set_options(system, &(PhysOptions){.threads = 2,
+                                            .cpu = cpu_detected.level,
+                                            .budget = setup->budget,
+                                            .keep_forces = setup->keep_forces});
+    phys_begin(system, setup->dimensions);
+    for (uint32_t i = 0; i < setup->count; i++) {
+        double position[4];
+        place(setup, &dice, position);
+        double charge = setup->neutral && i % 2 ? -1 : 1;
+        phys_add_particle(
+            system, 0, &(PhysParticle){.position = position, .mass = 1, .charge = charge, .radius = setup->radius});
+    }
+    phys_add_force(system, 0, &setup->force);
+    return system;
+}
+
+// Returns the velocities after one step, which equal the forces.
+static double *forces_of(const Setup *setup) {
+    PhysSystem *system = make_system(setup);
+    one_step(system);
+    double *forces = calloc(setup->count, setup->dimensions * sizeof *forces);
+    for (uint32_t i = 0; i < setup->count; i++)
+        memcpy(forces + (size_t)i * setup->dimensions, phys_velocity(system, i), setup->dimensions * sizeof *forces);
+    phys_free(system);
+    return forces;
+}
+
+static int compare_numbers(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// Returns the relative error of the force below which 99 % of the particles are.
+static double error_of(Setup setup) {
+    double *found = forces_of(&setup), errors[COUNT];
+    setup.force.theta = 0;
+    double *exact = forces_of(&setup);
+    for (uint32_t i = 0; i < setup.count; i++) {
+        double difference = 0, square = 0;
+        for (size_t k = (size_t)i * setup.dimensions; k < (size_t)(i + 1) * setup.dimensions; k++) {
+            difference += (found[k] - exact[k]) * (found[k] - exact[k]);
+            square += exact[k] * exact[k];
+        }
+        errors[i] = sqrt(difference / square);
+    }
+    qsort(errors, setup.count, sizeof *errors, compare_numbers);
+    free(found);
+    free(exact);
+    return errors[setup.count * 99 / 100];
+}
+
+static void test_errors_shrink_with_theta(void **state) {
+    (void)state;
+    for (uint32_t n = 2; n <= 3; n++)
+        for (int layout = CUBE; layout <= PLANE; layout++)
+            for (int neutral = 0; neutral <= 1; neutral++) {
+                Setup setup = {.dimensions = n, .count = COUNT, .layout = (Layout)layout, .neutral = neutral};
+                setup.force = far_force(neutral ? PHYS_ELECTROSTATIC : PHYS_GRAVITY, 0.3);
+                double precise = error_of(setup), limit = neutral ? 0.02 : 0.001;
+                assert_true(precise > 1e-12);
+                assert_true(precise < limit);
+                setup.force.theta = 0.9;
+                double coarse = error_of(setup);
+                assert_true(coarse > precise);
+                assert_true(coarse < 60 * limit);
+            }
+}
+
+static void check_identical(Setup setup, Setup other) {
+    double *a = forces_of(&setup), *b = forces_of(&other);
+    assert_memory_equal(a, b, (size_t)setup.count * setup.dimensions * sizeof *a);
+    free(a);
+    free(b);
+}
+
+static void test_theta_without_effect(void **state) {
+    (void)state;
+    Setup setup = {.dimensions = 3, .count = PHYS_FAR_MIN_PARTICLES - 1, .force = far_force(PHYS_GRAVITY, 1)};
+    Setup exact = setup;
+    exact.force.theta = 0;
+    check_identical(setup, exact);
+    const double thetas[] = {0, -1, NAN, -INFINITY};
+    for (size_t i = 0; i < COUNT_OF(thetas); i++) {
+        setup.count = exact.count = 1000;
+        setup.force.theta = thetas[i];
+        check_identical(setup, exact);
+    }
+    setup.force.theta = 1;
+    for (uint32_t n = 1; n <= 4; n += 3) {
+        setup.dimensions = exact.dimensions = n;
+        check_identical(setup, exact);
+    }
+}
+
+// The overlapping particles are computed exactly, so the forces are as precise as without radii.
+static void test_softening(void **state) {
+    (void)state;
+    Setup setup = {.dimensions = 3, .count = COUNT, .force = far_force(PHYS_GRAVITY, 0.5), .radius = 0.1};
+    assert_true(error_of(setup) < 0.005);
+    setup.radius = 9; // all particles overlap
+    assert_true(error_of(setup) < 1e-12);
+}
+
+static void test_max_distance(void **state) {
+    (void)state;
+    Setup setup = {.dimensions = 3, .count = COUNT, .force = far_force(PHYS_GRAVITY, 0.5)};
+    for (double distance = 0.5; distance < 4; distance *= 2) {
+        setup.force.max_distance = distance;
+        assert_true(error_of(setup) < 0.02);
+    }
+    setup.force.max_distance = 1e-9; // no pair is near enough
+    double *forces = forces_of(&setup);
+    for (size_t k = 0; k < (size_t)COUNT * 3; k++)
+        assert_same(forces[k], 0);
+    free(forces);
+}
+
+static void test_coincident_bodies(void **state) {
+    (void)state;
+    Budget budget = {.memory_limit = SIZE_MAX};
+    budget_begin(&budget, UINT64_C(200000000), NULL); // two seconds; all pairs would take an hour
+    Setup setup = {.dimensions = 3, .count = 1000000, .layout = ONE_POINT, .force = far_force(PHYS_GRAVITY, 0.5)};
+    setup.budget = &budget;
+    double *forces = forces_of(&setup);
+    for (size_t k = 0; k < (size_t)setup.count * 3; k++)
+        assert_same(forces[k], 0);
+    free(forces);
+}
+
+static void test_extreme_coordinates(void **state) {
+    (void)state;
+    const double scales[] = {1e300, 1.7e308, 1e150, 1e-150, 1e-300, 5e-324};
+    for (size_t i = 0; i < COUNT_OF(scales); i++)
+        for (uint32_t n = 2; n <= 3; n++) {
+            Setup setup = {.dimensions = n, .count = 1000, .scale = scales[i], .force = far_force(PHYS_GRAVITY, 0.7)};
+            double *forces = forces_of(&setup);
+            for (size_t k = 0; k < (size_t)setup.count * n; k++)
+                assert_false(isnan(forces[k]));
+            free(forces);
+        }
+}
+
+// A body far away does not make the others slow: they are still in different cells.
+static void test_distant_body(void **state) {
+    (void)state;
+    Budget budget = {.memory_limit = SIZE_MAX};
+    budget_begin(&budget, UINT64_C(10000000), NULL); // all pairs take 20 times as long
+    Setup setup = {.dimensions = 3, .count = 60000, .force = far_force(PHYS_GRAVITY, 0.7), .budget = &budget};
+    PhysSystem *system = make_system(&setup);
+    phys_add_particle(system, 0, &(PhysParticle){.position = VEC(1e9, 0, 0), .mass = 1});
+    one_step(system);
+    phys_free(system);
+}
+
+static void test_work_limit(void **state) {
+    (void)state;
+    Budget budget = {.memory_limit = SIZE_MAX};
+    budget_begin(&budget, UINT64_MAX / 2, NULL);
+    Setup setup = {.dimensions = 3, .count = COUNT, .force = far_force(PHYS_GRAVITY, 0.3), .budget = &budget};
+    PhysSystem *system = make_system(&setup);
+    double start = phys_position(system, 5)[0];
+    budget_begin(&budget, 100000, NULL);
+    PhysResult result = run_until(system, 1, 1);
+    assert_int_equal(result.status, PHYS_STOPPED);
+    assert_int_equal(result.steps, 0);
+    assert_same(phys_position(system, 5)[0], start);
+    phys_free(system);
+}
+
+static void test_memory_limit(void **state) {
+    (void)state;
+    Budget budget = {.memory_limit = SIZE_MAX};
+    budget_begin(&budget, UINT64_MAX / 2, NULL);
+    Setup setup = {.dimensions = 3, .count = 20000, .force = far_force(PHYS_GRAVITY, 0.9), .budget = &budget};
+    int failures = 0;
+    for (size_t limit = 4 << 20; limit < 16 << 20; limit += 1 << 20) {
+        budget.memory_limit = SIZE_MAX;
+        PhysSystem *system = make_system(&setup);
+        budget.memory_limit = limit;
+        PhysStatus status = run_until(system, 1, 1).status;
+        assert_true(status == PHYS_OK || status == PHYS_NO_MEMORY);
+        failures += status == PHYS_NO_MEMORY;
+        phys_free(system);
+    }
+    assert_true(failures > 0 && failures < 12);
+}
+
+// Adds the contributions of an explanation, and compares the sum with the force of the step.
+static void check_explanation(const PhysSystem *system, uint32_t particle, uint32_t least_count) {
+    PhysExplanation explanation;
+    PhysColumns columns = phys_columns(system);
+    const double *force = phys_at_particle(columns.force, particle);
+    assert_int_equal(phys_explain(system, particle, 0, &explanation), PHYS_OK);
+    assert_true(explanation.count >= least_count);
+    double sum[3] = {0, 0, 0};
+    for (uint32_t c = 0; c < explanation.count; c++)
+        for (size_t k = 0; k < 3; k++)
+            sum[k] += explanation.vectors[c * 3 + k];
+    for (size_t k = 0; k < 3; k++) {
+        assert_same(sum[k], force[k]);
+        assert_same(explanation.sum[k], force[k]);
+    }
+    phys_explanation_free(&explanation);
+}
+
+static void test_explanations(void **state) {
+    (void)state;
+    Setup setup = {.dimensions = 3, .count = COUNT, .force = far_force(PHYS_GRAVITY, 0.8), .radius = 0.02};
+    setup.keep_forces = true;
+    PhysSystem *system = make_system(&setup);
+    PhysForce charges = far_force(PHYS_ELECTROSTATIC, 1.1), collision = force_of(PHYS_COLLISION);
+    Dice dice = {5};
+    uint32_t inner = phys_add_group(system, 0), small = phys_add_group(system, inner);
+    for (uint32_t i = 0; i < 1010; i++)
+        phys_add_particle(system, i < 1000 ? inner : small,
+                          &(PhysParticle){.position = VEC(dice_between(&dice, -1, 1), dice_between(&dice, -1, 1), 0),
+                                          .mass = 2,
+                                          .charge = 1,
+                                          .radius = 0.05});
+    phys_add_force(system, 0, &charges);
+    phys_add_force(system, inner, &collision);
+    phys_add_force(system, inner, &charges);
+    one_step(system);
+    for (uint32_t i = 0; i < COUNT; i += 397)
+        check_explanation(system, i, 2);
+    for (uint32_t i = COUNT; i < COUNT + 1010; i += 203)
+        check_explanation(system, i, 4);
+    check_explanation(system, COUNT + 1009, 1000); // in a small group, whose pairs are exact
+    phys_free(system);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_errors_shrink_with_theta), cmocka_unit_test(test_theta_without_effect),
+        cmocka_unit_test(test_softening),                cmocka_unit_test(test_max_distance),
+        cmocka_unit_test(test_coincident_bodies),        cmocka_unit_test(test_extreme_coordinates),
+        cmocka_unit_test(test_distant_body),             cmocka_unit_test(test_work_limit),
+        cmocka_unit_test(test_memory_limit),             cmocka_unit_test(test_explanations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
