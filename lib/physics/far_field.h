@@ -9,14 +9,14 @@
 #include "physics/kernels.h"
 
 enum {
-    FAR_DIMENSIONS = 3,      // maximum number of dimensions
-    FAR_LEAF = 32,           // maximum number of members of a cell that is not divided, unless their keys are equal
-    FAR_GROUP = 64,          // maximum number of targets of a walk
-    FAR_SUMS = 8,            // number of partial sums; a multiple of the lanes of all kernels
-    FAR_PAIRS = 512,         // number of sources in a block, a multiple of FAR_SUMS
-    FAR_CELLS = 256,         // number of cells in a block, a multiple of FAR_SUMS
-    FAR_LEVELS = 42,         // maximum depth of a tree
-    FAR_QUADRUPOLE = 6,      // components xx, xy, xz, yy, yz, zz
+    FAR_DIMENSIONS = 3, // maximum number of dimensions
+    FAR_LEAF = 32,      // maximum number of members of a cell that is not divided, unless their keys are equal
+    FAR_GROUP = 64,     // maximum number of targets of a walk
+    FAR_SUMS = 8,       // number of partial sums; a multiple of the lanes of all kernels
+    FAR_PAIRS = 512,    // number of sources in a block, a multiple of FAR_SUMS
+    FAR_CELLS = 256,    // number of cells in a block, a multiple of FAR_SUMS
+    FAR_LEVELS = 42,    // maximum depth of a tree
+    FAR_QUADRUPOLE = 6, // components xx, xy, xz, yy, yz, zz
 };
 
 // A cell of a tree. Cells are in depth-first order, and the children of a cell are in the order of their keys.
@@ -46,10 +46,10 @@ struct FarForest {
     bool charges; // sources are charges; false: masses
     bool built;   // for the current step
     size_t dimensions;
-    size_t stride;                  // distance between two components of a member
-    double low[FAR_DIMENSIONS];     // lower corner of the cube
-    double half_scale;              // scaled = (x / 2 - low / 2) · half_scale
-    double scale;                   // half_scale / 2: one divided by the side of the cube
+    size_t stride;              // distance between two components of a member
+    double low[FAR_DIMENSIONS]; // lower corner of the cube
+    double half_scale;          // scaled = (x / 2 - low / 2) · half_scale
+    double scale;               // half_scale / 2: one divided by the side of the cube
     uint32_t cell_count;
     double *position[FAR_DIMENSIONS]; // by member
     double *scaled[FAR_DIMENSIONS];

@@ -1,11 +1,12 @@
 // far_force.c: passes of pair forces with `theta` (spec far-field.md).
-#include "physics/division.h"
 #include "physics/far_force.h"
+
+#include "physics/division.h"
 #include "physics/far_walk.h"
 #include "physics/neighbour_list.h"
 #include "physics/threads.h"
 
-enum { EVALUATIONS_A_UNIT = 8 };
+enum { EVALUATIONS_A_UNIT = 16 };
 
 bool phys_is_far(const PhysSystem *system, const Force *force) {
     PhysForceKind kind = force->given.kind;
@@ -24,14 +25,19 @@ bool phys_far_divides(const PhysSystem *system, const Group *group, ForceRange f
     return group->count >= PHYS_FAR_MIN_PARTICLES && phys_has_far(system, forces);
 }
 
+double phys_far_min_useful(double theta) {
+    // Measured in a uniform cube with AVX-512 on one thread: 2000 particles for theta 0.5, 4000 for 0.3.
+    return fmax(PHYS_FAR_MIN_PARTICLES, 450 / (theta * theta));
+}
+
 void phys_far_forget(PhysSystem *system) {
     for (int f = 0; f < PHYS_FORESTS; f++)
         ((FarForest *)system->forests)[f].built = false;
 }
 
 void phys_far_free(FarForest *forest) {
-    Buffer *buffers[] = {&forest->members, &forest->keys,    &forest->cells,   &forest->moments,
-                         &forest->trees,   &forest->targets, &forest->scratch, &forest->results, &forest->places};
+    Buffer *buffers[] = {&forest->members, &forest->keys,    &forest->cells,   &forest->moments, &forest->trees,
+                         &forest->targets, &forest->scratch, &forest->results, &forest->places};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
 }

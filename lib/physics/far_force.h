@@ -12,8 +12,8 @@ bool phys_has_far(const PhysSystem *system, ForceRange forces);
 // the other forces.
 bool phys_far_divides(const PhysSystem *system, const Group *group, ForceRange forces);
 
-// Adds the force that the members of group `sources` exert on those of group `targets`. Returns false if the step must be
-// aborted.
+// Adds the force that the members of group `sources` exert on those of group `targets`. Returns false if the step must
+// be aborted.
 bool phys_far_forces(PhysSystem *system, Force *force, uint32_t targets, uint32_t sources);
 // Like phys_far_forces, but only for the targets that are evaluated together with the particle in `column`.
 bool phys_far_force_on(PhysSystem *system, Force *force, uint32_t column, uint32_t targets, uint32_t sources);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS, KEY_BITS = 63, PASSES = 6, MAX_INSERTION = 24 };
-_Static_assert(PASSES * DIGIT_BITS >= KEY_BITS, "the passes must cover a key");
+_Static_assert(PASSES *DIGIT_BITS >= KEY_BITS, "the passes must cover a key");
 
 static uint64_t key_part(const FarKey *key, bool low) {
     return low ? key->low : key->high;
@@ -32,7 +32,8 @@ static void scatter_keys(const FarKey *from, FarKey *to, size_t count, bool low,
         to[start[key_part(&from[i], low) >> shift & (DIGITS - 1)]++] = from[i];
 }
 
-// Sorts by one part of the keys, digit by digit from the least significant one. Skips digits that are equal in all keys.
+// Sorts by one part of the keys, digit by digit from the least significant one. Skips digits that are equal in all
+// keys.
 static void radix_sort(FarKey *keys, FarKey *spare, size_t count, bool low) {
     uint32_t start[PASSES][DIGITS];
     memset(start, 0, sizeof start);

@@ -179,7 +179,8 @@ static double farthest_square(const Box *box, const double *point) {
 
 // Decides by max_distance if all pairs are beyond it, or if some may be.
 static Decision check_bound(const FarPass *pass, const Box *box, const FarCell *cell, double square) {
-    double beyond = pass->bound * (1 + BOUND_MARGIN) + cell->size, within = pass->bound * (1 - BOUND_MARGIN) - cell->size;
+    double beyond = pass->bound * (1 + BOUND_MARGIN) + cell->size,
+           within = pass->bound * (1 - BOUND_MARGIN) - cell->size;
     if (square > beyond * beyond)
         return CELL_SKIP;
     return within > 0 && farthest_square(box, cell->centre) < within * within ? CELL_ACCEPT : CELL_OPEN;

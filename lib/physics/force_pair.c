@@ -201,8 +201,8 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Mo
     bool divided = phys_far_divides(system, group, forces);
     Pass pass = prepare_pass(system, forces, divided);
     pass.move = divided ? NULL : move;
-    if (pass.pairs.term_count && (!pass.kernels || !phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, number,
-                                                                             level, pass.move)))
+    if (pass.pairs.term_count &&
+        (!pass.kernels || !phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, number, level, pass.move)))
         compute_pass(&pass, group, level);
     for (Force *force = forces.begin; force < forces.end && divided; force++)
         if (phys_is_far(system, force) && !add_far_force(system, group, level, force))

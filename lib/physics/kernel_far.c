@@ -60,8 +60,8 @@ KERNEL void add_pairs(const FarPairs *pairs, const PairTerm *term, PairShape sha
         for (size_t k = 0; k < n; k++)
             partner.position[k] = real_load(pairs->position[k] + j);
         pair_geometry(shape, &target, &partner, mask_first(LANES), &geometry);
-        Real coefficient =
-            lead_coefficient(shape, &(Pairs){.term = term, .geometry = &geometry, .target = &target, .partner = &partner});
+        Real coefficient = lead_coefficient(
+            shape, &(Pairs){.term = term, .geometry = &geometry, .target = &target, .partner = &partner});
         Mask applies = real_less_where(geometry.valid, geometry.length, real_set(term->bound));
         for (size_t k = 0; k < n; k++)
             sum[k] += real_or_zero(applies, geometry.unit[k] * coefficient);

@@ -42,7 +42,9 @@ typedef enum PhysForceKind {
         PHYS_FORCE_KINDS,
 } PhysForceKind;
 
-enum { PHYS_FAR_MIN_PARTICLES = 768 }; // PhysForce.theta has no effect in groups with fewer particles
+enum { PHYS_FAR_MIN_PARTICLES = 1024 }; // PhysForce.theta has no effect in groups with fewer particles
+// Returns about the number of particles above which PhysForce.theta makes a step faster.
+double phys_far_min_useful(double theta);
 
 // One force applier or barrier. Some fields are used only by the kinds of forces that their comments name first.
 // phys_add_force copies the vectors.

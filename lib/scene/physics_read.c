@@ -235,11 +235,11 @@ static void check_theta(const PhysicsTree *tree, const Reader *reader, PhysForce
         reader_report_attr(reader, "no-far-field", ATTR_THETA,
                            STR("attribute 'theta' needs 2 or 3 dimensions; all pairs are computed"));
         force->theta = 0;
-    } else if (reader->schema->lint && tree->body_count < PHYS_FAR_MIN_PARTICLES) {
+    } else if (reader->schema->lint && tree->body_count < phys_far_min_useful(force->theta)) {
         Str text = str_format(reader->arena,
-                              "attribute 'theta' has no effect on fewer than %d particles; all pairs are computed, "
-                              "which is faster and exact",
-                              PHYS_FAR_MIN_PARTICLES);
+                              "attribute 'theta' saves time only for more than about %.0f particles; all pairs, which "
+                              "are exact, would be faster here",
+                              round(phys_far_min_useful(force->theta) / 100) * 100);
         reader_report_attr(reader, "small-far-field", ATTR_THETA, text);
     }
 }

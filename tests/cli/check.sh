@@ -52,6 +52,21 @@ END
 petri check --werror library.fl
 check "a file that only binds names is a module, whose names count as used" status_is 0
 
+# Far fields of few particles.
+cat >far.fl <<'END'
+let N=N or 100
+!physics state=:s dimensions=2
+    for i in ..N
+        !particle id=i position=i;0
+    !gravity theta=0.5
+END
+petri check far.fl
+check "check reports a theta that cannot save time" has err "attribute 'theta' saves time only for more than about 1800 particles"
+petri check -D N=2000 far.fl
+check "check accepts a theta that saves time" last_line_is err "petri: 1 file checked: 0 errors, 0 warnings"
+petri run --frames 1 far.fl
+check "a run does not report a theta that cannot save time" lacks err "theta"
+
 # Nodes: `petri check` evaluates the first frame, but prints and stores nothing.
 cat >nodes.fl <<'END'
 !window size=200;200

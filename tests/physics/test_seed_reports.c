@@ -207,6 +207,8 @@ static void test_barriers(void **state) {
     (void)state;
     static const Report rows[] = {
         {P1 " !barrier\n", "bad-normal", {"!barrier", "normal"}},
+        {P1 " !gravity theta=0.5\n", "no-far-field", {"!gravity", "theta"}},
+        {"!physics state=:s dimensions=4\n !electrostatic theta=2\n", "no-far-field", {"!electrostatic", "theta"}},
         {P2 " !barrier normal=0;0\n", "bad-normal", {"!barrier", "normal"}},
         {P2 " !barrier normal=1;inf\n", "bad-normal", {"!barrier", "normal"}},
         {P2 " !barrier normal=1;nan\n", "bad-normal", {"!barrier", "normal"}},
@@ -229,8 +231,8 @@ static void test_silence(void **state) {
         "  !distance from=:o to=:p minimum=1 min=1 maximum=2 max=2 power=1 strength=1 ease=1\n"
         "  !distance from=:o to=:p fixed=1\n"
         "  !collision power=1 strength=1 ease=1 max_distance=9\n"
-        "  !gravity strength=1 ease=1 max_distance=9\n"
-        "  !electrostatic strength=1 ease=1 max_distance=9\n"
+        "  !gravity strength=1 ease=1 max_distance=9 theta=1\n"
+        "  !electrostatic strength=1 ease=1 max_distance=9 theta=1\n"
         "  !adhesion overlap=1 strength=1 ease=1 max_distance=9\n"
         "  !drag flow=1 strength=1 ease=1\n"
         "  !buoyancy gravity=1 density=1 strength=1 ease=1\n"

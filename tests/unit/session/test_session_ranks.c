@@ -298,12 +298,12 @@ static void test_far_fields_match_single_rank(void **state) {
             char text[800];
             snprintf(text, sizeof text,
                      "!physics state=:a dimensions=%d resolution=1/120\n"
-                     "    for i in ..900\n"
+                     "    for i in ..1100\n"
                      "        !particle id=i position=90*normal(:p)[i*%d..(i+1)*%d] charge=normal(:c)[i]*(i%%5>0) "
                      "radius=1\n"
                      "    !anchor id=:a position=3 mass=50\n"
                      "    !group\n"
-                     "        for i in 1000..1800\n"
+                     "        for i in 2000..3200\n"
                      "            !particle id=i position=90*normal(:p)[i*%d..(i+1)*%d] charge=1 mass=i%%3\n"
                      "%s",
                      dimensions, dimensions, dimensions, dimensions, dimensions, forces[i]);
@@ -512,8 +512,7 @@ int main(int argc, char **argv) {
     scripts_set_folders(argc, argv);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scripts_match_single_process), cmocka_unit_test(test_ranks_match_single_rank),
-        cmocka_unit_test(test_far_fields_match_single_rank),
-        cmocka_unit_test(test_domains_match_single_process), cmocka_unit_test(test_traffic_grows_with_surface),
-        cmocka_unit_test(test_empty_halos_send_two_numbers)};
+        cmocka_unit_test(test_far_fields_match_single_rank), cmocka_unit_test(test_domains_match_single_process),
+        cmocka_unit_test(test_traffic_grows_with_surface),   cmocka_unit_test(test_empty_halos_send_two_numbers)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
