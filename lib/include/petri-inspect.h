@@ -46,7 +46,7 @@ PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t
                                   size_t size);
 
 #define PETRI_OWN_FORCE UINT32_MAX   // in PetriExplanation.force: the particle's attribute `force`
-#define PETRI_NO_PARTICLE UINT32_MAX // in PetriExplanation.partner: the force has no other particle
+#define PETRI_NO_PARTICLE UINT32_MAX // in PetriExplanation.partner: no other particle, or a force with `theta`
 
 // The forces on one particle in one step of the last frame. Contribution c comes from force[c] and partner[c], and its
 // vector starts at vector[c * dimensions]. To add the contributions yourself, start with zeros, or with the first one
