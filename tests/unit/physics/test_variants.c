@@ -303,11 +303,11 @@ static PhysForce far_force(PhysForceKind kind, double theta, double max_distance
 static void test_far(void **state) {
     (void)state;
     for (int layout = 0; layout < LAYOUTS; layout++) {
-        Scene scene = {.name = "far", .dimensions = 2 + (uint32_t)(layout & 1), .count = 1501, .groups = 1};
+        Scene scene = {.name = "far", .dimensions = 2 + (uint32_t)(layout & 1), .count = 1101, .groups = 1};
         scene.layout = (Layout)layout;
         scene.size = 40;
         scene.extremes = layout == SPREAD ? 0.02 : 0;
-        scene.frames = 3;
+        scene.frames = 2;
         scene.forces[scene.force_count++] = far_force(PHYS_GRAVITY, 0.8, 0);
         check_scene(&scene);
         scene.forces[scene.force_count++] = pair_force(PHYS_COLLISION, 30, 1, 0);
