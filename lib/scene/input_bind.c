@@ -20,6 +20,8 @@ enum { LONG_KEYS = INPUT_KEYS - (sizeof short_names - 1) }; // number of long na
 
 static const char *const button_names[INPUT_BUTTONS] = {"left",     "middle",   "right",    "button_4",
                                                         "button_5", "button_6", "button_7", "button_8"};
+// Numbers of the buttons in Flitter, which are those of GLFW.
+static const double button_numbers[INPUT_BUTTONS] = {0, 2, 1, 3, 4, 5, 6, 7};
 enum { USUAL_BUTTONS = 3 }; // the first buttons, which are written to the state even if they have never been pressed
 
 int input_key_number(Str name) {
@@ -182,20 +184,25 @@ struct InputChange {
     Value old_value;
 };
 
-// Writes a value under the key prefix;first;second. If `first` or `second` is NULL, the key is shorter. A null value
+// Writes a value under the key prefix;first;second. If `first` or `second` is NaN, the key is shorter. A null value
 // removes the entry.
-static void write_word(const Writer *writer, Value prefix, const Symbol *first, const Symbol *second, Value value) {
+static void write_number(const Writer *writer, Value prefix, double first, double second, Value value) {
     Vector key = vector_new(writer->arena);
     vector_add(&key, prefix);
-    if (first)
-        vector_add_number(&key, first->number);
-    if (second)
-        vector_add_number(&key, second->number);
+    if (!isnan(first))
+        vector_add_number(&key, first);
+    if (!isnan(second))
+        vector_add_number(&key, second);
     InputChange *change = arena_alloc(writer->arena, sizeof *change);
     *change = (InputChange){writer->undo->last, vector_finish(&key), VALUE_NULL};
     change->old_value = value_copy(writer->arena, state_get(writer->state, change->key));
     writer->undo->last = change;
     state_set(writer->state, change->key, value);
+}
+
+// Like write_number, but with symbols. NULL: none.
+static void write_word(const Writer *writer, Value prefix, const Symbol *first, const Symbol *second, Value value) {
+    write_number(writer, prefix, first ? first->number : NAN, second ? second->number : NAN, value);
 }
 
 static void write_pointer(const Writer *writer, const Input *input, Value prefix) {
@@ -204,8 +211,10 @@ static void write_pointer(const Writer *writer, const Input *input, Value prefix
     write_word(writer, prefix, NULL, NULL, position);
     for (int i = 0; i < INPUT_BUTTONS; i++) {
         const InputSwitch *button = &input_state->buttons[i];
-        if (i < USUAL_BUTTONS || !isnan(button->pushed))
+        if (i < USUAL_BUTTONS || !isnan(button->pushed)) {
             write_word(writer, prefix, input->button_words[i], NULL, value_number(button->frame_down));
+            write_number(writer, prefix, button_numbers[i], NAN, value_number(button->frame_down));
+        }
     }
 }
 

@@ -56,6 +56,24 @@ static void test_pointer(void **state) {
     assert_text("away", next_tree_line(player), "!see left=0 right=0 fourth=0\n");
 }
 
+// Buttons also have the numbers that Flitter gives them.
+static void test_numbers_of_buttons(void **state) {
+    Player *player = *state;
+    static const struct {
+        unsigned buttons;
+        const char *line;
+    } rows[] = {{0, "!see l=0 r=0 m=0\n"},
+                {PETRI_BUTTON_LEFT, "!see l=1 r=0 m=0\n"},
+                {PETRI_BUTTON_MIDDLE, "!see l=0 r=0 m=1\n"},
+                {PETRI_BUTTON_RIGHT, "!see l=0 r=1 m=0\n"},
+                {8, "!see l=0 r=0 m=0 b4=1\n"}};
+    player_run(player, "!window\n    !pointer state=:m\n!see l=$(:m;0) r=$(:m;1) m=$(:m;2) b4=$(:m;3)\n", 1);
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        move_pointer(player, 0, 0, rows[i].buttons);
+        assert_text("buttons", next_tree_line(player), rows[i].line);
+    }
+}
+
 static void test_click_between_frames(void **state) {
     Player *player = *state;
     player_run(player, POINTER, 1);
@@ -174,8 +192,11 @@ static void test_nodes_work_only_in_windows(void **state) {
     const char *found = player_state(player);
     assert_text("state", found,
                 "$(:a;1) = 1;0\n$(:a;1;:left) = 0\n$(:a;1;:middle) = 0\n$(:a;1;:right) = 0\n"
+                "$(:a;1;0) = 0\n$(:a;1;1) = 0\n$(:a;1;2) = 0\n"
                 "$:b = 1;0\n$(:b;:left) = 0\n$(:b;:middle) = 0\n$(:b;:right) = 0\n"
-                "$'c' = 1;0\n$('c';:left) = 0\n$('c';:middle) = 0\n$('c';:right) = 0\n");
+                "$(:b;0) = 0\n$(:b;1) = 0\n$(:b;2) = 0\n"
+                "$'c' = 1;0\n$('c';:left) = 0\n$('c';:middle) = 0\n$('c';:right) = 0\n"
+                "$('c';0) = 0\n$('c';1) = 0\n$('c';2) = 0\n");
 }
 
 // The values of a removed node stay in the state, and the node continues when it returns. A reload keeps pressed keys.
@@ -199,6 +220,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_without_reports_nothing_is_written),
         PLAYER_TEST(test_pointer),
+        PLAYER_TEST(test_numbers_of_buttons),
         PLAYER_TEST(test_click_between_frames),
         PLAYER_TEST(test_positions_that_are_not_finite_are_rejected),
         PLAYER_TEST(test_key),
