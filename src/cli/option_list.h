@@ -8,6 +8,8 @@ FIELD(const char *, output,       NULL)           // render, open, sweep: output
 FIELD(const char *, format,       NULL)           // render: format for `-o -`; NULL: not given
 FIELD(int64_t,      frame,        -1)             // render, link: frame number; -1: not given
 FIELD(bool,         terminal,     false)          // view: show in the terminal
+FIELD(bool,         full_screen,  false)          // view
+FIELD(int64_t,      screen,       -1)             // view: number of the screen; -1: not given
 FIELD(bool,         update,       false)
 FIELD(const char *, filter,       NULL)
 FIELD(const char *, junit,        NULL)
@@ -78,6 +80,8 @@ OPTION(FOR_OPEN, "output", 'o', "FILE", read_text, output, "write the script (FI
 OPTION(FOR_LINK, "frame", 0, "N", WHOLE(0, 1000000), frame, "also store the frame number N and the digest of that frame's state")
 OPTION(FOR_LINK, "page", 0, "ADDRESS", read_text, page, "print a whole URL, with the playground at ADDRESS (default: print only the part from '#')")
 OPTION(FOR_VIEW, "terminal", 0, NULL, read_flag, terminal, "show the picture in the terminal even if there is a display")
+OPTION(FOR_VIEW, "fullscreen", 0, NULL, read_flag, full_screen, "fill the screen; the key f switches it off")
+OPTION(FOR_VIEW, "screen", 0, "N", WHOLE(0, 63), screen, "open the window on screen N, counted from 0 (default: 0)")
 OPTION(FOR_VIEW, "auto", 0, NULL, read_flag, automatic, "show the particles instead of the script's canvas")
 OPTION(FOR_VIEW, "listen", 0, "SOCKET", read_text, listen, "accept text from `petri send` on the Unix socket SOCKET, only from the same user")
 OPTION(FOR_TEST, "update", 0, NULL, read_flag, update, "update goldens to the current output")

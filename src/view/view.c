@@ -329,6 +329,21 @@ static void run_loop(View *view) {
         draw_view(view);
 }
 
+// Moves the open display to the screen of the options, and fills it if required. If this fails, writes a message,
+// closes the display and returns false.
+static bool place_display(View *view) {
+    const Options *options = view->live.options;
+    if (options->screen >= 0 && view->kind->move_to_screen &&
+        !view->kind->move_to_screen(view->display, (int)options->screen)) {
+        view->kind->close(view->display);
+        view->display = NULL;
+        return false;
+    }
+    if (options->full_screen && view->kind->toggle_full_screen)
+        view->kind->toggle_full_screen(view->display);
+    return true;
+}
+
 // Opens a window if there is a screen, else the terminal display. Returns false after a message.
 static bool open_display(View *view) {
     const Options *options = view->live.options;
@@ -349,7 +364,7 @@ static bool open_display(View *view) {
         view->display =
             view->kind->open(view->title, view->width, view->height, view->live.painter, !options->monochrome);
     }
-    return view->display;
+    return view->display && place_display(view);
 }
 
 // Returns true for `petri run --show`, which passes these options.

@@ -379,6 +379,17 @@ static void fill_screen(Display *display) {
     display->filled = true;
 }
 
+static bool window_move_to_screen(Display *display, int screen) {
+    int count = SDL_GetNumVideoDisplays();
+    if (screen >= count) {
+        message("there is no screen %d; the last one is %d", screen, count - 1);
+        return false;
+    }
+    SDL_SetWindowPosition(display->window, SDL_WINDOWPOS_CENTERED_DISPLAY(screen),
+                          SDL_WINDOWPOS_CENTERED_DISPLAY(screen));
+    return true;
+}
+
 static void window_toggle_full_screen(Display *display) {
     bool full = (SDL_GetWindowFlags(display->window) & SDL_WINDOW_FULLSCREEN) != 0;
     if (display->filled) {
@@ -405,6 +416,7 @@ static const DisplayKind WINDOW = {
     .show = window_show,
     .set_title = window_set_title,
     .resize = window_resize,
+    .move_to_screen = window_move_to_screen,
     .toggle_full_screen = window_toggle_full_screen,
     .gone = window_gone,
     .min_seconds = 0,

@@ -280,6 +280,21 @@ check "f restores the picture" soon shows still.png
 press q
 check "q quits" ended 0
 
+# Options for the screen.
+view still still.fl --fullscreen
+check "--fullscreen fills the screen" soon size_is 1000 700
+press f
+check "f ends --fullscreen" soon size_is 320 240
+press q
+ended 0
+view still still.fl --screen 0
+check "--screen 0 opens the window" soon size_is 320 240
+press q
+ended 0
+"$petri" view still.fl --screen 7 --frames 3 >out 2>err
+check "--screen with a number beyond the last is an error" [ $? -eq 1 ]
+check "the message names the last screen" has err "there is no screen 7; the last one is 0"
+
 # Full screen with a window manager.
 if command -v openbox >/dev/null 2>&1; then
     openbox >openbox.log 2>&1 &
