@@ -92,11 +92,11 @@ static void save_protected(void *context) {
 
 static void report_name(void *context) {
     const Saving *saving = context;
-    report_file(
-        saving->picture, saving->file,
-        saving->record
-            ? "the filename of !record must end in .png, .jpg, .svg or .pdf, or, for a video, in .mp4, .webm or .gif"
-            : "the name of a picture must end in .png, .svg or .pdf");
+    report_file(saving->picture, saving->file,
+                saving->record
+                    ? "the filename of !record must end in .png, .jpg, .svg or .pdf, or, for a video, in .mp4, .m4v, "
+                      ".mov, .mkv, .webm, .ogg or .gif"
+                    : "the name of a picture must end in .png, .svg or .pdf");
 }
 
 static PetriStatus save_picture(Saving *saving) {

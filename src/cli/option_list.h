@@ -73,8 +73,8 @@ FIELD(bool,         only_checks,  false)          // fmt: write nothing
 FIELD(bool,         parameters,   false)          // list the parameters instead of running
 FIELD(int,          dump,         -1)             // PetriDump; -1: not given
 
-OPTION(FOR_RENDER, "output", 'o', "FILE", read_text, output, "write to OUT.png, OUT%05d.png (one per frame), OUT.svg, OUT.pdf, OUT.mp4, OUT.webm or OUT.gif; - for standard output")
-OPTION(FOR_RENDER, "format", 0, "F", read_text, format, "select the format for '-o -': png, svg, pdf, mp4, webm or gif (default: png)")
+OPTION(FOR_RENDER, "output", 'o', "FILE", read_text, output, "write to OUT.png, OUT%05d.png (one per frame), OUT.svg, OUT.pdf, or a video such as OUT.mp4 or OUT.gif; - for standard output")
+OPTION(FOR_RENDER, "format", 0, "F", read_text, format, "select the format for '-o -': png, svg, pdf, mp4, m4v, mov, mkv, webm, ogg or gif (default: png)")
 OPTION(FOR_RENDER, "frame", 0, "N", WHOLE(0, INT64_MAX - 1), frame, "draw only frame N, counted from 0 (default: the last)")
 OPTION(FOR_OPEN, "output", 'o', "FILE", read_text, output, "write the script (FILE.fl, - for standard output) or the picture of the frame (.png, .svg, .pdf)")
 OPTION(FOR_LINK, "frame", 0, "N", WHOLE(0, 1000000), frame, "also store the frame number N and the digest of that frame's state")

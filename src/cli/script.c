@@ -29,7 +29,7 @@ int script_suffix(const char *name, const char *words) {
 }
 
 static bool is_picture(const char *name) {
-    return script_suffix(name, ".png .svg .pdf .mp4 .webm .gif") >= 0;
+    return script_suffix(name, ".png .svg .pdf .mp4 .m4v .mov .mkv .webm .ogg .gif") >= 0;
 }
 
 void script_report_second(const char *first, const char *second) {

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char *const formats[] = {"png", "svg", "pdf", "mp4", "webm", "gif", NULL};
+static const char *const formats[] = {"png", "svg", "pdf", "mp4", "m4v", "mov", "mkv", "webm", "ogg", "gif", NULL};
 
 bool stdout_file_is_requested(const char *output) {
     return output && strcmp(output, "-") == 0;
@@ -27,7 +27,7 @@ static bool is_format(const char *format) {
 
 bool stdout_file_check(const char *format) {
     if (format && !is_format(format)) {
-        message("option '--format' expects png, svg, pdf, mp4, webm or gif, not '%s'", format);
+        message("option '--format' expects png, svg, pdf, mp4, m4v, mov, mkv, webm, ogg or gif, not '%s'", format);
         return false;
     }
     if (isatty(STDOUT_FILENO)) {

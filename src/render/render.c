@@ -76,7 +76,8 @@ static bool read_output(Render *render) {
     if (video_has_suffix(options->output)) {
         render->kind = OUTPUT_FILM;
     } else if (!petri_picture_can_save(options->output)) {
-        message("unknown suffix: '%s'; use .png, .svg, .pdf, .mp4, .webm or .gif", options->output);
+        message("unknown suffix: '%s'; use .png, .svg, .pdf, .mp4, .m4v, .mov, .mkv, .webm, .ogg or .gif",
+                options->output);
         return false;
     } else {
         render->kind = find_number(options->output, &end) ? OUTPUT_SERIES : OUTPUT_PICTURE;

@@ -23,17 +23,20 @@ enum { MAX_WORDS = 64, PIPE_BYTES = 1 << 20 };
 #define COLOURS "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
 // Many players need an even width and height.
 #define EVEN "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"
+#define H264 "-vf", EVEN, COLOURS, "-c:v", "libx264", "-preset", "veryfast", "-crf", "17"
 
 static const struct {
     const char *suffix;
     const char *words[24];
 } formats[] = {
-    {".mp4",
-     {"-vf", EVEN, COLOURS, "-c:v", "libx264", "-preset", "veryfast", "-crf", "17", "-movflags", "+faststart", "-f",
-      "mp4", NULL}},
+    {".mp4", {H264, "-movflags", "+faststart", "-f", "mp4", NULL}},
+    {".m4v", {H264, "-movflags", "+faststart", "-f", "mp4", NULL}},
+    {".mov", {H264, "-movflags", "+faststart", "-f", "mov", NULL}},
+    {".mkv", {H264, "-f", "matroska", NULL}},
     {".webm",
      {"-vf", EVEN, COLOURS, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6",
       "-row-mt", "1", "-f", "webm", NULL}},
+    {".ogg", {"-vf", EVEN, COLOURS, "-c:v", "libtheora", "-q:v", "9", "-f", "ogg", NULL}},
     // Each frame has its own palette, because a common palette would require all frames in memory.
     {".gif",
      {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer", "-f",

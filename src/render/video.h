@@ -23,7 +23,7 @@ typedef struct Video {
     char error_text[512]; // reason of the last failure
 } Video;
 
-// Returns true if the file name ends in .mp4, .webm or .gif.
+// Returns true if the file name ends in .mp4, .m4v, .mov, .mkv, .webm, .ogg or .gif.
 bool video_has_suffix(const char *file);
 // Starts ffmpeg. Returns false and sets error_text on failure.
 bool video_open(Video *video, const char *file, int width, int height, double fps);

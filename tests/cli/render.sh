@@ -23,7 +23,7 @@ check "render without an output is a usage error" status_is 2
 check "render without an output names the option" has err "option '--output' is missing"
 petri render disc.fl -o disc.txt
 check "an unknown suffix is a usage error" status_is 2
-check "the message lists the known suffixes" has err ".png, .svg, .pdf, .mp4, .webm or .gif"
+check "the message lists the known suffixes" has err ".png, .svg, .pdf, .mp4, .m4v, .mov, .mkv, .webm, .ogg or .gif"
 for size in 0x10 10 -1x5 10x 1000000000x10; do
     petri render disc.fl -o disc.png --size $size
     check "--size $size is a usage error" status_is 2
@@ -376,7 +376,7 @@ END
 
     # videos
     if command -v ffmpeg >/dev/null; then
-        for suffix in mp4 webm gif; do
+        for suffix in mp4 m4v mov mkv webm ogg gif; do
             petri render disc.fl -o film.$suffix --frames 10
             check "render writes a video: $suffix" [ -s film.$suffix ]
             frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 film.$suffix)

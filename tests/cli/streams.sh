@@ -66,7 +66,7 @@ if command -v ffmpeg >/dev/null 2>&1; then
 fi
 petri render drawn.fl --frames 1 -o - --format bmp
 check "an unknown format is a wrong command line" status_is 2
-check "the message lists the known formats" has err "png, svg, pdf, mp4, webm or gif"
+check "the message lists the known formats" has err "png, svg, pdf, mp4, m4v, mov, mkv, webm, ogg or gif"
 petri render drawn.fl --frames 1 -o x.png --format svg
 check "--format with a file is a wrong command line" status_is 2
 petri render nowhere.fl -o -
