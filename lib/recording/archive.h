@@ -116,9 +116,6 @@ bool archive_column_integer(PetriArchive *archive, sqlite3_stmt *row, int column
 bool archive_column_text(PetriArchive *archive, sqlite3_stmt *row, int column, Str *text);
 bool archive_column_blob(PetriArchive *archive, sqlite3_stmt *row, int column, Str *bytes);
 
-// write.c: completes an archive that is written.
-void archive_complete(PetriArchive *archive);
-
 // files.c: the versions of files.
 
 // Adds a version to the list. Copies the name. Returns NULL after a problem.

@@ -16,6 +16,11 @@ PetriArchive *petri_archive_open(const char *file, size_t memory_limit) {
     return file ? heap_calloc(1, sizeof(PetriArchive)) : NULL;
 }
 
+PetriStatus petri_archive_complete(PetriArchive *archive) {
+    (void)archive;
+    return PETRI_UNSUPPORTED;
+}
+
 void petri_archive_close(PetriArchive **archive) {
     if (!archive)
         return;

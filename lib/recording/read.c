@@ -64,8 +64,7 @@ void petri_archive_close(PetriArchive **handle) {
     if (!archive)
         return;
     *handle = NULL;
-    if (archive->writes)
-        archive_complete(archive);
+    petri_archive_complete(archive);
     archive_free(archive);
 }
 

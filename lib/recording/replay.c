@@ -137,11 +137,14 @@ static PetriStatus before_frame(void *user_data, FrameClock *clock, bool *has_cl
         archive->replay_start = frame;
     }
     archive->replay_frame = frame + 1;
+    recorder_ignore_input(archive->session, false);
     if (frame >= archive->recorded_end)
         return PETRI_OK; // the run continues after its recorded frames
     *clock = (FrameClock){.lockstep = true};
     *has_clock = true;
-    return apply_inputs(archive, frame + 1, clock);
+    PetriStatus status = apply_inputs(archive, frame + 1, clock);
+    recorder_ignore_input(archive->session, true);
+    return status;
 }
 
 PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, int64_t frame) {
@@ -156,7 +159,7 @@ PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, i
     archive->session = session;
     archive->replay_start = keyframe->frame;
     PetriStatus status = restore_keyframe(archive, session, keyframe->frame);
-    recorder_set(session, &(Recorder){.user_data = archive, .before_frame = before_frame});
+    recorder_set(session, &(Recorder){.user_data = archive, .before_frame = before_frame, .ignores_input = true});
     while (status == PETRI_OK && petri_frame_number(session) < frame)
         status = petri_step(session);
     return status;

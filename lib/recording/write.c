@@ -288,12 +288,17 @@ PetriArchive *petri_archive_create(PetriSession *session, const char *file, cons
         archive_create_database(archive, file);
     archive->last_frame_end = archive->last_commit = clock_seconds();
     archive->revision = UINT64_MAX;
-    recorder_set(session, &(Recorder){archive, before_frame, after_frame, on_jump, on_input, on_file});
+    recorder_set(session, &(Recorder){.user_data = archive,
+                                      .before_frame = before_frame,
+                                      .after_frame = after_frame,
+                                      .jump = on_jump,
+                                      .input = on_input,
+                                      .file = on_file});
     return archive;
 }
 
 PetriStatus petri_archive_add_note(PetriArchive *archive, const char *text) {
-    if (!archive || !text || !archive->writes || utf8_find_error(str_from(text)) < strlen(text))
+    if (!archive || !text || !archive->writes || !archive->session || utf8_find_error(str_from(text)) < strlen(text))
         return PETRI_INVALID;
     sqlite3_stmt *row = archive_statement(archive, SQL_ADD_NOTE);
     if (row)
@@ -323,7 +328,13 @@ static void complete(PetriArchive *archive) {
     archive_execute(archive, "COMMIT");
 }
 
-void archive_complete(PetriArchive *archive) {
-    recorder_set(archive->session, NULL);
-    complete(archive);
+PetriStatus petri_archive_complete(PetriArchive *archive) {
+    if (!archive || !archive->writes)
+        return PETRI_INVALID;
+    if (archive->session) {
+        recorder_set(archive->session, NULL);
+        complete(archive);
+        archive->session = NULL;
+    }
+    return archive_fails(archive) ? PETRI_INVALID : PETRI_OK;
 }

@@ -25,6 +25,8 @@ static PetriStatus report_pointer(PetriSession *session, const PetriPointer *giv
 }
 
 PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer) {
+    if (session && session->recorder.ignores_input)
+        return PETRI_OK;
     PetriStatus status = report_pointer(session, pointer);
     if (status == PETRI_OK)
         recorder_pointer(session, pointer);
@@ -37,6 +39,8 @@ PetriStatus petri_report_key(PetriSession *session, const char *name, bool press
     int key = input_key_number(str_from(name));
     if (key == INPUT_KEY_NONE)
         return PETRI_INVALID;
+    if (session->recorder.ignores_input)
+        return PETRI_OK;
     input_report_key(scene_input(session->scene), key, pressed);
     recorder_key(session, name, pressed);
     return PETRI_OK;

@@ -18,6 +18,10 @@ void recorder_set(PetriSession *session, const Recorder *recorder) {
     session->reach.on_read_user_data = session;
 }
 
+void recorder_ignore_input(PetriSession *session, bool ignores) {
+    session->recorder.ignores_input = ignores;
+}
+
 uint32_t recorder_host_functions(const PetriSession *session) {
     return session->functions.count;
 }

@@ -26,6 +26,7 @@ typedef struct Recorder {
     // `name` is relative to the script's folder; that of a folder ends in a slash. If `bytes.bytes` is NULL, there is
     // no such file.
     void (*file)(void *user_data, const char *name, Str bytes);
+    bool ignores_input; // true: the pointer and keys that the host reports have no effect
 } Recorder;
 
 // Sets the callbacks of a session; NULL removes them. Copies the struct.
@@ -54,6 +55,8 @@ PetriStatus recorder_restore(PetriSession *session, Str setup, Str state);
 // Gives an input to the session. Kinds are "configuration", "pointer", "key", "state" and "global". Returns
 // PETRI_INVALID for the same reasons as recorder_restore.
 PetriStatus recorder_apply_input(PetriSession *session, Str kind, Str payload);
+// Sets Recorder.ignores_input.
+void recorder_ignore_input(PetriSession *session, bool ignores);
 // Returns the number of functions that the host added, which a recording cannot contain.
 uint32_t recorder_host_functions(const PetriSession *session);
 

@@ -4,6 +4,7 @@
 #include "base/source.h"
 #include "cli/script.h"
 
+#include <math.h>
 #include <string.h>
 
 // Adds a word of the command line. Absolute paths are shortened to file names, because an archive must not reveal where
@@ -36,6 +37,7 @@ bool archiving_begin(Archiving *archiving, const Options *options, const char *c
     if (!problem)
         return true;
     message("cannot write the archive '%s': %s", options->archive, problem);
+    archiving->failed = true; // so that the problem is not reported again
     archiving_end(archiving);
     return false;
 }
@@ -51,6 +53,56 @@ void archiving_check(Archiving *archiving) {
 bool archiving_end(Archiving *archiving) {
     if (!archiving->archive)
         return true;
+    petri_archive_complete(archiving->archive);
+    archiving_check(archiving);
     petri_archive_close(&archiving->archive);
     return !archiving->failed;
+}
+
+// --- replays
+
+bool archive_report_problem(const PetriArchive *archive, const char *file) {
+    const char *problem = archive ? petri_archive_problem(archive) : "out of memory";
+    if (problem)
+        message("cannot read '%s': %s", file, problem);
+    return problem;
+}
+
+// Sets the default number of frames: those that are recorded.
+static void set_frames(Options *options, const Command *command) {
+    PetriArchiveInfo info;
+    if (options->from < 0)
+        options->from = options->frame;
+    if (options->frames < 0 && isnan(options->run_time) && !command->live &&
+        petri_archive_info(options->replayed, &info, sizeof info)) {
+        int64_t first = options->from > info.first_frame ? options->from : info.first_frame;
+        options->frames = info.last_frame < first ? 0 : info.last_frame - first + 1;
+    }
+}
+
+int replay_open(Options *options, const Command *command) {
+    bool can_replay = command->options & (FOR_RUN | FOR_RENDER | FOR_VIEW | FOR_REPL);
+    if (!can_replay || !options->script || script_is_stdin(options->script) || !petri_archive_is(options->script)) {
+        if (options->from >= 0)
+            message("option '--from' needs an archive");
+        return options->from >= 0 ? STATUS_USAGE : OPTIONS_READ;
+    }
+    if (options->definitions.count > 0 || options->archive || options->state_file) {
+        message("cannot use '--%s' with an archive", options->archive      ? "archive"
+                                                     : options->state_file ? "state"
+                                                                           : "define");
+        return STATUS_USAGE;
+    }
+    options->replayed = petri_archive_open(options->script, options->memory);
+    if (archive_report_problem(options->replayed, options->script))
+        return STATUS_FAILED;
+    set_frames(options, command);
+    return archive_report_problem(options->replayed, options->script) ? STATUS_FAILED : OPTIONS_READ;
+}
+
+PetriStatus replay_load(const Options *options, PetriSession *session) {
+    PetriStatus status = petri_archive_replay(options->replayed, session, options->from > 0 ? options->from - 1 : -1);
+    if (status != PETRI_OK && !archive_report_problem(options->replayed, options->script))
+        message("cannot replay '%s': %s", options->script, petri_status_text(status));
+    return status;
 }

@@ -1,4 +1,4 @@
-// archive.h: archives that commands write (--archive).
+// archive.h: archives that commands write (--archive), or replay instead of a script.
 #pragma once
 
 #include "cli/options.h"
@@ -18,3 +18,11 @@ bool archiving_begin(Archiving *archiving, const Options *options, const char *c
 void archiving_check(Archiving *archiving);
 // Completes the archive. Must be called before the session is closed. Returns false if the archive is incomplete.
 bool archiving_end(Archiving *archiving);
+
+// If the script is an archive, opens it and sets the options for its replay. Returns OPTIONS_READ, or an exit status
+// after a message.
+int replay_open(Options *options, const Command *command);
+// Loads the archive and computes the frames before the first frame that was requested.
+PetriStatus replay_load(const Options *options, PetriSession *session);
+// Prints the problem of an archive, if there is one. Returns true if there is one.
+bool archive_report_problem(const PetriArchive *archive, const char *file);

@@ -90,6 +90,8 @@ extern const Command LINK_COMMAND;
 extern const Command OPEN_COMMAND;
 extern const Command VERIFY_COMMAND;
 extern const Command INFO_COMMAND;
+extern const Command CITE_COMMAND;
+extern const Command UNPACK_COMMAND;
 extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 

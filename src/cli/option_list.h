@@ -29,6 +29,7 @@ FIELD(const char *, with,         NULL)           // diff: program of the second
 FIELD(bool,         json,         false)
 FIELD(const char *, shard,        NULL)
 FIELD(const char *, archive,      NULL)           // file; NULL: none
+FIELD(int64_t,      from,         -1)             // first frame of an archive's replay; -1: not given
 FIELD(int64_t,      keyframe_every, 1000)
 FIELD(int64_t,      digest_every, 1)
 FIELD(int64_t,      sample_segments, 0)           // verify: 0: all
@@ -145,6 +146,7 @@ OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "show the picture in the termi
 OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "print timings and each system's energy at the end")
 OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write all particles to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state, append to FILE")
 OPTION(FOR_RUN, "archive", 0, "FILE", read_text, archive, "write an archive of the run, which 'petri verify' can verify, to FILE.petri")
+OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW | FOR_REPL, "from", 0, "FRAME", WHOLE(0, INT64_MAX - 1), from, "start the replay of an archive with this frame (default: the first)")
 OPTION(FOR_RUN, "keyframe-every", 0, "N", WHOLE(1, INT64_MAX - 1), keyframe_every, "store the state in the archive every N frames (default: 1000)")
 OPTION(FOR_RUN, "digest-every", 0, "K", WHOLE(1, INT64_MAX - 1), digest_every, "store a digest of every K-th frame in the archive (default: 1)")
 OPTION(FOR_VERIFY, "sample", 0, "K", WHOLE(1, INT64_MAX), sample_segments, "verify only K segments, chosen at random")

@@ -2,6 +2,7 @@
 #include "cli/options.h"
 
 #include "base/clock.h"
+#include "cli/archive.h"
 #include "cli/args.h"
 #include "cli/memory.h"
 #include "cli/progress.h"
@@ -278,6 +279,8 @@ int options_parse(Options *options, const Command *command, int argc, char **arg
     };
     options->realtime = command->live;
     int status = command->parses_arguments ? OPTIONS_READ : read_all(&args);
+    if (status == OPTIONS_READ)
+        status = replay_open(options, command);
     if (options->frames < 0)
         options->frames = isnan(options->run_time) && !command->live ? DEFAULT_FRAMES : INT64_MAX;
     return status;
@@ -290,6 +293,7 @@ void options_free(Options *options) {
     texts_free(&options->read_folders);
     texts_free(&options->write_folders);
     scripts_free(&options->scripts);
+    petri_archive_close(&options->replayed);
 }
 
 int command_run(const Command *command, const CommandContext *host, int argc, char **argv) {
@@ -329,9 +333,9 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.read_folders = (const char *const *)options->read_folders.items;
     wanted.write_folders = (const char *const *)options->write_folders.items;
     wanted.no_files = options->no_files;
-    wanted.read_file = options->read;
+    wanted.read_file = options->replayed ? petri_archive_read : options->read;
     wanted.read_unsaved = options->unsaved;
-    wanted.read_user_data = options->unsaved_host;
+    wanted.read_user_data = options->replayed ? options->replayed : options->unsaved_host;
     wanted.on_diagnostic = diagnostic;
     wanted.user_data = context;
     wanted.should_interrupt = options->should_interrupt;
@@ -350,6 +354,10 @@ int options_open(const Options *options, const CommandContext *host,
         }
     }
     return OPTIONS_READ;
+}
+
+PetriStatus options_load(const Options *options, PetriSession *session) {
+    return options->replayed ? replay_load(options, session) : script_load(session, options->script);
 }
 
 bool options_due(const Options *options, int64_t frames, double start, double fps) {

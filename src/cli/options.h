@@ -31,8 +31,9 @@ typedef struct Options {
     void *unsaved_host;                                                   // first argument of both functions
     bool (*should_interrupt)(void *context);                              // PetriOptions.should_interrupt; NULL: none
     bool keep_forces;                                                     // PetriOptions.keep_forces
-    bool prompt; // true if the session must keep forces for display and roll back interrupted frames
-    int argc;    // arguments after the command's name
+    struct PetriArchive *replayed; // archive that is used instead of a script; NULL: none
+    bool prompt;                   // true if the session must keep forces for display and roll back interrupted frames
+    int argc;                      // arguments after the command's name
     char **argv;
 } Options;
 
@@ -42,6 +43,9 @@ enum { OPTIONS_READ = -1 }; // success, from functions that otherwise return an 
 // options with options_free in both cases.
 int options_parse(Options *options, const Command *command, int argc, char **argv);
 void options_free(Options *options);
+
+// Loads the script, or the archive from which a run is replayed. A missing script causes a suggestion.
+PetriStatus options_load(const Options *options, PetriSession *session);
 
 // Returns true if another frame must be computed according to --frames and --runtime. `frames` frames have been
 // computed since `start`, a time of the monotonic clock in seconds.

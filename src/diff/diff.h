@@ -34,9 +34,10 @@ struct Side {
     double time;    // of the current frame; NaN: unknown
     int64_t frames; // maximum number of frames
     // A side that is computed in this process:
-    PetriSession *session; // NULL: only printed frames are known
-    int64_t computed;      // number of computed frames
-    TextList *reported;    // diagnostics of both sides, each of which is shown once
+    PetriSession *session;        // NULL: only printed frames are known
+    int64_t computed;             // number of computed frames
+    struct PetriArchive *archive; // archive that is replayed; NULL: none
+    TextList *reported;           // diagnostics of both sides, each of which is shown once
     // A side that is read as text:
     FILE *stream;
     pid_t process; // writes `stream`; 0: none

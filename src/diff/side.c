@@ -1,5 +1,6 @@
 // side.c: sides that are computed in this process: scripts and state files.
 #include "base/file.h"
+#include "cli/archive.h"
 #include "cli/script.h"
 #include "cli/subprocess.h"
 #include "diff/diff.h"
@@ -65,6 +66,39 @@ static bool open_script(Side *side) {
     return open_session(side) && script_load(side->session, side->source) == PETRI_OK;
 }
 
+// --- archives
+
+// Compares archived frames by computing them.
+static bool next_archived(Side *side) {
+    PetriArchiveInfo info;
+    bool more =
+        petri_archive_info(side->archive, &info, sizeof info) && petri_frame_number(side->session) < info.last_frame;
+    bool found = more && next_frame(side);
+    side->failed = archive_report_problem(side->archive, side->source) || side->failed;
+    return found && !side->failed;
+}
+
+static void close_archive(Side *side) {
+    petri_close(&side->session);
+    petri_archive_close(&side->archive);
+}
+
+static const SideKind ARCHIVE_SIDE = {.next = next_archived, .print = print_session, .close = close_archive};
+
+static bool open_archive(Side *side) {
+    Options options = *side->options;
+    side->kind = &ARCHIVE_SIDE;
+    side->archive = petri_archive_open(side->source, options.memory);
+    if (archive_report_problem(side->archive, side->source))
+        return false;
+    options.replayed = side->archive;
+    options.definitions = (TextList){0};
+    bool replays = options_open(&options, side->host, on_diagnostic, side, &side->session) == OPTIONS_READ &&
+                   petri_archive_replay(side->archive, side->session, -1) == PETRI_OK;
+    archive_report_problem(side->archive, side->source);
+    return replays;
+}
+
 // --- state files
 
 static bool next_state(Side *side) {
@@ -105,6 +139,8 @@ bool side_open(Side *side) {
         return printed_open_golden(side);
     if (!script_is_stdin(side->source) && is_state_file(side->source))
         return open_state(side);
+    if (!side->with && !script_is_stdin(side->source) && petri_archive_is(side->source))
+        return open_archive(side);
     return side->with ? printed_open_process(side) : open_script(side);
 }
 

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #ifdef PETRI_PICTURES
-const Command *const COMMANDS[] = {
-    &RUN_COMMAND,  &VIEW_COMMAND,   &RENDER_COMMAND, &REPL_COMMAND, &SWEEP_COMMAND, &TEST_COMMAND,
-    &DIFF_COMMAND, &CHECK_COMMAND,  &FMT_COMMAND,    &LSP_COMMAND,  &SEND_COMMAND,  &LINK_COMMAND,
-    &OPEN_COMMAND, &VERIFY_COMMAND, &INFO_COMMAND,   &NEW_COMMAND,  &HELP_COMMAND,  NULL};
+const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND,   &RENDER_COMMAND, &REPL_COMMAND,   &SWEEP_COMMAND,
+                                   &TEST_COMMAND, &DIFF_COMMAND,   &CHECK_COMMAND,  &FMT_COMMAND,    &LSP_COMMAND,
+                                   &SEND_COMMAND, &LINK_COMMAND,   &OPEN_COMMAND,   &VERIFY_COMMAND, &INFO_COMMAND,
+                                   &CITE_COMMAND, &UNPACK_COMMAND, &NEW_COMMAND,    &HELP_COMMAND,   NULL};
 #elif defined PETRI_LSP
 const Command *const COMMANDS[] = {&LSP_COMMAND, NULL};
 #else // petri and petri-ranks: commands that never draw

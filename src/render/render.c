@@ -87,7 +87,7 @@ static bool read_output(Render *render) {
         return false;
     }
     if (options->frame >= 0)
-        options->frames = options->frame + 1;
+        options->frames = options->frame + 1 - (options->from > 0 ? options->from : 0);
     return true;
 }
 

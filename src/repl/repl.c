@@ -202,7 +202,9 @@ static bool read_state(Repl *repl, const char *file) {
 // it changes.
 static void start_session(Repl *repl, const char *state) {
     petri_load_text(repl->session, "prompt", "", 0);
-    if (repl->script)
+    if (repl->options->replayed)
+        repl_replay(repl);
+    else if (repl->script)
         repl_load(repl, repl->script);
     if (!read_state(repl, state))
         repl->failed = true;
@@ -235,7 +237,7 @@ static int run_session(Repl *repl, const char *state) {
 
 static int repl_run(const CommandContext *host, Options *options) {
     Repl repl = {.options = options, .output.fd = STDOUT_FILENO};
-    repl.script = !options->script ? NULL : memory_strdup(options->script);
+    repl.script = !options->script || options->replayed ? NULL : memory_strdup(options->script);
     for (size_t i = 0; i < options->definitions.count; i++)
         texts_add(&repl.definitions, options->definitions.items[i]);
     options->prompt = true;

@@ -47,6 +47,8 @@ bool repl_interrupted(void);
 
 // Loads a script (script.c). Returns true if this script is now running.
 bool repl_load(Repl *repl, const char *file);
+// Loads the archive that was given instead of a script. Returns false after a message.
+bool repl_replay(Repl *repl);
 // If the script's files have changed, writes a note and returns true. If `at_prompt` is true, the current line contains
 // a prompt, so the note starts on a new line.
 bool repl_report_changes(Repl *repl, bool at_prompt);

@@ -140,6 +140,8 @@ static void describe_changes(const Text *before, const Text *after, Text *what) 
 }
 
 void repl_watch_files(Repl *repl) {
+    if (repl->options->replayed)
+        return; // its files do not change
     if (repl->script)
         file_watch_add(repl->files, repl->script);
     const char *path;
@@ -162,6 +164,10 @@ static bool finish_load(Repl *repl, PetriStatus status) {
     }
     repl->failed = repl->failed || status != PETRI_OK;
     return status == PETRI_OK;
+}
+
+bool repl_replay(Repl *repl) {
+    return finish_load(repl, options_load(repl->options, repl->session));
 }
 
 bool repl_load(Repl *repl, const char *file) {

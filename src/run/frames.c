@@ -88,7 +88,7 @@ int frames_open(Frames *frames, const CommandContext *host, Options *options) {
 }
 
 bool frames_load(Frames *frames) {
-    return script_load(frames->session, frames->options->script) == PETRI_OK;
+    return options_load(frames->options, frames->session) == PETRI_OK;
 }
 
 double frames_fps(const Frames *frames) {

@@ -245,8 +245,8 @@ static bool is_drawable(const Options *options, const CommandContext *host) {
     PetriSession *session = NULL;
     if (options_open(options, host, ignore_diagnostic, NULL, &session) != OPTIONS_READ)
         return false;
-    bool drawable = petri_load(session, options->script) == PETRI_OK && petri_step(session) == PETRI_OK &&
-                    petri_has_picture(session);
+    bool drawable =
+        options_load(options, session) == PETRI_OK && petri_step(session) == PETRI_OK && petri_has_picture(session);
     petri_close(&session);
     return drawable;
 }

@@ -83,13 +83,15 @@ static void resume(LiveScript *live) {
 // Watches the script and all files that it has included or imported so far.
 static void watch_sources(LiveScript *live) {
     const char *source;
+    if (live->options->replayed)
+        return; // its files do not change
     file_watch_add(live->watch, live->options->script);
     for (size_t i = 0; (source = petri_source_file(live->session, i)); i++)
         file_watch_add(live->watch, source);
 }
 
 static int load_initial(LiveScript *live) {
-    PetriStatus status = script_load(live->session, live->options->script);
+    PetriStatus status = options_load(live->options, live->session);
     if (status != PETRI_OK)
         return live->invalid_definition ? STATUS_USAGE : STATUS_FAILED;
     state_file_restore(&live->state_file, live->session, live->options->state_file);

@@ -67,6 +67,93 @@ if petri run dish.fl --frames 1 --archive run.petri && status_is 0; then
     check "an archive can begin with a saved state" has out "frames      5 to 9"
     petri verify later.petri
     check "verify starts at the saved state" has out "verified: 5 of 5 frames"
+
+    # Archives instead of scripts
+    cat >film.fl <<'END'
+%pragma fps 25
+let R=R or 4
+!window size=40;30
+    !canvas
+        !path
+            !circle point=20;15 radius=R+$:size
+            !fill
+!counter state=:size rate=2
+END
+    petri run film.fl -D R=6 --frames 40 --keyframe-every 7 --archive film.petri
+    petri run film.fl -D R=6 --frames 40 --print state,digest --every 3
+    cp out expected
+    petri run film.petri --print state,digest --every 3
+    check "run replays an archive with its recorded frames" eval 'status_is 0 && cmp -s out expected'
+    petri run film.fl -D R=6 --frames 34 --print digest --every 33
+    tail -n 2 out >expected
+    petri run film.petri --from 33 --frames 1 --print digest
+    check "--from starts at any frame" eval 'status_is 0 && cmp -s out expected'
+    petri run film.petri --from 38 --frames 10 --print digest
+    check "the run continues after the recorded frames" [ "$(grep -c = out)" -ge 10 ]
+    petri run film.petri -D R=5
+    check "-D cannot change an archive" eval 'status_is 2 && has err "with an archive"'
+    petri run film.fl --from 3
+    check "--from needs an archive" eval 'status_is 2 && has err "needs an archive"'
+    if petri render film.fl -D R=6 --frame 30 -o script.png && status_is 0; then
+        rm -f replay.png
+        petri render film.petri --frame 30 -o replay.png
+        check "render draws a frame of an archive" eval 'status_is 0 && cmp -s script.png replay.png'
+    fi
+    echo '$:size' | timeout 60 "$petri" repl film.petri --from 10 >out 2>err
+    check "the prompt continues an archive" grep -q '^@9> 0.72$\|0.72' out
+    petri diff film.petri film.fl
+    check "diff compares an archive with a script" eval 'status_is 0 && empty out'
+    petri run film.fl --frames 20 --archive other.petri
+    sed 's/rate=2/rate=3/' film.fl >changed.fl
+    petri diff film.petri changed.fl
+    check "diff finds the first frame that differs from an archive" eval 'status_is 1 && has out "frame 1, time 0.04"'
+    petri cite film.petri
+    check "cite prints the digest, BibTeX and CITATION.cff" eval \
+        'status_is 0 && has out "digest: " && has out "@misc{petri-" && has out "cff-version: 1.2.0"'
+    petri unpack first.petri unpacked
+    check "unpack writes the files" eval 'status_is 0 && cmp -s mass.fl unpacked/mass.fl && cmp -s dish.fl unpacked/dish.fl'
+    petri unpack first.petri unpacked
+    check "unpack does not overwrite files" eval 'status_is 1 && has err "File exists"'
+    if command -v sqlite3 >/dev/null 2>&1; then
+        for name in /tmp/evil.fl ../evil.fl a/../../evil.fl link/evil.fl; do
+            cp first.petri evil.petri
+            rm -rf evil
+            mkdir evil outside 2>/dev/null
+            ln -sfn ../outside evil/link
+            sqlite3 evil.petri "UPDATE file SET name = '$name' WHERE name = 'mass.fl'"
+            petri unpack evil.petri evil
+            check "unpack writes nothing outside its folder: $name" eval '[ ! -e evil.fl ] && [ ! -e outside/evil.fl ] && [ ! -e /tmp/evil.fl ]'
+        done
+    fi
+
+    # Killed runs: at most one second of frames is lost.
+    for delay in 0.3 0.9 1.4 2.1; do
+        rm -f killed.petri
+        "$petri" run film.fl --realtime --frames 1000 --print digest --archive killed.petri >out 2>err &
+        pid=$!
+        sleep "$delay"
+        kill -9 $pid
+        wait $pid 2>/dev/null
+        computed=$(grep -c '^=' out)
+        petri verify killed.petri
+        kept=$(sed -n 's/^verified: \([0-9]*\) of.*/\1/p' out)
+        check "after kill -9 at $delay s, at most a second is lost" eval \
+            '[ "$computed" -le 27 ] || { status_is 0 && [ $((computed - kept)) -le 26 ]; }'
+    done
+    # A limit of the file size has the effect of a full disk.
+    petri run film.fl --frames 3000 --print digest --every 2999
+    cp out expected
+    (
+        ulimit -f 150
+        petri run film.fl --frames 3000 --keyframe-every 100 --print digest --every 2999 --archive full.petri
+        exit $status
+    )
+    status=$?
+    check "a full disk ends the archive, not the run" eval \
+        'status_is 1 && cmp -s out expected && has err "ends here: "'
+    petri verify full.petri
+    check "the frames before the disk was full can be verified, or none was written" eval \
+        'status_is 0 || has err "it has no frames"'
 else
     check "a build without SQLite says what is missing" has err "built without SQLite; on Debian, install libsqlite3-dev"
 fi

@@ -26,7 +26,7 @@ one_message() { status_is 1 && lines_are err 1 && has err "$1" && empty out; }
 last_line_is() { [ "$(tail -n 1 "$1")" = "$2" ]; }
 
 shift
-for part in ${*:-command suggest streams parameters check syntax_hints bad_input state record render golden diff archive new fmt link complete}; do
+for part in ${*:-command suggest streams parameters check syntax_hints bad_input state record render golden diff new fmt link complete}; do
     # shellcheck source=/dev/null
     . "$here/$part.sh"
 done

@@ -242,6 +242,7 @@ static void test_functions_reject_missing_arguments(void **state) {
     assert_int_equal(petri_archive_check(NULL), PETRI_INVALID);
     assert_int_equal(petri_archive_replay(NULL, NULL, 0), PETRI_INVALID);
     assert_int_equal(petri_archive_add_note(NULL, "x"), PETRI_INVALID);
+    assert_int_equal(petri_archive_complete(NULL), PETRI_INVALID);
     petri_archive_close(&none);
     petri_archive_close(NULL);
 }

@@ -1,0 +1,118 @@
+// unpack.c: `petri unpack`, which writes the files of an archive to a folder.
+#include "archive/open.h"
+#include "base/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+// Returns true if a name stays in the folder below which it is written.
+static bool is_inside(const char *name) {
+    if (name[0] == '/' || name[0] == '\0')
+        return false;
+    for (const char *part = name; part; part = strchr(part, '/')) {
+        part += *part == '/';
+        size_t length = strcspn(part, "/");
+        if (length == 0 || (length == 1 && part[0] == '.') || (length == 2 && part[0] == '.' && part[1] == '.'))
+            return false;
+    }
+    return true;
+}
+
+// Creates the folders of a path below `folder`, and returns the last one. Does not follow links. Returns -1
+// with errno set on failure.
+static int open_folder(int folder, char *name) {
+    for (char *slash; (slash = strchr(name, '/')); name = slash + 1) {
+        *slash = '\0';
+        mkdirat(folder, name, 0777);
+        int next = file_open_at(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW, 0);
+        int error = errno;
+        close(folder);
+        errno = error;
+        *slash = '/';
+        if (next < 0)
+            return -1;
+        folder = next;
+    }
+    return folder;
+}
+
+// Writes a new file. Does not replace an existing one.
+static bool write_file(const char *folder, const PetriArchiveFile *file) {
+    SCOPED_STRING name = memory_strdup(file->name);
+    int parent = file_open_at(AT_FDCWD, folder, O_RDONLY | O_DIRECTORY, 0);
+    parent = parent < 0 ? -1 : open_folder(parent, name);
+    const char *base = strrchr(file->name, '/') ? strrchr(file->name, '/') + 1 : file->name;
+    int written = parent < 0 ? -1 : file_open_at(parent, base, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
+    bool good = written >= 0 && file_write(written, file->bytes, file->length);
+    int error = errno;
+    if (written >= 0)
+        close(written);
+    if (parent >= 0)
+        close(parent);
+    if (!good)
+        message("cannot write '%s' in '%s': %s", file->name, folder, strerror(error));
+    return good;
+}
+
+// Returns true if a later row has another version of the file.
+static bool is_replaced(PetriArchive *archive, size_t number, const char *name) {
+    PetriArchiveFile later;
+    while (petri_archive_file(archive, ++number, &later, sizeof later))
+        if (strcmp(later.name, name) == 0)
+            return true;
+    return false;
+}
+
+static int unpack_files(PetriArchive *archive, const char *folder) {
+    PetriArchiveFile file;
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
+        message("cannot create '%s': %s", folder, strerror(errno));
+        return STATUS_FAILED;
+    }
+    for (size_t i = 0; petri_archive_file(archive, i, &file, sizeof file); i++) {
+        bool is_folder = str_ends_with(str_from(file.name), STR("/"));
+        if (is_folder || !file.bytes || is_replaced(archive, i, file.name))
+            continue;
+        if (!is_inside(file.name))
+            message("skipped '%s': it is not below the script's folder", file.name);
+        else if (!write_file(folder, &file))
+            return STATUS_FAILED;
+    }
+    return STATUS_DONE;
+}
+
+static int unpack_run(const CommandContext *context, Options *options) {
+    (void)context;
+    if (!options->second) {
+        message("no folder given; usage: petri unpack RUN.petri DIR");
+        return STATUS_USAGE;
+    }
+    PetriArchive *archive = archive_open(options, options->script);
+    if (!archive)
+        return STATUS_DAMAGED;
+    int status = unpack_files(archive, options->second);
+    if (archive_report_problem(archive, options->script))
+        status = STATUS_DAMAGED;
+    petri_archive_close(&archive);
+    return status;
+}
+
+const Command UNPACK_COMMAND = {
+    .name = "unpack",
+    .operands = "RUN.petri DIR",
+    .summary = "write the files of an archived run to a folder",
+    .details =
+        "Writes the script and all other files in an archive to the folder DIR, which is created if it does not\n"
+        "exist. Writes the last version of each file. Existing files are not overwritten, and files outside the\n"
+        "script's folder are skipped.",
+    .examples = "  petri unpack run.petri dish        write the files to the folder dish\n",
+    .missing_operand = "no archive given",
+    .no_stdin = "cannot read an archive from standard input; give a file",
+    .second_operand_error = "too many arguments: '%s'; petri unpack takes one archive and one folder",
+    .options = FOR_INFO,
+    .accepts_two = true,
+    .run = unpack_run,
+};
