@@ -5,6 +5,9 @@
 
 // Margin of comparisons with max_distance, so that rounding cannot move a pair to the wrong side.
 #define BOUND_MARGIN 0x1p-40
+// Minimum square of the distance of an accepted cell, so that its powers neither overflow nor underflow (spec
+// far-field.md, 5).
+#define MIN_SQUARE 0x1p-80
 
 // What a walk does with a cell.
 typedef enum Decision { CELL_OPEN, CELL_ACCEPT, CELL_SKIP } Decision;
@@ -188,7 +191,8 @@ static Decision check_bound(const FarPass *pass, const Box *box, const FarCell *
 
 static inline Decision decide(const FarPass *pass, const Box *box, const FarCell *cell) {
     double square = nearest_square(box, cell->centre), reach = cell->size + (cell->radius + box->radius);
-    bool far = cell->size * cell->size < pass->opening_squared * square && reach * reach < square;
+    bool far =
+        square >= MIN_SQUARE && cell->size * cell->size < pass->opening_squared * square && reach * reach < square;
     if (pass->bound < INFINITY) {
         Decision decision = check_bound(pass, box, cell, square);
         if (decision != CELL_ACCEPT)

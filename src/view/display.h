@@ -62,8 +62,8 @@ typedef struct DisplayKind {
     void (*set_title)(Display *display, const char *title);
     // Called when the script's size has changed. NULL: the display keeps its size.
     void (*resize)(Display *display, int width, int height);
-    // Moves the display to the screen with this number, counted from 0. If there is no such screen, writes a message and
-    // returns false. NULL: there is only one screen.
+    // Moves the display to the screen with this number, counted from 0. If there is no such screen, writes a message
+    // and returns false. NULL: there is only one screen.
     bool (*move_to_screen)(Display *display, int screen);
     void (*toggle_full_screen)(Display *display); // NULL: not possible
     // Returns true if the display and its screen were lost. The caller must then not call any other function, not even

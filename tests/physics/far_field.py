@@ -200,7 +200,7 @@ class Walk:
             g2 += far * far
         t = self.force.theta * 2 / 3
         reach = cell.size + (cell.radius + self.radius)
-        accepted = cell.size * cell.size < t * t * d2 and reach * reach < d2
+        accepted = d2 >= 2.0 ** -80 and cell.size * cell.size < t * t * d2 and reach * reach < d2
         if self.bound < math.inf:
             beyond, within = self.bound * (1 + 2**-40) + cell.size, self.bound * (1 - 2**-40) - cell.size
             if d2 > beyond * beyond:
@@ -410,6 +410,9 @@ SHAPES = {
     'points': lambda dice, i, n: [float(i % 3 * (k + 2)) for k in range(n)],
     'far': lambda dice, i, n: [1e9 * (i == 3) + dice.random() for _ in range(n)],
     'shell': lambda dice, i, n: [math.copysign(1, dice.random() - 0.5) + dice.gauss(0, 1e-9) for _ in range(n)],
+    # Two points in different cells, as close as doubles allow.
+    'close': lambda dice, i, n: ([float(i)] * n if i < 2 else [dice.random() for _ in range(n)] if i % 3 == 2
+                                 else [2.0**-41 * (1 - i % 3 * 2.0**-52)] * n),
 }
 GRAVITY, ELECTROSTATIC = 'gravity', 'electrostatic'
 
@@ -439,6 +442,8 @@ def cases():
         for dimensions in (2, 3):
             seed += 1
             yield f'{shape}_{dimensions}d', make(seed, dimensions, 1100, shape, both, theta=1.1, radius=0.01)
+    yield 'close_2d', make(27, 2, 1100, 'close', [GRAVITY], theta=1.1)
+    yield 'close_3d', make(28, 3, 1100, 'close', both, theta=1.1)
     yield 'size_1023_3d', make(29, 3, 1023, 'cube', [GRAVITY])
     yield 'small_theta_3d', make(30, 3, 1100, 'cube', [GRAVITY], theta=0.25)
     yield 'size_2000_3d', make(31, 3, 2000, 'cube', [GRAVITY], theta=0.9)
@@ -468,6 +473,9 @@ def compare(case):
     position, velocity = run(petri, system)
     for _ in range(STEPS):
         system.step()
+    if not all(math.isfinite(number) for force in system.force for number in force):
+        print(f'{name}: a force is not finite')
+        return False
     for i, particle in enumerate(system.particles):
         for kind, found, expected in (('position', position, system.position), ('velocity', velocity, system.velocity)):
             if particle.anchor or not all(map(math.isfinite, expected[i])):
