@@ -331,6 +331,11 @@ Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
     Glob glob = {.arena = context->arena, .file_access = context->file_access};
     glob_parse(&glob, pattern);
     Str start = context->directory.len ? context->directory : STR(".");
+    if (glob.file_access && glob.file_access->on_read && !is_hosted(glob.file_access)) {
+        Str *names; // reported even if the pattern has no wildcards
+        list_directory(&glob, str_to_c(glob.arena, start), &names);
+        glob.listings = 0;
+    }
     if (glob.part_count)
         visit_parts(&glob, start, 0);
     else

@@ -179,7 +179,7 @@ typedef struct PetriOptions {
     // the same contents. The function may be called in any frame, and by threads that draw pictures. It must not call
     // the session.
     const char *(*read_file)(void *read_user_data, const char *name, size_t *length);
-    void *read_user_data; // passed to read_file and read_unsaved
+    void *read_user_data; // passed to read_file, read_unsaved and on_file_read
     // Called when a script imports or includes a file that is on disk. Returns contents to use instead, such as the
     // unsaved text of an editor, or NULL to use the file on disk. `name` is the canonical path of the file. The other
     // rules are those of read_file. NULL (the default): always use the file on disk.
@@ -190,6 +190,12 @@ typedef struct PetriOptions {
     // For tests: execute each iteration of a loop on its own instead of many together. Does not affect results. Default
     // false.
     bool no_batches;
+    // Called after the session has read a script, a module, an included file or a file that a script reads with `read`
+    // or `csv`. `bytes` is NULL if there is no such file. Also called for each folder that `glob` lists: its name ends
+    // in a slash, and `bytes` contains the names in it, one per line. `name` is relative to the script's folder, unless
+    // it is outside. A session reads a file again only if the file has changed. The arguments are valid only during the
+    // call. Must not call the session. NULL (the default): never called.
+    void (*on_file_read)(void *read_user_data, const char *name, const char *bytes, size_t length);
 } PetriOptions;
 
 // Writes the default options to the first `size` bytes of `options`. Use petri_default_options instead.

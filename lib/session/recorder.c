@@ -14,7 +14,7 @@ static void on_read(void *user_data, const char *path, Str bytes) {
 
 void recorder_set(PetriSession *session, const Recorder *recorder) {
     session->recorder = recorder ? *recorder : (Recorder){0};
-    session->reach.on_read = session->recorder.file ? on_read : NULL;
+    session->reach.on_read = session->recorder.file || session->options.on_file_read ? on_read : NULL;
     session->reach.on_read_user_data = session;
 }
 
@@ -44,11 +44,16 @@ static size_t folder_length(const FileAccess *reach, Str path) {
 void recorder_file(PetriSession *session, const char *path, Str bytes) {
     char name[PATH_MAX + 2];
     Str whole = str_from(path);
-    if (!session->recorder.file || !file_access_normalise(path + folder_length(&session->reach, whole), name))
+    PetriOptions *options = &session->options;
+    bool wanted = session->recorder.file || options->on_file_read;
+    if (!wanted || !file_access_normalise(path + folder_length(&session->reach, whole), name))
         return;
     if (str_ends_with(whole, STR("/")))
         strcat(name, name[0] ? "/" : "./");
-    session->recorder.file(session->recorder.user_data, name, bytes);
+    if (session->recorder.file)
+        session->recorder.file(session->recorder.user_data, name, bytes);
+    if (options->on_file_read)
+        options->on_file_read(options->read_user_data, name, bytes.bytes, bytes.len);
 }
 
 // --- inputs

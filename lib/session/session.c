@@ -96,6 +96,7 @@ static PetriStatus init_components(PetriSession *session, void *context) {
     session->reach.read_file = options->read_file;
     session->reach.read_user_data = options->read_user_data;
     session->reach.read_unsaved = options->read_unsaved;
+    recorder_set(session, NULL);
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, (const char *const[]){".", NULL});
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, options->read_folders);
     file_access_add(&session->arena, &session->reach, FILE_ACCESS_WRITE, options->write_folders);

@@ -405,6 +405,39 @@ static void test_unsaved_text_replaces_file(void **state) {
     check_reported(desk, "No such file");
 }
 
+static void list_file(void *user_data, const char *name, const char *bytes, size_t length) {
+    char line[200];
+    snprintf(line, sizeof line, "%s=%.*s\n", name, bytes ? (int)length : 4, bytes ? bytes : "none");
+    note(user_data, line, strlen(line));
+}
+
+static void test_files_are_reported_when_they_are_read(void **state) {
+    Desk *desk = *state;
+    Notebook files = {0};
+    PetriOptions options = player_options(&desk->player);
+    options.on_file_read = list_file;
+    options.read_user_data = &files;
+    player_reopen(&desk->player, &options);
+    folder_write(&desk->folder, "m.fl", "let a=1");
+    folder_write(&desk->folder, "i.fl", "let b=2");
+    folder_write(&desk->folder, "t.txt", "text");
+    load(desk,
+         "%include 'i.fl'\nimport a from 'm.fl'\nimport c from 'no.fl'\n!x v=a;b t=read('t.txt') u=read('no.txt')\n");
+    player_step(&desk->player, 2);
+    assert_memory_equal(files.text, "main.fl=", 8);
+    assert_text("files", strstr(files.text, "i.fl=let"),
+                "i.fl=let b=2\nm.fl=let a=1\nno.fl=none\nt.txt=text\nno.txt=none\nno.fl=none\n");
+    files.len = 0;
+    folder_write(&desk->folder, "t.txt", "longer text");
+    player_step(&desk->player, 1);
+    assert_text("changed", files.text, "no.fl=none\nt.txt=longer text\n");
+    files.len = 0;
+    load(desk, "!x v=len(glob('t.txt'))\n");
+    player_step(&desk->player, 1);
+    assert_non_null(strstr(files.text, "/=") && strstr(files.text, "t.txt\n") ? files.text : NULL);
+    free(files.text);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         DESK_TEST(test_import),
@@ -420,6 +453,7 @@ int main(void) {
         DESK_TEST(test_check_reports_in_order),
         DESK_TEST(test_host_provides_files),
         DESK_TEST(test_modules_with_equal_hash_stay_loaded),
+        DESK_TEST(test_files_are_reported_when_they_are_read),
         DESK_TEST(test_host_provides_folders),
         DESK_TEST(test_only_host_files_exist),
         DESK_TEST(test_unsaved_text_replaces_file),
