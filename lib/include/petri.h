@@ -157,7 +157,7 @@ typedef struct PetriOptions {
     bool keep_forces; // provide PetriSystem.force and petri_explain_force. Default false
     // Called for each diagnostic by the thread that uses the session. NULL (the default): not reported.
     void (*on_diagnostic)(void *user_data, const PetriDiagnostic *diagnostic);
-    void *user_data; // passed to on_diagnostic and should_interrupt
+    void *user_data; // passed to on_diagnostic, should_interrupt and on_file_read
     // The most advanced vector instructions that physics may use: "scalar", "avx2" or "avx512". NULL (the default) or
     // any other string: the best available. The environment variable PETRI_CPU, read when the library is loaded, limits
     // all sessions in the same way. Does not affect results.
@@ -179,7 +179,7 @@ typedef struct PetriOptions {
     // the same contents. The function may be called in any frame, and by threads that draw pictures. It must not call
     // the session.
     const char *(*read_file)(void *read_user_data, const char *name, size_t *length);
-    void *read_user_data; // passed to read_file, read_unsaved and on_file_read
+    void *read_user_data; // passed to read_file and read_unsaved
     // Called when a script imports or includes a file that is on disk. Returns contents to use instead, such as the
     // unsaved text of an editor, or NULL to use the file on disk. `name` is the canonical path of the file. The other
     // rules are those of read_file. NULL (the default): always use the file on disk.
@@ -195,7 +195,7 @@ typedef struct PetriOptions {
     // in a slash, and `bytes` contains the names in it, one per line. `name` is relative to the script's folder, unless
     // it is outside. A session reads a file again only if the file has changed. The arguments are valid only during the
     // call. Must not call the session. NULL (the default): never called.
-    void (*on_file_read)(void *read_user_data, const char *name, const char *bytes, size_t length);
+    void (*on_file_read)(void *user_data, const char *name, const char *bytes, size_t length);
 } PetriOptions;
 
 // Writes the default options to the first `size` bytes of `options`. Use petri_default_options instead.

@@ -53,7 +53,7 @@ void recorder_file(PetriSession *session, const char *path, Str bytes) {
     if (session->recorder.file)
         session->recorder.file(session->recorder.user_data, name, bytes);
     if (options->on_file_read)
-        options->on_file_read(options->read_user_data, name, bytes.bytes, bytes.len);
+        options->on_file_read(options->user_data, name, bytes.bytes, bytes.len);
 }
 
 // --- inputs

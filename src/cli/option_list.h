@@ -73,6 +73,8 @@ FIELD(int,          report,       0)              // check: ReportForm
 FIELD(bool,         only_checks,  false)          // fmt: write nothing
 FIELD(bool,         parameters,   false)          // list the parameters instead of running
 FIELD(int,          dump,         -1)             // PetriDump; -1: not given
+FIELD(const char *, cache,        NULL)           // sweep: folder; NULL: none
+FIELD(double,       verify_cache, 0)              // sweep: percentage
 
 OPTION(FOR_RENDER, "output", 'o', "FILE", read_text, output, "write to OUT.png, OUT%05d.png (one per frame), OUT.svg, OUT.pdf, or a video such as OUT.mp4 or OUT.gif; - for standard output")
 OPTION(FOR_RENDER, "format", 0, "F", read_text, format, "select the format for '-o -': png, svg, pdf, mp4, m4v, mov, mkv, webm, ogg or gif (default: png)")
@@ -104,6 +106,8 @@ OPTION(FOR_SWEEP, "summary", 0, "FILE", read_text, summary, "write the mean, sta
 OPTION(FOR_SWEEP, "plot", 0, "FILE", read_text, plot, "plot each metric against each parameter in FILE (.svg, .png or .pdf)")
 OPTION(FOR_SWEEP, "plan", 0, "FILE", read_text, plan, "read the script and the options from FILE; the command line overrides them")
 OPTION(FOR_SWEEP, "jobs", 0, "N", WHOLE(1, 1024), jobs, "execute N runs in parallel (default: number of CPUs)")
+OPTION(FOR_SWEEP, "cache", 0, "DIR", read_text, cache, "store the results of runs in the folder DIR, and do not compute runs again whose results are there")
+OPTION(FOR_SWEEP, "verify-cache", 0, "P%", read_percentage, verify_cache, "compute P % of the runs that have a result in the cache again, and report differences (default: 0)")
 OPTION(FOR_SWEEP, "shard", 0, "I/N", read_text, shard, "divide the runs into N parts and execute only part I")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "frames", 0, "N", WHOLE(0, INT64_MAX), frames, "stop after N frames (default: 600 without --runtime)")
 OPTION(FOR_DIFF, "frames", 0, "N", WHOLE(0, INT64_MAX), frames, "compare N frames (default: 600)")

@@ -96,6 +96,14 @@ static bool read_fps(const Args *args, void *field) {
     return read_positive(args, field);
 }
 
+static bool read_percentage(const Args *args, void *field) {
+    char *end = NULL;
+    double value = *(double *)field = strtod(args->value, &end);
+    end += *end == '%';
+    bool good = end != args->value && *end == '\0' && value >= 0 && value <= 100;
+    return good || report_invalid_value(args, "a percentage such as 1%");
+}
+
 static bool read_time(const Args *args, void *field) {
     double seconds = 0;
     bool good = petri_parse_number(args->value, &seconds) && isfinite(seconds) && seconds >= 0;
@@ -335,6 +343,7 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.no_files = options->no_files;
     wanted.read_file = options->replayed ? petri_archive_read : options->read;
     wanted.read_unsaved = options->unsaved;
+    wanted.on_file_read = options->on_file_read;
     wanted.read_user_data = options->replayed ? options->replayed : options->unsaved_host;
     wanted.on_diagnostic = diagnostic;
     wanted.user_data = context;

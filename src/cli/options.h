@@ -29,11 +29,13 @@ typedef struct Options {
     const char *(*read)(void *host, const char *path, size_t *length);    // PetriOptions.read_file; NULL: none
     const char *(*unsaved)(void *host, const char *path, size_t *length); // PetriOptions.read_unsaved; NULL: none
     void *unsaved_host;                                                   // first argument of both functions
-    bool (*should_interrupt)(void *context);                              // PetriOptions.should_interrupt; NULL: none
-    bool keep_forces;                                                     // PetriOptions.keep_forces
-    struct PetriArchive *replayed; // archive that is used instead of a script; NULL: none
-    bool prompt;                   // true if the session must keep forces for display and roll back interrupted frames
-    int argc;                      // arguments after the command's name
+    // PetriOptions.on_file_read; NULL: none
+    void (*on_file_read)(void *context, const char *name, const char *bytes, size_t length);
+    bool (*should_interrupt)(void *context); // PetriOptions.should_interrupt; NULL: none
+    bool keep_forces;                        // PetriOptions.keep_forces
+    struct PetriArchive *replayed;           // archive that is used instead of a script; NULL: none
+    bool prompt; // true if the session must keep forces for display and roll back interrupted frames
+    int argc;    // arguments after the command's name
     char **argv;
 } Options;
 

@@ -5,8 +5,10 @@
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "petri-inspect.h"
+#include "sweep/cache.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
 static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
@@ -24,10 +26,17 @@ static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
         measure->on_diagnostic(measure->context, diagnostic->level, diagnostic->rendered);
 }
 
+static void on_file_read(void *user_data, const char *name, const char *bytes, size_t length) {
+    Measure *measure = user_data;
+    read_files_add(&measure->files, name, bytes, length);
+}
+
 bool measure_open(Measure *measure, const Sweep *sweep,
                   void (*report)(void *context, PetriLevel level, const char *rendered), void *context) {
     *measure = (Measure){.sweep = sweep, .on_diagnostic = report, .context = context, .silent = true};
-    if (options_open(sweep->options, sweep->host, on_diagnostic, measure, &measure->session) != OPTIONS_READ)
+    Options options = *sweep->options;
+    options.on_file_read = sweep->options->cache ? on_file_read : NULL;
+    if (options_open(&options, sweep->host, on_diagnostic, measure, &measure->session) != OPTIONS_READ)
         return false;
     // This may fail, for example if the script needs definitions. Each run then loads the script and reports errors.
     petri_load(measure->session, sweep->options->script);
@@ -43,6 +52,8 @@ void measure_close(Measure *measure) {
     petri_close(&measure->session);
     text_free(&measure->rows);
     text_free(&measure->error);
+    read_files_free(&measure->files);
+    known_hashes_free(&measure->known);
 }
 
 // Resets the session and applies the definitions of a run.
@@ -126,7 +137,8 @@ static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
     return status == PETRI_OK && *measured ? add_row(measure) : status;
 }
 
-void measure_run(Measure *measure, size_t run) {
+// Executes a run. Returns false if it failed.
+static bool execute_run(Measure *measure, size_t run) {
     text_free(&measure->rows);
     measure->frames = 0;
     PetriStatus status = begin_run(measure, run);
@@ -136,6 +148,72 @@ void measure_run(Measure *measure, size_t run) {
     if (status != PETRI_OK)
         add_failure(measure, status);
     text_add_c(&measure->rows, "");
+    return status == PETRI_OK;
+}
+
+static void report_warning(Measure *measure, const char *rendered) {
+    measure->on_diagnostic(measure->context, PETRI_WARNING, rendered);
+}
+
+// Moves the result of the run that was just executed to *entry. Returns false if its digest cannot be computed.
+static bool take_entry(Measure *measure, CacheEntry *entry) {
+    uint8_t digest[CACHE_DIGEST_DIGITS / 2];
+    *entry = (CacheEntry){.frames = measure->frames};
+    if (petri_digest(measure->session, digest) != PETRI_OK)
+        return false;
+    for (size_t i = 0; i < sizeof digest; i++)
+        snprintf(entry->digest + 2 * i, 3, "%02x", digest[i]);
+    text_add(&entry->rows, text_str(&measure->rows));
+    text_add_c(&entry->rows, "");
+    return true;
+}
+
+// Executes a run and stores its result, unless it fails. `stored` is the result to verify; NULL: none.
+static void execute_and_store(Measure *measure, size_t run, const char *key, const CacheEntry *stored) {
+    const Sweep *sweep = measure->sweep;
+    CacheEntry entry = {0};
+    SCOPED_TEXT report = {0};
+    measure->files.changed = false;
+    if (!execute_run(measure, run)) {
+        measure->origin = stored ? RESULT_DIFFERS : RESULT_COMPUTED;
+        if (stored)
+            text_add_format(&report, "petri: run %zu failed, but has a result in the cache\n", run + 1);
+    } else if (take_entry(measure, &entry)) {
+        if (stored)
+            cache_compare(sweep, run, stored, &entry, &report);
+        measure->origin = !stored ? RESULT_COMPUTED : report.len > 0 ? RESULT_DIFFERS : RESULT_VERIFIED;
+        const char *problem = stored ? NULL : cache_store(sweep, key, &measure->files, &entry);
+        if (problem)
+            text_add_format(&report, "petri: cannot write to the cache '%s': %s\n", sweep->options->cache, problem);
+    }
+    if (report.len > 0)
+        report_warning(measure, report.bytes);
+    cache_entry_free(&entry);
+}
+
+void measure_run(Measure *measure, size_t run) {
+    const Sweep *sweep = measure->sweep;
+    char key[SHA256_DIGITS + 1];
+    CacheEntry stored;
+    measure->origin = RESULT_COMPUTED;
+    if (!sweep->options->cache) {
+        execute_run(measure, run);
+        return;
+    }
+    cache_key(sweep, run, key);
+    CacheAnswer answer = cache_find(sweep, key, &measure->known, &stored);
+    if (answer == CACHE_DAMAGED)
+        report_warning(measure, "petri: the cache has a damaged result, which is computed again\n");
+    if (answer == CACHE_FOUND && !cache_should_verify(sweep, key)) {
+        text_free(&measure->rows);
+        text_add(&measure->rows, text_str(&stored.rows));
+        text_add_c(&measure->rows, "");
+        measure->frames = stored.frames;
+        measure->origin = RESULT_CACHED;
+    } else {
+        execute_and_store(measure, run, key, answer == CACHE_FOUND ? &stored : NULL);
+    }
+    cache_entry_free(&stored);
 }
 
 // Returns true if the expression is valid. Also returns true if its evaluation exceeded a limit, because the runs

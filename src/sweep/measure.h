@@ -3,6 +3,7 @@
 #pragma once
 
 #include "petri-edit.h"
+#include "sweep/read_files.h"
 #include "sweep/sweep.h"
 
 typedef struct Measure {
@@ -13,6 +14,9 @@ typedef struct Measure {
     bool invalid_definition; // true if the script rejected a value
     int64_t frames;          // number of frames of the last run
     Text rows;               // measurements of the last run, in the format of Result.rows
+    ResultOrigin origin;     // of the last run
+    ReadFiles files;         // read by the session so far; used if there is a cache
+    KnownHashes known;       // of files that earlier runs have read
     Text error;              // last error of the last run; empty: none
     void (*on_diagnostic)(void *context, PetriLevel level, const char *rendered);
     void *context;

@@ -91,6 +91,14 @@ static bool check_plot(const Sweep *sweep) {
     return false;
 }
 
+static bool check_cache(const Sweep *sweep) {
+    if (sweep->options->verify_cache > 0 && !sweep->options->cache) {
+        message("option '--verify-cache' needs a cache; add --cache DIR");
+        return false;
+    }
+    return true;
+}
+
 static bool check_output(const Sweep *sweep) {
     const char *output = sweep->options->output;
     if (!output || script_suffix(output, ".nc .nc4 .cdf") < 0)
@@ -102,7 +110,7 @@ static bool check_output(const Sweep *sweep) {
 
 bool sweep_read_options(Sweep *sweep, const Command *command) {
     if (!design_make(&sweep->design, sweep->options, sweep->host) || !read_metrics(sweep) || !read_shard(sweep) ||
-        !check_plot(sweep) || !check_output(sweep))
+        !check_plot(sweep) || !check_output(sweep) || !check_cache(sweep))
         return false;
     read_shared_options(sweep, command);
     return true;

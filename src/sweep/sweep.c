@@ -5,6 +5,7 @@
 #include "cli/helper_exec.h"
 #include "cli/mpi_channel.h"
 #include "petri.h"
+#include "sweep/cache.h"
 #include "sweep/measure.h"
 #include "sweep/plot_support.h"
 #include "sweep/worker_pool.h"
@@ -49,20 +50,28 @@ static void add_text(Sha256 *hash, const char *text) {
     sha256_add(hash, !text ? "" : text, !text ? 1 : strlen(text) + 1);
 }
 
-// Hashes everything that the table depends on: petri's version, source files, options, metrics and all values.
-static void compute_identity(Sweep *sweep, Measure *measure) {
+// Hashes everything that all runs have in common: petri's version, source files, options, metrics and names.
+static void compute_settings(Sweep *sweep, Measure *measure) {
     const Design *design = &sweep->design;
     Sha256 hash = sha256_new();
     add_text(&hash, petri_version());
     measure_hash_sources(measure, &hash);
     add_text(&hash, sweep->shared.bytes);
     add_text(&hash, sweep->options->until);
-    int64_t numbers[] = {sweep->options->frames, sweep->options->row_every, (int64_t)design->run_count};
+    int64_t numbers[] = {sweep->options->frames, sweep->options->row_every};
     sha256_add(&hash, (const char *)numbers, sizeof numbers);
     for (size_t i = 0; i < sweep->metric_count; i++)
         add_text(&hash, sweep->options->metrics.items[i]);
     for (size_t i = 0; i < design->axis_count; i++)
         add_text(&hash, design->axes[i].name);
+    sha256_end(&hash, sweep->settings);
+}
+
+// Hashes everything that the table depends on.
+static void compute_identity(Sweep *sweep) {
+    const Design *design = &sweep->design;
+    Sha256 hash = sha256_new();
+    add_text(&hash, sweep->settings);
     for (size_t run = 0; run < design->run_count; run++)
         for (size_t i = 0; i < design->axis_count; i++)
             add_text(&hash, design_value(design, run, i));
@@ -75,8 +84,10 @@ static int dry_run(Sweep *sweep) {
     if (!measure_open(&measure, sweep, report_diagnostic, sweep))
         return STATUS_FAILED;
     int status = measure_dry_run(&measure);
-    if (status == STATUS_DONE)
-        compute_identity(sweep, &measure);
+    if (status == STATUS_DONE) {
+        compute_settings(sweep, &measure);
+        compute_identity(sweep);
+    }
     measure_close(&measure);
     return status;
 }
@@ -86,6 +97,15 @@ static size_t count_done(const Sweep *sweep, bool ours) {
     for (size_t run = 0; run < sweep->design.run_count; run++)
         count += sweep->results[run].rows && (!ours || sweep_owns_run(sweep, run));
     return count;
+}
+
+static void print_cache_report(const Sweep *sweep) {
+    size_t verified = sweep->origins[RESULT_VERIFIED], differs = sweep->origins[RESULT_DIFFERS];
+    if (differs > 0)
+        message("%zu of %zu verified runs differ from their results in the cache", differs, verified + differs);
+    if (sweep->options->cache && sweep->options->verbosity > LOG_QUIET)
+        message("%zu runs computed, %zu from the cache, %zu verified", sweep->origins[RESULT_COMPUTED],
+                sweep->origins[RESULT_CACHED], verified + differs);
 }
 
 static void print_report(const Sweep *sweep, double seconds, size_t made) {
@@ -117,7 +137,8 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t mad
     if (journal->path)
         journal_remove(journal, sweep);
     print_report(sweep, clock_seconds() - start, made);
-    return STATUS_DONE;
+    print_cache_report(sweep);
+    return sweep->origins[RESULT_DIFFERS] > 0 ? STATUS_FAILED : STATUS_DONE;
 }
 
 static int64_t jobs_of(const Sweep *sweep) {
@@ -144,7 +165,7 @@ static int make_runs(Sweep *sweep, Journal *journal) {
 
 static int run_sweep(Sweep *sweep) {
     Journal journal = {.file = -1};
-    int status = dry_run(sweep);
+    int status = cache_open(sweep) ? dry_run(sweep) : STATUS_FAILED;
     if (status != STATUS_DONE)
         return status;
     if (sweep->host->channel && sweep->host->channel->rank > 0) {
@@ -235,6 +256,11 @@ const Command SWEEP_COMMAND = {
         "A failed run is a row with an error message. With -o FILE, finished runs are stored in FILE.part: after\n"
         "Ctrl-C or kill -9, run the same command to resume; the table is then the same to the last byte. FILE.runs\n"
         "lists the command of each run. If FILE ends in .h5, the table is the HDF5 data set `table`.\n"
+        "\n"
+        "With --cache DIR, results of runs are stored in DIR. A run is not computed again if the script, the files "
+        "that\n"
+        "it reads, its values, options and metrics are the same. Several sweeps and machines can use the same folder.\n"
+        "--verify-cache 1% computes 1 % of these runs nevertheless; the command exits with 1 if a result differs.\n"
         "\n"
         "A plan is YAML: `script: dish.fl`, options by name, and `define:` and `metric:` with lines NAME: VALUE below\n"
         "them; the command line overrides it. On several machines, use mpirun, which distributes the runs, or start\n"

@@ -35,6 +35,15 @@ typedef struct Result {
     bool killed;    // true if the process of the run was killed by SIGKILL; the run is then repeated once
 } Result;
 
+// Where the result of a run comes from, if there is a cache.
+typedef enum ResultOrigin {
+    RESULT_COMPUTED, // the cache had no result
+    RESULT_CACHED,
+    RESULT_VERIFIED, // computed, and equal to the result in the cache
+    RESULT_DIFFERS,  // computed, and different from the result in the cache
+    RESULT_ORIGINS
+} ResultOrigin;
+
 typedef struct Sweep {
     const CommandContext *host;
     const Options *options;
@@ -42,11 +51,13 @@ typedef struct Sweep {
     Metric *metrics;
     size_t metric_count;
     Text shared;                      // options that apply to every run, quoted for a shell
+    char settings[SHA256_DIGITS + 1]; // hash of everything that the result of each run depends on, except values
     char identity[SHA256_DIGITS + 1]; // hash of everything that the table depends on
     Result *results;                  // indexed by run
     size_t shard;                     // shard of this process, from 0; it executes the runs with run % shards == shard
     size_t shards;
-    TextList reported; // diagnostics that were already shown
+    size_t origins[RESULT_ORIGINS]; // by origin: number of results of this command
+    TextList reported;              // diagnostics that were already shown
 } Sweep;
 
 // Creates the design from the options. Returns false after a message. The caller frees *design with design_free even

@@ -101,6 +101,23 @@ size_t table_width(const Sweep *sweep) {
     return sweep->design.axis_count + sweep->metric_count + 3;
 }
 
+static void add_definitions(const Design *design, size_t run, Text *out) {
+    for (size_t i = 0; i < design->axis_count; i++) {
+        SCOPED_TEXT word = {0};
+        text_add_format(&word, "%s=%s", design->axes[i].name, design_value(design, run, i));
+        text_add_format(out, " -D ");
+        shell_add_word(out, word.bytes);
+    }
+}
+
+void table_diff_command(const Sweep *sweep, size_t run, int64_t frames, Text *out) {
+    text_add_c(out, "petri diff ");
+    shell_add_word(out, sweep->options->script);
+    text_add(out, text_str(&sweep->shared));
+    add_definitions(&sweep->design, run, out);
+    text_add_format(out, " --frames %" PRId64, frames);
+}
+
 void table_commands(const Sweep *sweep, Text *out) {
     const Design *design = &sweep->design;
     SCOPED_TEXT head = {0};
@@ -110,12 +127,7 @@ void table_commands(const Sweep *sweep, Text *out) {
     text_add(&head, text_str(&sweep->shared));
     for (size_t run = 0; run < design->run_count; run++) {
         text_add(out, text_str(&head));
-        for (size_t i = 0; i < design->axis_count; i++) {
-            SCOPED_TEXT word = {0};
-            text_add_format(&word, "%s=%s", design->axes[i].name, design_value(design, run, i));
-            text_add_format(out, " -D ");
-            shell_add_word(out, word.bytes);
-        }
+        add_definitions(design, run, out);
         // `frames` does not count the frame in which a run failed, but the command must compute it as well.
         const Result *result = &sweep->results[run];
         text_add_format(out, " --frames %" PRId64 "\n", result->frames + sweep_is_failed(result));

@@ -40,6 +40,7 @@ typedef struct PoolWorker {
 typedef struct ResultHeader {
     int64_t run;
     int64_t frames;
+    int64_t origin;       // ResultOrigin
     uint64_t rows;        // length in bytes
     uint64_t diagnostics; // length in bytes
 } ResultHeader;
@@ -88,7 +89,7 @@ static int worker_loop(const Sweep *sweep, int requests, int results) {
     while (file_read_bytes(requests, &run, sizeof run)) {
         diagnostics.len = 0;
         measure_run(&measure, (size_t)run);
-        ResultHeader head = {run, measure.frames, measure.rows.len, diagnostics.len};
+        ResultHeader head = {run, measure.frames, measure.origin, measure.rows.len, diagnostics.len};
         if (!file_write(results, (const char *)&head, sizeof head) ||
             !file_write(results, measure.rows.bytes, measure.rows.len) ||
             !file_write(results, diagnostics.bytes, diagnostics.len))
@@ -189,6 +190,7 @@ static bool store_result(WorkerPool *pool, const ResultHeader *head, const char 
     for (const char *diagnostics = bytes + head->rows; diagnostics < bytes + length;
          diagnostics += strlen(diagnostics) + 1)
         sweep_report(pool->sweep, (PetriLevel)(diagnostics[0] - 'a'), diagnostics + 1);
+    pool->sweep->origins[head->origin]++;
     sweep_store_result(pool->sweep, run, head->frames, bytes, (size_t)head->rows);
     return journal_add(pool->journal, run, &pool->sweep->results[run]);
 }
@@ -254,7 +256,7 @@ static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
         text_add_format(&row, "crashed: signal %d (%s)\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
     else
         text_add_format(&row, "the process ended with status %d\n", WEXITSTATUS(status));
-    return !result || store_result(pool, &(ResultHeader){worker->assigned[0], 0, row.len, 0}, row.bytes);
+    return !result || store_result(pool, &(ResultHeader){.run = worker->assigned[0], .rows = row.len}, row.bytes);
 }
 
 // Waits for results and messages and handles them. Returns false, after a message, if the sweep cannot continue.

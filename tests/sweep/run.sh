@@ -293,6 +293,11 @@ else
     refused "plans need libyaml" 'built without libyaml' --plan sum.yaml
 fi
 
+# --- the cache
+
+# shellcheck source=tests/sweep/cache.sh
+. "$here/cache.sh"
+
 # --- errors
 
 refused "a missing script is rejected" 'no script given'

@@ -416,7 +416,8 @@ static void test_files_are_reported_when_they_are_read(void **state) {
     Notebook files = {0};
     PetriOptions options = player_options(&desk->player);
     options.on_file_read = list_file;
-    options.read_user_data = &files;
+    options.user_data = &files;
+    options.on_diagnostic = NULL;
     player_reopen(&desk->player, &options);
     folder_write(&desk->folder, "m.fl", "let a=1");
     folder_write(&desk->folder, "i.fl", "let b=2");

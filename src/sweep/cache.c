@@ -1,0 +1,148 @@
+// cache.c: see cache.h.
+#include "sweep/cache.h"
+
+#include "base/file.h"
+#include "base/source.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { KEY_PREFIX = 2, MAX_ENTRY_BYTES = 1 << 30 };
+
+static bool make_folder(const char *path) {
+    return mkdir(path, 0777) == 0 || errno == EEXIST;
+}
+
+bool cache_open(const Sweep *sweep) {
+    const char *folder = sweep->options->cache;
+    struct stat info;
+    bool good = !folder || (make_folder(folder) && stat(folder, &info) == 0 && S_ISDIR(info.st_mode));
+    if (!good)
+        message("cannot use the cache '%s': %s", folder, errno == EEXIST ? "it is not a folder" : strerror(errno));
+    return good;
+}
+
+static void add_text(Sha256 *hash, const char *text) {
+    sha256_add(hash, text, strlen(text) + 1);
+}
+
+void cache_key(const Sweep *sweep, size_t run, char key[SHA256_DIGITS + 1]) {
+    Sha256 hash = sha256_new();
+    add_text(&hash, "petri sweep result 1");
+    add_text(&hash, sweep->settings);
+    for (size_t i = 0; i < sweep->design.axis_count; i++)
+        add_text(&hash, design_value(&sweep->design, run, i));
+    sha256_end(&hash, key);
+    key[SHA256_DIGITS] = '\0';
+}
+
+static void add_folder(const Sweep *sweep, const char *key, Text *path) {
+    text_add_format(path, "%s/%.*s", sweep->options->cache, KEY_PREFIX, key);
+}
+
+static void add_path(const Sweep *sweep, const char *key, Text *path) {
+    add_folder(sweep, key, path);
+    text_add_format(path, "/%s", key);
+}
+
+static void add_head(const char *key, Text *text) {
+    text_add_format(text, "petri sweep result 1\nkey %s\n", key);
+}
+
+// Removes the checksum at the end of an entry. Returns false if it is not that of the text before it.
+static bool remove_checksum(Text *text) {
+    static const char name[] = "sha256 ";
+    const size_t length = sizeof name - 1 + SHA256_DIGITS + 1;
+    char digits[SHA256_DIGITS];
+    if (text->len < length || memcmp(text->bytes + text->len - length, name, sizeof name - 1) != 0)
+        return false;
+    Sha256 hash = sha256_new();
+    sha256_add(&hash, text->bytes, text->len - length);
+    sha256_end(&hash, digits);
+    bool good = memcmp(digits, text->bytes + text->len - SHA256_DIGITS - 1, SHA256_DIGITS) == 0;
+    text->len -= length;
+    return good;
+}
+
+static void add_checksum(Text *text) {
+    char digits[SHA256_DIGITS];
+    Sha256 hash = sha256_new();
+    sha256_add(&hash, text->bytes, text->len);
+    sha256_end(&hash, digits);
+    text_add_format(text, "sha256 %.*s\n", SHA256_DIGITS, digits);
+}
+
+// Reads the lines of an entry after its files. Returns false if they are not valid.
+static bool read_result(const Text *text, size_t at, CacheEntry *entry) {
+    size_t length = 0;
+    int used = -1;
+    text->bytes[text->len] = '\0';
+    if (sscanf(text->bytes + at, "frames %" SCNd64 "\ndigest %32[0-9a-f]\nrows %zu%n", &entry->frames, entry->digest,
+               &length, &used) != 3 ||
+        used < 0 || text->bytes[at + (size_t)used] != '\n' || strlen(entry->digest) != CACHE_DIGEST_DIGITS)
+        return false;
+    at += (size_t)used + 1;
+    if (text->len - at != length || strlen(text->bytes + at) != length)
+        return false;
+    text_add(&entry->rows, (Str){text->bytes + at, length});
+    text_add_c(&entry->rows, "");
+    return true;
+}
+
+// Reads an entry whose checksum was correct.
+static CacheAnswer read_entry(const Sweep *sweep, const char *key, KnownHashes *known, const Text *text,
+                              CacheEntry *entry) {
+    SCOPED_TEXT head = {0};
+    Str folder = path_directory(str_from(sweep->options->script)), line;
+    add_head(key, &head);
+    if (text->len < head.len || memcmp(text->bytes, head.bytes, head.len) != 0)
+        return CACHE_DAMAGED;
+    size_t at = head.len, next = at;
+    for (; text_next_line(text, &next, &line) && str_starts_with(line, STR("file ")); at = next)
+        if (!read_file_is_unchanged(known, folder, line))
+            return CACHE_MISSING;
+    return read_result(text, at, entry) ? CACHE_FOUND : CACHE_DAMAGED;
+}
+
+CacheAnswer cache_find(const Sweep *sweep, const char *key, KnownHashes *known, CacheEntry *entry) {
+    SCOPED_TEXT path = {0}, text = {0};
+    add_path(sweep, key, &path);
+    *entry = (CacheEntry){0};
+    if (!file_exists(path.bytes))
+        return CACHE_MISSING;
+    CacheAnswer answer = text_read_file(&text, path.bytes, MAX_ENTRY_BYTES) || !remove_checksum(&text)
+                             ? CACHE_DAMAGED
+                             : read_entry(sweep, key, known, &text, entry);
+    if (answer != CACHE_FOUND)
+        cache_entry_free(entry);
+    return answer;
+}
+
+const char *cache_store(const Sweep *sweep, const char *key, const ReadFiles *files, const CacheEntry *entry) {
+    SCOPED_TEXT folder = {0}, path = {0}, text = {0};
+    add_head(key, &text);
+    if (files->changed || !read_files_write(files, &text))
+        return NULL;
+    text_add_format(&text, "frames %" PRId64 "\ndigest %s\nrows %zu\n", entry->frames, entry->digest, entry->rows.len);
+    text_add(&text, (Str){entry->rows.bytes, entry->rows.len});
+    add_checksum(&text);
+    add_folder(sweep, key, &folder);
+    add_path(sweep, key, &path);
+    if (!make_folder(folder.bytes))
+        return strerror(errno);
+    return file_replace(path.bytes, (Str){text.bytes, text.len}, 0);
+}
+
+void cache_entry_free(CacheEntry *entry) {
+    text_free(&entry->rows);
+}
+
+bool cache_should_verify(const Sweep *sweep, const char *key) {
+    uint32_t number = 0;
+    sscanf(key, "%8" SCNx32, &number);
+    return number < sweep->options->verify_cache / 100 * 0x1p32;
+}
