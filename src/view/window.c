@@ -382,7 +382,7 @@ static void fill_screen(Display *display) {
 static bool window_move_to_screen(Display *display, int screen) {
     int count = SDL_GetNumVideoDisplays();
     if (screen >= count) {
-        message("there is no screen %d; the last one is %d", screen, count - 1);
+        message("no such screen: %d; the last one is %d", screen, count - 1);
         return false;
     }
     SDL_SetWindowPosition(display->window, SDL_WINDOWPOS_CENTERED_DISPLAY(screen),

@@ -293,7 +293,7 @@ press q
 ended 0
 "$petri" view still.fl --screen 7 --frames 3 >out 2>err
 check "--screen with a number beyond the last is an error" [ $? -eq 1 ]
-check "the message names the last screen" has err "there is no screen 7; the last one is 0"
+check "the message names the last screen" has err "no such screen: 7; the last one is 0"
 
 # Full screen with a window manager.
 if command -v openbox >/dev/null 2>&1; then
