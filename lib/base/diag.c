@@ -67,24 +67,13 @@ static void format_caret_line(Text *out, Str line, uint32_t column, size_t width
     text_add_char(out, '\n');
 }
 
-// Replaces control characters and ill-formed UTF-8 with '?', because they must not reach a terminal.
-static void add_printable(Text *out, Str text) {
-    for (size_t at = 0; at < text.len;) {
-        int32_t c = utf8_next(text, &at);
-        if (c == '\t' || c == '\n' || !utf8_is_control(c))
-            text_add_code_point(out, (uint32_t)c);
-        else
-            text_add_char(out, '?');
-    }
-}
-
 Str diag_text(const Diag *diag) {
     return str_truncate(diag->text, 400); // names in a script may be megabytes long
 }
 
 static void add_text(Text *out, const Diag *diag) {
     Str text = diag_text(diag);
-    add_printable(out, text);
+    text_add_printable(out, text, "\t\n");
     if (text.len < diag->text.len)
         text_add_c(out, "…");
 }
@@ -96,7 +85,7 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
     if (diag->at.source) {
         position = source_locate(diag->at.source, diag->at.span.start);
         text_add_c(out, bold);
-        add_printable(out, diag->at.source->name);
+        text_add_printable(out, diag->at.source->name, "\t\n");
         text_add_format(out, ":%u:%u:%s ", position.line, position.column, plain);
     }
     text_add_format(out, "%s%s:%s ", tint, level_names[diag->level], plain);
@@ -111,13 +100,13 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
         size_t left = diag->at.source->text.len - diag->at.span.start;
         size_t width = utf8_length((Str){diag->at.source->text.bytes + diag->at.span.start, len < left ? len : left});
         text_add_c(out, "    ");
-        add_printable(out, line);
+        text_add_printable(out, line, "\t\n");
         text_add_format(out, "\n    %s", tint);
         format_caret_line(out, line, column, width, plain);
     }
     if (diag->hint.len) {
         text_add_c(out, "    ");
-        add_printable(out, diag->hint);
+        text_add_printable(out, diag->hint, "\t\n");
         text_add_char(out, '\n');
     }
 }

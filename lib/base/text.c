@@ -54,6 +54,16 @@ void text_add_code_point(Text *text, uint32_t code_point) {
     add_len(text, utf8_encode(code_point, text_reserve(text, UTF8_MAX)));
 }
 
+void text_add_printable(Text *text, Str part, const char *allowed) {
+    for (size_t at = 0; at < part.len;) {
+        int32_t c = utf8_next(part, &at);
+        if (utf8_is_control(c) && (c <= 0 || c > 0x7f || !strchr(allowed, (int)c)))
+            text_add_char(text, '?');
+        else
+            text_add_code_point(text, (uint32_t)c);
+    }
+}
+
 void text_add_va(Text *text, const char *format, va_list args) {
     assert(format); // avoids a GCC warning in sanitizer builds, where a NULL format seems possible
     va_list again;

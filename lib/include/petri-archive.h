@@ -51,8 +51,8 @@ PETRI_API bool petri_archive_is(const char *file);
 // after the call. Returns NULL if out of memory. Free it with petri_archive_close.
 PETRI_API PetriArchive *petri_archive_open(const char *file, size_t memory_limit);
 
-// Completes an archive that is written, and ends its recording. Returns PETRI_INVALID, with petri_archive_problem, if the
-// archive does not have all frames. petri_archive_close also completes an archive, but does not report problems.
+// Completes an archive that is written, and ends its recording. Returns PETRI_INVALID, with petri_archive_problem, if
+// the archive does not have all frames. petri_archive_close also completes an archive, but does not report problems.
 PETRI_API PetriStatus petri_archive_complete(PetriArchive *archive);
 
 // Closes an archive and sets the handle to NULL. NULL handles are ignored. A written archive is completed: its session

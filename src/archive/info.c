@@ -5,17 +5,25 @@
 #include <inttypes.h>
 #include <unistd.h>
 
+// Prints a line with a text from the archive, which may come from a stranger.
+static void print_line(Output *output, const char *label, const char *text) {
+    SCOPED_TEXT line = {0};
+    text_add_printable(&line, str_from(text), "");
+    output_format(output, "%-12s%s\n", label, line.bytes ? line.bytes : "");
+}
+
 static void print_files(PetriArchive *archive, Output *output) {
     PetriArchiveFile file;
     for (size_t i = 0; petri_archive_file(archive, i, &file, sizeof file); i++) {
-        output_format(output, "file        %s: ", file.name);
+        SCOPED_TEXT line = {0};
+        text_add_format(&line, "%s: ", file.name);
         if (!file.bytes)
-            output_format(output, "removed");
+            text_add_c(&line, "removed");
         else
-            output_format(output, "%zu bytes", file.length);
+            text_add_format(&line, "%zu bytes", file.length);
         if (file.frame > 0)
-            output_format(output, ", from frame %" PRId64, file.frame);
-        output_format(output, "\n");
+            text_add_format(&line, ", from frame %" PRId64, file.frame);
+        print_line(output, "file", line.bytes);
     }
 }
 
@@ -24,11 +32,14 @@ static void print_info(PetriArchive *archive, Output *output) {
     const char *name, *value;
     if (!petri_archive_info(archive, &info, sizeof info))
         return;
-    output_format(output, "script      %s\n", info.script);
-    output_format(output, "command     %s\n", info.command);
-    output_format(output, "petri       %s\n", info.version);
-    for (size_t i = 0; petri_archive_parameter(archive, i, &name, &value); i++)
-        output_format(output, "parameter   %s=%s\n", name, value);
+    print_line(output, "script", info.script);
+    print_line(output, "command", info.command);
+    print_line(output, "petri", info.version);
+    for (size_t i = 0; petri_archive_parameter(archive, i, &name, &value); i++) {
+        SCOPED_TEXT line = {0};
+        text_add_format(&line, "%s=%s", name, value);
+        print_line(output, "parameter", line.bytes);
+    }
     print_files(archive, output);
     if (info.last_frame < info.first_frame)
         output_format(output, "frames      none\n");
@@ -36,8 +47,11 @@ static void print_info(PetriArchive *archive, Output *output) {
         output_format(output, "frames      %" PRId64 " to %" PRId64 "\n", info.first_frame, info.last_frame);
     output_format(output, "keyframes   %" PRId64 "\ndigests     %" PRId64 "\ninputs      %" PRId64 "\n", info.keyframes,
                   info.digests, info.inputs);
-    output_format(output, "digest      %s%s\n", info.sha256,
-                  info.sealed_frame < info.last_frame ? " (does not cover the last frames)" : "");
+    SCOPED_TEXT digest = {0};
+    text_add_c(&digest, info.sha256);
+    if (info.sealed_frame < info.last_frame)
+        text_add_c(&digest, " (does not cover the last frames)");
+    print_line(output, "digest", digest.bytes);
 }
 
 static int info_run(const CommandContext *context, Options *options) {
@@ -59,8 +73,8 @@ const Command INFO_COMMAND = {
     .summary = "print what is in an archive of a run",
     .details =
         "Prints the script, command line, parameters, files, frames and digest of an archive. Control characters\n"
-        "are not removed: do not print archives from strangers to a terminal that interprets them. Exits with 2\n"
-        "if the archive is damaged or was made by a newer version of petri; 'petri verify' checks it completely.",
+        "in them are printed as '?'. Exits with 2 if the archive is damaged or was made by a newer version of\n"
+        "petri; 'petri verify' checks it completely.",
     .examples = "  petri run dish.fl --archive run.petri    write an archive\n"
                 "  petri info run.petri                     print what is in it\n",
     .missing_operand = "no archive given",

@@ -8,10 +8,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Returns true if a name stays in the folder below which it is written.
-static bool is_inside(const char *name) {
+// Returns true if a name stays in the folder below which it is written, and has no control characters.
+static bool is_valid_name(const char *name) {
     if (name[0] == '/' || name[0] == '\0')
         return false;
+    for (size_t at = 0, length = strlen(name); at < length;)
+        if (utf8_is_control(utf8_next((Str){name, length}, &at)))
+            return false;
     for (const char *part = name; part; part = strchr(part, '/')) {
         part += *part == '/';
         size_t length = strcspn(part, "/");
@@ -76,8 +79,8 @@ static int unpack_files(PetriArchive *archive, const char *folder) {
         bool is_folder = str_ends_with(str_from(file.name), STR("/"));
         if (is_folder || !file.bytes || is_replaced(archive, i, file.name))
             continue;
-        if (!is_inside(file.name))
-            message("skipped '%s': it is not below the script's folder", file.name);
+        if (!is_valid_name(file.name))
+            message("skipped '%s': the name has control characters or is not below the script's folder", file.name);
         else if (!write_file(folder, &file))
             return STATUS_FAILED;
     }

@@ -36,6 +36,13 @@ if petri run dish.fl --frames 1 --archive run.petri && status_is 0; then
     echo 'let mass=3' >mass.fl
     petri run dish.fl --frames 25 --keyframe-every 10 --archive first.petri
     if command -v sqlite3 >/dev/null 2>&1; then
+        cp first.petri strange.petri
+        sqlite3 strange.petri "UPDATE meta SET value = 'a' || char(27, 10, 155) || 'b' WHERE key = 'command';
+            UPDATE file SET name = 'c' || char(27) || 'd' WHERE name = 'mass.fl'"
+        petri info strange.petri
+        check "info prints no control characters" eval 'has out "command     a???b" && has out "file        c?d: 11 bytes"'
+        petri unpack strange.petri strange
+        check "unpack writes no names with control characters" eval 'has err "c?d" && [ "$(ls strange)" = dish.fl ]'
         cp first.petri forged.petri
         sqlite3 forged.petri "UPDATE digest SET digest = zeroblob(16) WHERE frame = 13"
         petri verify forged.petri
