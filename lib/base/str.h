@@ -67,8 +67,8 @@ void text_add(Text *text, Str part) PRIVATE_API(text_add);
 void text_add_c(Text *text, const char *part) PRIVATE_API(text_add_c);
 void text_add_char(Text *text, char c);
 void text_add_code_point(Text *text, uint32_t code_point);
-// Adds a text with '?' in place of ill-formed UTF-8 and of control characters that are not in `allowed`, because they
-// must not reach a terminal.
+// Adds a text. Writes '?' for ill-formed UTF-8 and for control characters that are not in `allowed`, because they must
+// not reach a terminal.
 void text_add_printable(Text *text, Str part, const char *allowed);
 void text_add_format(Text *text, const char *format, ...) PRIVATE_API(text_add_format)
     __attribute__((format(printf, 2, 3)));
