@@ -36,8 +36,8 @@ static inline PetriArchiveOptions petri_archive_default_options(void) {
     return options;
 }
 
-// Creates an archive and records the session in it from the next frame on. Call it before petri_load, so that the
-// archive also has the script's files. Replaces an existing archive, but no other file. Check petri_archive_problem
+// Creates an archive and records the session in it from the next frame on. If a script is loaded, reads its files again
+// and compiles it. Replaces an existing archive, but no other file. Check petri_archive_problem
 // after the call, and when you want to know if recording has stopped, for example because the disk is full. The
 // session is not affected by such problems. Returns NULL if out of memory. Free it with petri_archive_close before
 // the session. Host functions (petri_add_function) cannot be recorded.

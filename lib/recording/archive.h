@@ -73,6 +73,7 @@ struct PetriArchive {
     bool in_frame;         // the frame after last_frame is being computed
     bool has_new_notes;    // there are notes since the last frame
     bool mentions_clock;   // a script may use `clock`
+    bool mentions_files;   // nodes may have an attribute `filename`
     uint64_t revision;     // revision of the configuration that was recorded last
     int64_t last_frame;    // last recorded frame; -2: none
     int64_t last_keyframe; // -2: none
@@ -115,6 +116,9 @@ bool archive_bind_text(sqlite3_stmt *statement, int column, Str text);
 bool archive_column_integer(PetriArchive *archive, sqlite3_stmt *row, int column, int64_t min, int64_t max, int64_t *x);
 bool archive_column_text(PetriArchive *archive, sqlite3_stmt *row, int column, Str *text);
 bool archive_column_blob(PetriArchive *archive, sqlite3_stmt *row, int column, Str *bytes);
+
+// drawn_files.c: adds the files that nodes of the frame name.
+void archive_add_drawn_files(PetriArchive *archive);
 
 // files.c: the versions of files.
 

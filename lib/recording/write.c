@@ -32,11 +32,18 @@ static void add_meta_integer(PetriArchive *archive, const char *key, int64_t val
 
 // --- files and inputs
 
-static bool mentions_clock(Str text) {
-    for (const char *at = text.bytes, *end = text.bytes + text.len; (at = memchr(at, 'c', (size_t)(end - at))); at++)
-        if ((size_t)(end - at) >= 5 && memcmp(at, "clock", 5) == 0)
+static bool contains(Str text, const char *word) {
+    size_t length = strlen(word);
+    const char *end = text.bytes + text.len;
+    for (const char *at = text.bytes; (at = memchr(at, word[0], (size_t)(end - at))); at++)
+        if ((size_t)(end - at) >= length && memcmp(at, word, length) == 0)
             return true;
     return false;
+}
+
+static void note_words(PetriArchive *archive, Str text) {
+    archive->mentions_clock = archive->mentions_clock || contains(text, "clock");
+    archive->mentions_files = archive->mentions_files || contains(text, "filename");
 }
 
 // Adds a new version of a file, unless it is the same as the last version.
@@ -53,7 +60,8 @@ static void on_file(void *user_data, const char *name, Str bytes) {
     ArchiveFile *last = archive_find_file(archive, str_from(name), INT64_MAX);
     if (last ? strcmp(last->sha256, sha256) == 0 : !bytes.bytes)
         return;
-    archive->mentions_clock = archive->mentions_clock || (bytes.bytes && mentions_clock(bytes));
+    if (bytes.bytes)
+        note_words(archive, bytes);
     int64_t frame = next_frame(archive);
     sqlite3_stmt *row = archive_statement(archive, SQL_ADD_FILE);
     if (!row)
@@ -95,7 +103,7 @@ static void flush_configuration(PetriArchive *archive) {
     if (!fail_status(archive, recorder_write_configuration(archive->session, &text)))
         return;
     archive->revision = revision;
-    archive->mentions_clock = archive->mentions_clock || mentions_clock(text);
+    note_words(archive, text);
     if (!archive->needs_keyframe)
         add_input(archive, next_frame(archive), "configuration", text);
 }
@@ -256,6 +264,8 @@ static void after_frame(void *user_data, const FrameClock *clock, bool complete)
         archive_fail(archive, "frame %" PRId64 " was aborted", frame);
         return;
     }
+    if (archive->mentions_files)
+        archive_add_drawn_files(archive);
     archive->last_frame = frame;
     archive->in_frame = archive->state_modified = archive->has_new_notes = false;
     if (!clock->lockstep)
@@ -294,6 +304,8 @@ PetriArchive *petri_archive_create(PetriSession *session, const char *file, cons
                                       .jump = on_jump,
                                       .input = on_input,
                                       .file = on_file});
+    if (!archive_fails(archive) && recorder_has_script(session))
+        fail_status(archive, recorder_read_again(session));
     return archive;
 }
 

@@ -1,6 +1,7 @@
 // recorder.c: reports of inputs and files to the callbacks of a recorder; see recorder.h.
 #include "session/recorder.h"
 
+#include "base/file.h"
 #include "session/session.h"
 #include "session/setup.h"
 #include "session/state_text.h"
@@ -150,6 +151,40 @@ void recorder_global(PetriSession *session, const char *name, PetriValue value) 
 void recorder_report_script(PetriSession *session) {
     const Source *source = session->config.program->source;
     recorder_file(session, str_to_c(&session->text_arena, source->name), source->text);
+}
+
+bool recorder_has_script(const PetriSession *session) {
+    return session->config.program;
+}
+
+PetriStatus recorder_read_again(PetriSession *session) {
+    Unit *program = session->config.program;
+    session_clear_files(session);
+    unit_free(program->parse_cache); // it contains included files
+    program->parse_cache = NULL;
+    return petri_reload(session, NULL);
+}
+
+typedef struct FileRequest {
+    Str name;
+    Arena arena;
+} FileRequest;
+
+static PetriStatus read_file(PetriSession *session, void *context) {
+    enum { MAX_BYTES = 256 << 20 };
+    FileRequest *request = context;
+    Str bytes, path = path_join(&request->arena, session->reach.directory, request->name);
+    const char *problem;
+    file_read(&request->arena, &session->reach, str_to_c(&request->arena, path), true, MAX_BYTES, &bytes, NULL,
+              &problem);
+    return PETRI_OK;
+}
+
+void recorder_read_file(PetriSession *session, Str name) {
+    FileRequest request = {.name = name};
+    session_arena(session, &request.arena, "file", SIZE_MAX);
+    session_protect(session, &request.arena, read_file, &request);
+    arena_free(&request.arena);
 }
 
 const char *recorder_script_name(const PetriSession *session) {

@@ -44,6 +44,13 @@ PetriStatus recorder_write_state(PetriSession *session, Str *text);
 // Reports the text of the loaded script as a file that was read. After petri_rewind and petri_config_apply, it can
 // differ from the text that was read last.
 void recorder_report_script(PetriSession *session);
+// Returns true if a script is loaded.
+bool recorder_has_script(const PetriSession *session);
+// Reads all files of the loaded script again and compiles it, so that they are reported. Returns the statuses of
+// petri_reload.
+PetriStatus recorder_read_again(PetriSession *session);
+// Reads a file that a script names, so that it is reported. If it cannot be read, that is reported.
+void recorder_read_file(PetriSession *session, Str name);
 // Returns the file name of the loaded script, without its folder. Valid until the next load.
 const char *recorder_script_name(const PetriSession *session);
 

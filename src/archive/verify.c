@@ -24,7 +24,7 @@ static void print_success(const Verification *verification, const PetriArchiveIn
     output_format(output, "verified: %" PRId64 " of %" PRId64 " frames, %zu of %zu segments", verification->frames,
                   info->last_frame - info->first_frame + 1, verification->chosen, verification->count);
     if (verification->given > 1)
-        output_format(output, "; %zu states were given, not computed", verification->given - 1);
+        output_format(output, "; states that were given, not computed: %zu", verification->given - 1);
     output_format(output, "\ndigest %s%s\n", info->sha256,
                   info->sealed_frame < info->last_frame ? " (does not cover the last frames)" : "");
 }

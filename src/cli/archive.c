@@ -21,25 +21,34 @@ static void add_word(Text *text, const char *word) {
     shell_add_word(text, whole.bytes);
 }
 
-bool archiving_begin(Archiving *archiving, const Options *options, const char *command, PetriSession *session) {
-    if (!options->archive)
-        return true;
-    SCOPED_TEXT words = {0};
+// Returns the command line. The caller frees it.
+static char *describe_command(const Options *options, const char *command) {
+    Text words = {0};
     text_add_format(&words, "petri %s", command);
     for (int i = 0; i < options->argc; i++)
         add_word(&words, options->argv[i]);
+    return words.bytes;
+}
+
+bool archiving_start(Archiving *archiving, const char *file, const Options *options, const char *command,
+                     PetriSession *session) {
+    SCOPED_STRING words = describe_command(options, command);
     PetriArchiveOptions wanted = petri_archive_default_options();
     wanted.keyframe_every = options->keyframe_every;
     wanted.digest_every = options->digest_every;
-    wanted.command = words.bytes;
-    *archiving = (Archiving){petri_archive_create(session, options->archive, &wanted), options->archive, false};
+    wanted.command = words;
+    *archiving = (Archiving){petri_archive_create(session, file, &wanted), memory_strdup(file), false};
     const char *problem = archiving->archive ? petri_archive_problem(archiving->archive) : "out of memory";
     if (!problem)
         return true;
-    message("cannot write the archive '%s': %s", options->archive, problem);
+    message("cannot write the archive '%s': %s", file, problem);
     archiving->failed = true; // so that the problem is not reported again
     archiving_end(archiving);
     return false;
+}
+
+bool archiving_begin(Archiving *archiving, const Options *options, const char *command, PetriSession *session) {
+    return !options->archive || archiving_start(archiving, options->archive, options, command, session);
 }
 
 void archiving_check(Archiving *archiving) {
@@ -51,11 +60,11 @@ void archiving_check(Archiving *archiving) {
 }
 
 bool archiving_end(Archiving *archiving) {
-    if (!archiving->archive)
-        return true;
     petri_archive_complete(archiving->archive);
     archiving_check(archiving);
     petri_archive_close(&archiving->archive);
+    memory_free_string(&archiving->name);
+    archiving->name = NULL;
     return !archiving->failed;
 }
 

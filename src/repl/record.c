@@ -149,7 +149,22 @@ static bool run_record(Repl *repl, const char *rest) {
     return write_golden(repl, golden.bytes, script.bytes, every);
 }
 
+static bool run_archive(Repl *repl, const char *rest) {
+    if (repl->options->replayed)
+        return repl_fail(repl, "cannot write an archive while an archive is replayed");
+    if (repl->archiving.archive && !archiving_end(&repl->archiving))
+        repl->failed = true;
+    if (!archiving_start(&repl->archiving, rest, repl->options, "repl", repl->session)) {
+        repl->failed = true;
+        return false;
+    }
+    repl_note(repl, "all later frames are written to %s", rest);
+    return true;
+}
+
 const ReplCommand RECORD_COMMANDS[] = {
+    {".archive", "FILE", "a file", "write an archive of all later frames, for petri verify", run_archive,
+     COMPLETE_FILES},
     {".record", "FILE [K]", "a file", "write every K-th frame (default: 1) as a golden for petri test", run_record,
      COMPLETE_FILES},
     {0},

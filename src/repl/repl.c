@@ -244,6 +244,8 @@ static int repl_run(const CommandContext *host, Options *options) {
     int status = options_open(options, host, on_diagnostic, &repl, &repl.session);
     if (status == OPTIONS_READ)
         status = output_finish(&repl.output, run_session(&repl, options->state_file));
+    if (!archiving_end(&repl.archiving) && status == STATUS_DONE)
+        status = STATUS_FAILED;
     history_free(&repl.history);
     petri_close(&repl.session);
     file_watch_free(repl.files);

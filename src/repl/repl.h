@@ -1,6 +1,7 @@
 // repl.h: internal declarations of `petri repl`: its state, output, commands and completion.
 #pragma once
 
+#include "cli/archive.h"
 #include "cli/file_watch.h"
 #include "cli/history.h"
 #include "cli/memory.h"
@@ -12,6 +13,7 @@ typedef struct Repl {
     Options *options;
     PetriSession *session;
     FrameHistory history;
+    Archiving archiving; // the archive of .archive
     Output output;
     FileWatch *files;        // watches the script and the files that it uses
     char *script;            // path; NULL: no script was named

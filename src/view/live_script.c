@@ -104,6 +104,8 @@ int live_script_open(LiveScript *live, const CommandContext *host, const Options
     int status = options_open(options, host, on_diagnostic, live, &live->session);
     if (status != OPTIONS_READ)
         return status;
+    if (!archiving_begin(&live->archiving, options, "view", live->session))
+        return STATUS_FAILED;
     live->watch = file_watch_new();
     live->painter = painter_open_tested(&live->tester);
     watch_sources(live);
@@ -126,6 +128,7 @@ void live_script_close(LiveScript *live) {
     petri_picture_free(&live->last_complete);
     petri_painter_close(&live->painter);
     history_free(&live->history);
+    archiving_end(&live->archiving);
     petri_close(&live->session);
     file_watch_free(live->watch);
     text_free(&live->log);
@@ -229,6 +232,7 @@ bool live_script_step(LiveScript *live) {
         live->state = is_outdated(live) ? LIVE_OUTDATED_HALTED : LIVE_HALTED;
         return false;
     }
+    archiving_check(&live->archiving);
     watch_sources(live); // the frame may have imported modules
     update_picture(live);
     live->frames += live->before_first_picture ? 0 : 1;

@@ -25,6 +25,7 @@
 // Only live_script.c changes these states.
 #pragma once
 
+#include "cli/archive.h"
 #include "cli/file_watch.h"
 #include "cli/history.h"
 #include "cli/memory.h"
@@ -53,6 +54,7 @@ typedef struct LiveScript {
     PetriPicture *picture;       // picture of the last frame; NULL: nothing to draw
     PetriPicture *last_complete; // earlier picture that was drawn with all shaders; NULL: none
     Recording recording;
+    Archiving archiving; // the archive of the session
     FileWatch *watch;
     int64_t frames; // number of frames since the view was opened, not counting those before the first picture
     // True if the particles of the last frame are not at their positions yet (petri_picture_ready).

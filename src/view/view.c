@@ -427,7 +427,8 @@ static int run_view(View *view) {
     if (!live_script_halted(&view->live))
         live_script_save(&view->live, true);
     report_summary(view);
-    bool failed = live_script_halted(&view->live) || view->live.failed || view->broken;
+    bool archived = archiving_end(&view->live.archiving);
+    bool failed = !archived || live_script_halted(&view->live) || view->live.failed || view->broken;
     if (interrupted && !view->live.state_file.outdated)
         return STATUS_SIGNAL + interrupted;
     return failed || state_file_failed(&view->live.state_file) ? STATUS_FAILED : STATUS_DONE;

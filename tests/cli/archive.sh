@@ -108,6 +108,29 @@ END
     fi
     echo '$:size' | timeout 60 "$petri" repl film.petri --from 10 >out 2>err
     check "the prompt continues an archive" grep -q '^@9> 0.72$\|0.72' out
+    printf '%s\n' '.step 3' '.archive prompt.petri' '.step' 'let k=2' '!counter state=:q rate=k' '.step 20' '.set R 3' \
+        '.step 4' '.tempo 90' '.step 3' | timeout 60 "$petri" repl film.fl >out 2>err
+    check "the prompt writes an archive" has out "all later frames are written to prompt.petri"
+    petri verify prompt.petri
+    check "the frames of the prompt with their changes are verified" eval \
+        'status_is 0 && has out "verified: 28 of 28 frames"'
+    petri run prompt.petri --from 30 --frames 1 --print state
+    check "the replay has the statements of the prompt" has out '$:q = '
+    printf '%s\n' '.archive back.petri' '.step 30' '.back 12' '.step 5' | timeout 60 "$petri" repl film.fl >out 2>err
+    petri info back.petri
+    check "frames that were undone are not in the archive" has out "frames      0 to 22"
+    petri verify back.petri
+    check "verify counts states that were given" eval 'status_is 0 && has out "states that were given, not computed: 1"'
+
+    # A picture that only drawing reads
+    printf '!window size=20;20\n    !canvas\n        !image filename="dot.png" point=0;0 size=20;20\n!counter state=:a rate=1\n' >image.fl
+    if petri render film.fl --frame 3 --size 20x20 -o dot.png && status_is 0; then
+        petri run image.fl --frames 3 --archive image.petri
+        petri render image.fl --frame 2 -o script.png
+        rm dot.png
+        petri render image.petri --frame 2 -o replay.png
+        check "an archive has images that only drawing reads" eval 'status_is 0 && cmp -s script.png replay.png && empty err'
+    fi
     petri diff film.petri film.fl
     check "diff compares an archive with a script" eval 'status_is 0 && empty out'
     petri run film.fl --frames 20 --archive other.petri

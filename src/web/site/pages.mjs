@@ -42,6 +42,7 @@ export const GROUPS = [
             parts: [['src/manual/repl.md']], made: 'prompt' },
         { name: 'sweep', title: 'Sweeps', about: 'One script with many parameter values and seeds', parts: [['src/manual/sweep.md']] },
         { name: 'diff', title: 'Differences', about: 'Find out why two runs differ', parts: [['src/manual/diff.md']] },
+        { name: 'archives', title: 'Archives', about: 'Publish a run with a paper', parts: [['src/manual/archives.md']] },
         { name: 'trajectories', title: 'Trajectories', about: 'Particles as XYZ, CSV and H5MD files; resuming a run',
             parts: [['src/manual/trajectories.md']] },
         { name: 'mpi', title: 'MPI', about: 'One script on several processes', parts: [['src/manual/mpi.md']] },
