@@ -501,6 +501,7 @@ const Program *program_compile(Arena *arena, Arena *scratch, SymbolTable *symbol
                          .source = source,
                          .options = options,
                          .diags = diags,
+                         .root = ast,
                          .is_module = binds_only(ast)};
     if (options->simplify)
         return compile_file(&compiler, ast);

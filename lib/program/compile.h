@@ -43,6 +43,7 @@ typedef struct Include {
     Str fault; // error message; empty: none
 } Include;
 
+typedef struct NameUses NameUses;
 typedef struct Compiler Compiler;
 struct Compiler {
     Arena *arena;   // data of the program
@@ -66,6 +67,8 @@ struct Compiler {
     uint32_t parameter_capacity;
     Str *imports;
     uint32_t import_count;
+    const Ast *root;          // the whole file
+    const NameUses *uses;     // uses of names in `root`; NULL: not collected yet (optional.c)
     const Ast *subject;       // latest expression to which attributes or children are added; used for a hint
     const Ast *key;           // key of the latest state lookup; used for a hint
     const Ast *parameter_use; // second NAME of the last parameter `let NAME=NAME or DEFAULT`; not reported if unbound
@@ -101,6 +104,9 @@ void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
 // used.
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
 const Expr *compile_name(Compiler *compiler, const Ast *ast);
+// Returns true if the script works without this unbound name: each of its uses is the left side of `or` or `and`, the
+// operand of `not`, or a test of `if`.
+bool compile_is_optional(Compiler *compiler, const Symbol *name);
 void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
 // Ends a function and continues with the enclosing function.
 void compile_function_close(Compiler *compiler, FunctionScope *function);

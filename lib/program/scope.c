@@ -231,9 +231,15 @@ static const Expr *compile_unbound(Compiler *compiler, const Ast *ast) {
         expr->as.name = ast->name;
         return expr;
     }
-    compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
-                   str_format(compiler->arena, "unbound name '%.*s' is null", STR_ARGS(name)),
-                   unbound_hint(compiler, ast));
+    Str hint = unbound_hint(compiler, ast);
+    if (hint.len || !compile_is_optional(compiler, ast->name))
+        compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
+                       str_format(compiler->arena, "unbound name '%.*s' is null", STR_ARGS(name)), hint);
+    else if (compiler->options->lint)
+        compile_report(compiler, ast->span, DIAG_NOTE, "optional-definition",
+                       str_format(compiler->arena, "'%.*s' is optional; to set it, use -D %.*s=VALUE", STR_ARGS(name),
+                                  STR_ARGS(name)),
+                       (Str){0});
     return compile_constant(compiler, ast, VALUE_NULL);
 }
 

@@ -16,7 +16,7 @@ typedef struct Check {
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Check *check = host;
-    // A note is shown if the error or warning before it was shown.
+    // A note is shown if the error or warning before it was shown, or if there is none before it.
     if (diagnostic->level != PETRI_NOTE)
         check->shown_last = diagnostic->level == PETRI_ERROR || check->options->verbosity != LOG_QUIET;
     if (check->shown_last && check->report.form != REPORT_TEXT)
@@ -46,7 +46,10 @@ static int check_all(Check *check, const CommandContext *host) {
 
 static int check_run(const CommandContext *host, Options *options) {
     if (options->scripts.count > 0)
-        return check_all(&(Check){.options = options, .report = {.form = (ReportForm)options->report}}, host);
+        return check_all(&(Check){.options = options,
+                                  .shown_last = options->verbosity != LOG_QUIET,
+                                  .report = {.form = (ReportForm)options->report}},
+                         host);
     if (!options->unreadable)
         message("no script found: no file is named *.fl");
     return STATUS_FAILED;

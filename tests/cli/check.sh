@@ -160,6 +160,15 @@ petri check order.fl
 check "diagnostics come in the order of the text" [ "$(grep -o '^order.fl:[0-9]*' err | tr '\n' ' ')" = \
     "order.fl:3 order.fl:4 order.fl:6 " ]
 
+# Optional definitions.
+printf '!window size=RECORD or 5\n' >optional.fl
+petri check optional.fl
+check "check lists optional definitions" has err "optional.fl:1:14: note: 'RECORD' is optional; to set it, use -D RECORD=VALUE"
+petri check --quiet optional.fl
+check "check --quiet lists no optional definitions" eval '! grep -q RECORD err'
+petri run optional.fl --frames 1
+check "run does not report optional definitions" empty err
+
 # Output formats for other programs.
 printf 'let \303\251=coz(1)\n!n a=\303\251 b="\\q"+1\n!pysics\nlet u=2\n' >codes.fl
 petri check --format gcc codes.fl

@@ -78,6 +78,31 @@ static void test_unbound(void **state) {
     }
 }
 
+// An unbound name is an optional definition if all its uses are tests, and if no name is similar.
+static void test_optional_definitions(void **state) {
+    static const CodeRow rows[] = {
+        {"let size=RECORD or 5\n!a v=size w=(1 if RECORD)\n", ""},
+        {"!a v=(1 if X else 2) w=(not X) x=(X and 5)\n", ""},
+        {"if X\n    !a\nelif not Y\n    !b\nelse\n    !c\n", ""},
+        {"!a v=(0 or (X or 5))\n", ""},
+        {"!a v=X or 5\n!a v=X\n", "1:6 unbound name 'X' is null [unbound-name]\n"
+                                  "2:6 unbound name 'X' is null [unbound-name]\n"},
+        {"!a v=5 or X\n", "1:11 unbound name 'X' is null [unbound-name]\n"},
+        {"!a v=(X if 1)\n", "1:7 unbound name 'X' is null [unbound-name]\n"},
+        {"if 1\n    X\n", "2:5 unbound name 'X' is null [unbound-name]\n"},
+        {"if 1\n    !a\nelse\n    X\n", "4:5 unbound name 'X' is null [unbound-name]\n"},
+        {"!a v=fraem or 5\n", "1:6 unbound name 'fraem' is null [unbound-name]\n"},
+    };
+    Desk *desk = *state;
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        compile(desk, rows[i].script);
+        assert_text(rows[i].script, text_c(&desk->reported), rows[i].code);
+    }
+    desk->options.lint = true;
+    compile(desk, "!a v=RECORD or 5\n");
+    assert_non_null(strstr(text_c(&desk->reported), "'RECORD' is optional"));
+}
+
 static void test_exports(void **state) {
     Desk *desk = *state;
     const Symbol *params[] = {name_of(&desk->world, "p"), name_of(&desk->world, "q")};
@@ -94,8 +119,12 @@ static void test_exports(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        DESK_TEST(test_slots),   DESK_TEST(test_captures), DESK_TEST(test_order_of_predefined_names),
-        DESK_TEST(test_unbound), DESK_TEST(test_exports),
+        DESK_TEST(test_slots),
+        DESK_TEST(test_captures),
+        DESK_TEST(test_order_of_predefined_names),
+        DESK_TEST(test_unbound),
+        DESK_TEST(test_optional_definitions),
+        DESK_TEST(test_exports),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
