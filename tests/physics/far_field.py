@@ -14,7 +14,7 @@ import tempfile
 from collections import namedtuple
 
 MIN_PARTICLES, LEAF, TARGETS, LEVELS, SUMS = 1024, 32, 64, 42, 8
-STEPS, DELTA = 2, 1 / 64
+DELTA = 1 / 64
 
 Particle = namedtuple('Particle', 'group position mass charge radius anchor')
 Force = namedtuple('Force', 'group kind strength theta max_distance')
@@ -382,13 +382,13 @@ def script(system):
     return '\n'.join(lines) + '\n'
 
 
-def run(petri, system):
+def run(petri, system, steps):
     """Returns the positions and velocities that petri computes."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, 'case.fl')
         with open(path, 'w', encoding='utf-8') as file:
             file.write(script(system))
-        result = subprocess.run([petri, 'run', path, '--frames', str(STEPS + 1), '--print', 'state'],
+        result = subprocess.run([petri, 'run', path, '--frames', str(steps + 1), '--print', 'state'],
                                 stdout=subprocess.PIPE, check=True, encoding='utf-8')
     position, velocity = {}, {}
     for line in result.stdout.splitlines():
@@ -441,7 +441,8 @@ def cases():
     for shape in ('clusters', 'line', 'points', 'far', 'shell'):
         for dimensions in (2, 3):
             seed += 1
-            yield f'{shape}_{dimensions}d', make(seed, dimensions, 1100, shape, both, theta=1.1, radius=0.01)
+            kinds = [both[seed % 2]] if shape != 'points' else both
+            yield f'{shape}_{dimensions}d', make(seed, dimensions, 1100, shape, kinds, theta=1.1, radius=0.01)
     yield 'close_2d', make(27, 2, 1100, 'close', [GRAVITY], theta=1.1)
     yield 'close_3d', make(28, 3, 1100, 'close', both, theta=1.1)
     yield 'size_1023_3d', make(29, 3, 1023, 'cube', [GRAVITY])
@@ -470,8 +471,9 @@ def make_uneven(seed):
 def compare(case):
     """Returns True if petri and the model agree."""
     petri, name, system = case
-    position, velocity = run(petri, system)
-    for _ in range(STEPS):
+    steps = 2 if len(system.particles) <= 1100 and len(system.forces) == 1 else 1
+    position, velocity = run(petri, system, steps)
+    for _ in range(steps):
         system.step()
     if not all(math.isfinite(number) for force in system.force for number in force):
         print(f'{name}: a force is not finite')
