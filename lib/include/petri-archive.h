@@ -128,11 +128,15 @@ PETRI_API bool petri_archive_digest(PetriArchive *archive, int64_t frame, uint8_
 // Returns the version of a file that the next frame of the replay uses, or NULL. Valid until the archive is closed.
 PETRI_API const char *petri_archive_read(void *archive, const char *name, size_t *length);
 
-// Replays an archive in a session that was opened for it (petri_archive_read) and has no script yet. Loads the nearest
-// keyframe at or before `frame`, then computes the frames up to `frame`; -1 only loads the first keyframe. After that,
-// petri_step computes the recorded frames with their recorded inputs and times. After the last recorded frame, the run
-// continues without recorded input. Returns PETRI_INVALID, with petri_archive_problem or a diagnostic, if the archive
-// is damaged, and otherwise the statuses of petri_step. Call it again to go to another frame.
+// Begins a replay in a session that was opened for the archive (petri_archive_read) and has no script yet. Loads the
+// nearest keyframe at or before `frame`, or the first one, and computes no frame, so that petri_tree and petri_system
+// return nothing before the next step. petri_step then computes the recorded frames with their recorded inputs and
+// times. After the last recorded frame, the run continues without recorded input. Returns PETRI_INVALID, with
+// petri_archive_problem or a diagnostic, if the archive is damaged. Call it again to go to another keyframe.
+PETRI_API PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int64_t frame);
+
+// Like petri_archive_load, but then computes the frames up to `frame`; -1 computes none. Returns PETRI_INVALID for the same
+// reasons, and the statuses of petri_step.
 PETRI_API PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, int64_t frame);
 
 // Returns true if the current frame of a replay has a keyframe with another state. Returns false if it has no keyframe,

@@ -83,6 +83,13 @@ const char *petri_archive_read(void *archive, const char *name, size_t *length) 
     return NULL;
 }
 
+PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int64_t frame) {
+    (void)archive;
+    (void)session;
+    (void)frame;
+    return PETRI_UNSUPPORTED;
+}
+
 PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, int64_t frame) {
     (void)archive;
     (void)session;

@@ -147,7 +147,7 @@ static PetriStatus before_frame(void *user_data, FrameClock *clock, bool *has_cl
     return status;
 }
 
-PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, int64_t frame) {
+PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int64_t frame) {
     if (!archive || !session || archive->writes || archive_fails(archive))
         return PETRI_INVALID;
     const ArchiveKeyframe *keyframe = find_keyframe(archive, frame);
@@ -160,6 +160,11 @@ PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, i
     archive->replay_start = keyframe->frame;
     PetriStatus status = restore_keyframe(archive, session, keyframe->frame);
     recorder_set(session, &(Recorder){.user_data = archive, .before_frame = before_frame, .ignores_input = true});
+    return status;
+}
+
+PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, int64_t frame) {
+    PetriStatus status = petri_archive_load(archive, session, frame - (frame > INT64_MIN));
     while (status == PETRI_OK && petri_frame_number(session) < frame)
         status = petri_step(session);
     return status;

@@ -144,7 +144,7 @@ static void verify_segment(Worker *worker, size_t number) {
         worker->failed = true;
         return;
     }
-    PetriStatus status = petri_archive_replay(worker->archive, worker->session, segment->frame);
+    PetriStatus status = petri_archive_load(worker->archive, worker->session, segment->frame);
     bool same = true;
     while (status == PETRI_OK && same && !worker->failed && petri_frame_number(worker->session) < segment->end) {
         if (is_needless(verification, number))

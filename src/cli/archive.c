@@ -110,7 +110,9 @@ int replay_open(Options *options, const Command *command) {
 }
 
 PetriStatus replay_load(const Options *options, PetriSession *session) {
-    PetriStatus status = petri_archive_replay(options->replayed, session, options->from > 0 ? options->from - 1 : -1);
+    PetriStatus status = petri_archive_load(options->replayed, session, options->from - 1);
+    while (status == PETRI_OK && petri_frame_number(session) < options->from - 1)
+        status = petri_step(session);
     if (status != PETRI_OK && !archive_report_problem(options->replayed, options->script))
         message("cannot replay '%s': %s", options->script, petri_status_text(status));
     return status;

@@ -37,11 +37,13 @@ else:
     headers = subprocess.run(["pkg-config", "--variable=includedir", "petri-draw"], check=True, stdout=subprocess.PIPE,
                              text=True).stdout.strip()
 
+# libpetri-archive is not installed, so only a build of the whole project has it.
+archives = ["petri-archive.h"] if "PETRI_ARCHIVES" in os.environ else []
 here = Path(__file__).parent
 ffi = cffi.FFI()
 ffi.cdef("".join(declarations(Path(headers) / name)
                  for name in ("petri.h", "petri-edit.h", "petri-inspect.h", "petri-live.h", "petri-ranks.h",
-                              "petri-draw.h")))
+                              "petri-draw.h", *archives)))
 helpers = (here / "helpers.h").read_text(encoding="utf-8")
 ffi.cdef(re.sub(r"^#.*\n", "", helpers, flags=re.M))
 ffi.cdef("""
@@ -53,7 +55,7 @@ ffi.cdef("""
 ffi.set_source(
     "petri._petri",
     helpers + (here / "helpers.c").read_text(encoding="utf-8"),
-    extra_compile_args=compile_args + ["-std=c17", "-D_XOPEN_SOURCE=700", "-fvisibility=hidden"],
+    extra_compile_args=compile_args + ["-DPETRI_ARCHIVES"] * len(archives) + ["-std=c17", "-D_XOPEN_SOURCE=700", "-fvisibility=hidden"],
     extra_link_args=link_args,
 )
 

@@ -549,5 +549,74 @@ class OtherPackages(unittest.TestCase):
                 dish.systems["dish"].to_ase()
 
 
+class Archives(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = Path(self.folder.name) / "run.petri"
+        self.addCleanup(self.folder.cleanup)
+
+    def record(self, frames=30):
+        session = petri.Session(DISH, given={"pushed": 0})
+        try:
+            recording = session.archive(self.path, keyframe_every=10)
+        except petri.ArchiveError as error:
+            self.skipTest(str(error))  # built without SQLite
+        with recording:
+            positions = []
+            for i in range(frames):
+                if i == 12:
+                    session.set_global("pushed", (1.5, 2))
+                if i == 20:
+                    session.state["mark", 1] = i
+                session.step()
+                positions.append(numpy.array(session.systems["dish"].position))
+            recording.note("recorded by a test")
+        return positions
+
+    def test_replay_has_the_recorded_frames(self):
+        positions = self.record()
+        archive = petri.Archive(self.path)
+        self.assertEqual(archive.info["last_frame"], 29)
+        self.assertEqual(archive.info["script"], "<string>")
+        self.assertEqual([keyframe.frame for keyframe in archive.keyframes], [-1, 9, 19, 29])
+        self.assertEqual([file.name for file in archive.files], ["<string>"])
+        self.assertEqual(len(archive.info["sha256"]), 64)
+        for frame in (25, 3, 29):
+            session = archive.session(frame)
+            self.assertEqual(session.frame.number, frame)
+            numpy.testing.assert_array_equal(session.systems["dish"].position, positions[frame])
+        self.assertEqual(session.state["mark", 1], 20)
+        session.step(3)  # continues after the recorded frames
+        self.assertEqual(session.frame.number, 32)
+        self.assertEqual(list(petri.Archive(self.path).verify()), list(range(30)))
+        self.assertIsNone(archive.digest(100))
+
+    def test_sessions_keep_their_archive(self):
+        positions = self.record(12)
+        session = petri.Archive(self.path).session(5)
+        gc.collect()
+        session.step()
+        numpy.testing.assert_array_equal(session.systems["dish"].position, positions[6])
+
+    def test_damage_is_an_error(self):
+        self.record(12)
+        whole = self.path.read_bytes()
+        self.path.write_bytes(whole[:len(whole) // 2])
+        with self.assertRaises(petri.ArchiveError):
+            petri.Archive(self.path).check()
+        with self.assertRaisesRegex(petri.ArchiveError, "not an archive"):
+            petri.Archive(__file__)
+
+    def test_functions_of_python_cannot_be_recorded(self):
+        session = petri.Session("let a=f(1)\n", functions={"f": lambda x: x})
+        try:
+            recording = session.archive(self.path)
+        except petri.ArchiveError as error:
+            self.skipTest(str(error))
+        session.step()
+        with self.assertRaisesRegex(petri.ArchiveError, "functions of the host"):
+            recording.close()
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=0)

@@ -11,6 +11,7 @@ The tutorial is src/python/TUTORIAL.md in the source tree.
 """
 
 from ._petri import ffi as _ffi, lib as _lib
+from .archive import Archive, ArchivedFile, ArchiveError, Keyframe, Recording
 from .errors import (Diagnostic, InterruptedStep, LimitError, MissingLibraryError, OutOfMemoryError, PetriError,
                      PetriWarning, ScriptError)
 from .picture import Picture
@@ -21,8 +22,8 @@ from .systems import Contribution, Explanation, System, Systems
 from .values import Text
 
 __version__ = _ffi.string(_lib.petri_version()).decode()
-__all__ = ["Contribution", "Diagnostic", "Explanation", "Frame", "InterruptedStep", "LimitError", "MissingLibraryError", "Options", "OutOfMemoryError",
-           "PetriError", "PetriWarning", "Picture", "ScriptError", "Session", "Snapshot", "State", "System", "Systems",
+__all__ = ["Archive", "ArchiveError", "ArchivedFile", "Contribution", "Diagnostic", "Explanation", "Frame", "InterruptedStep", "Keyframe", "LimitError", "MissingLibraryError", "Options", "OutOfMemoryError",
+           "PetriError", "PetriWarning", "Picture", "Recording", "ScriptError", "Session", "Snapshot", "State", "System", "Systems",
            "Text", "sweep"]
 for _name in __all__:
     globals()[_name].__module__ = "petri"  # the public location

@@ -10,6 +10,7 @@ from typing import Any, Callable, Iterator, List, Mapping, NamedTuple, Optional,
 
 from . import values
 from ._petri import ffi, lib
+from .archive import Recording, _check
 from .errors import Diagnostic, ScriptError, finish
 from .functions import Functions
 from .picture import Picture
@@ -87,15 +88,7 @@ class Session:
     def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None,
                  given: Optional[Mapping[str, Any]] = None, functions: Optional[Mapping[str, Callable]] = None,
                  **defines: Any):
-        self._lock = threading.RLock()
-        self._told: List[Diagnostic] = []
-        self._painter: Any = None
-        self._functions: Optional[Functions] = None
-        self._stop: Any = ffi.NULL
-        self._shown: List[None] = []  # one element per array that refers to the session's memory
-        self._c = self._open(options or Options())
-        self.state = State(self._c, self._lock)
-        self.systems = Systems(self)
+        self._prepare(options)
         for name, value in defines.items():
             text = value if isinstance(value, str) else self._printed(value)
             self._call(lib.petri_define, f"{name}={text}".encode(),
@@ -112,7 +105,36 @@ class Session:
         else:
             self._call(lib.petri_load, os.fsencode(source))
 
-    def _open(self, wanted: Options) -> Any:
+    def _prepare(self, options: Optional[Options], archive: Any = None) -> None:
+        """Opens a session without a script, for the files of an archive if there is one."""
+        self._lock = threading.RLock()
+        self._told: List[Diagnostic] = []
+        self._painter: Any = None
+        self._functions: Optional[Functions] = None
+        self._stop: Any = ffi.NULL
+        self._shown: List[None] = []  # one element per array that refers to the session's memory
+        self._c = self._open(options or Options(), archive)
+        self.state = State(self._c, self._lock)
+        self.systems = Systems(self)
+
+    @classmethod
+    def _replay(cls, archive: Any, frame: int, options: Optional[Options], loads: bool = False) -> "Session":
+        session = cls.__new__(cls)
+        session._prepare(options, archive)
+        session._given = set()
+        with session._lock:
+            status = (lib.petri_archive_load if loads else lib.petri_archive_replay)(archive, session._c, frame)
+        _check(archive)
+        session._finish(status)
+        return session
+
+    def archive(self, path: Union[str, os.PathLike], *, keyframe_every: int = 1000, digest_every: int = 1) -> Recording:
+        """Records all later frames in an archive, from which anyone can replay and verify them. Functions of Python
+        cannot be recorded."""
+        with self._lock:
+            return Recording(self._c, path, keyframe_every, digest_every)
+
+    def _open(self, wanted: Options, archive: Any = None) -> Any:
         options = ffi.new("PetriOptions *")
         lib.petri_options_init(options, ffi.sizeof("PetriOptions"))
         for name in ("fps", "threads", "memory_limit", "work_limit", "realtime", "simplify", "keep_forces", "no_files"):
@@ -128,13 +150,16 @@ class Session:
             folders = ffi.new("const char *[]", [*texts, ffi.NULL])
             keep += [texts, folders]
             setattr(options, name, folders)
+        if archive is not None:
+            options.read_file = ffi.addressof(lib, "petri_archive_read")
+            options.read_user_data = archive
         options.rollback_frames = True
         options.on_diagnostic = lib.petri_python_diagnostic
         options.user_data = handle = ffi.new_handle(self._told)
         pointer = lib.petri_open(options)
         if not pointer:
             raise ValueError(f"invalid options: {wanted}")
-        return ffi.gc(pointer, lambda p, handle=handle: lib.petri_python_close(p))
+        return ffi.gc(pointer, lambda p, keep=(handle, archive): lib.petri_python_close(p))
 
     def _printed(self, value: Any) -> str:
         with self._lock:

@@ -73,6 +73,21 @@ static void test_replay_goes_to_other_frames(void **state) {
     petri_archive_close(&archive);
 }
 
+static void test_replay_computes_the_requested_frame(void **state) {
+    (void)state;
+    PetriArchive *archive = open_archive("run.petri");
+    PetriSession *session = run_open_replay(archive);
+    PetriSystem system;
+    assert_int_equal(petri_archive_load(archive, session, 25), PETRI_OK);
+    check_frame(session, 19); // the keyframe
+    assert_false(petri_system(session, 0, &system, sizeof system));
+    assert_int_equal(petri_archive_replay(archive, session, 19), PETRI_OK);
+    check_frame(session, 19);
+    assert_true(petri_system(session, 0, &system, sizeof system));
+    petri_close(&session);
+    petri_archive_close(&archive);
+}
+
 static void test_archive_is_intact(void **state) {
     (void)state;
     PetriArchive *archive = open_archive("run.petri");
@@ -252,6 +267,7 @@ int main(void) {
         cmocka_unit_test(test_replay_computes_recorded_frames),
         cmocka_unit_test(test_replay_starts_at_any_frame),
         cmocka_unit_test(test_replay_goes_to_other_frames),
+        cmocka_unit_test(test_replay_computes_the_requested_frame),
         cmocka_unit_test(test_archive_is_intact),
         cmocka_unit_test(test_archive_has_versions_of_files),
         cmocka_unit_test(test_keyframes_state_where_they_come_from),
