@@ -36,13 +36,14 @@ static bool should_interrupt(void *user_data) {
 
 // Opens a session. `memory` and `stack` are limits in bytes, and `work` is the work limit of each call. A value of 0
 // means the default.
-EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack) {
+EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack, bool keep_forces) {
     PetriOptions options = petri_default_options();
     options.fps = fps > 0 ? fps : options.fps;
     options.memory_limit = memory > 0 ? (size_t)memory : options.memory_limit;
     options.work_limit = work > 0 ? (uint64_t)work : options.work_limit;
     options.stack_limit = stack > 0 ? (size_t)stack : options.stack_limit;
     options.threads = 1;
+    options.keep_forces = keep_forces;
     options.rollback_frames = true;
     options.on_diagnostic = on_diagnostic;
     options.read_file = read_file;
@@ -132,6 +133,42 @@ EXPORT(void, web_systems, PetriSession *session) {
         host_column("charge", system.charge.data, system.charge.stride);
         host_column("ids", ids.data, ids.stride);
     }
+}
+
+static const char *particle_id(PetriSession *session, size_t system, uint32_t particle) {
+    return particle == PETRI_NO_PARTICLE ? NULL
+                                         : petri_format_value(session, petri_particle_id(session, system, particle));
+}
+
+EXPORT(bool, web_particle_id, PetriSession *session, size_t system, uint32_t particle) {
+    PetriSystem info;
+    bool exists = petri_system(session, system, &info, sizeof info) && particle < info.particle_count;
+    const char *id = exists ? particle_id(session, system, particle) : NULL;
+    if (id)
+        host_write(id, strlen(id));
+    return id;
+}
+
+// Explains the force on a particle in the last step of the frame: passes each contribution to host_contribution, then
+// the sum to host_entry.
+EXPORT(PetriStatus, web_explain, PetriSession *session, size_t system, uint32_t particle) {
+    PetriSystem info;
+    PetriExplanation found;
+    if (!petri_system(session, system, &info, sizeof info) || info.steps == 0)
+        return PETRI_INVALID;
+    uint32_t dimensions = info.dimensions;
+    PetriStatus status = petri_explain_force(session, system, particle, info.steps - 1, &found, sizeof found);
+    for (uint32_t c = 0; status == PETRI_OK && c < found.count; c++) {
+        PetriForce force = {.kind = NULL};
+        if (found.force[c] != PETRI_OWN_FORCE)
+            petri_system_force(session, system, found.force[c], &force, sizeof force);
+        const char *partner = particle_id(session, system, found.partner[c]);
+        host_contribution(force.kind, force.file, force.line, force.column, partner,
+                          found.vector + (size_t)c * dimensions, dimensions);
+    }
+    if (status == PETRI_OK)
+        host_entry("sum", found.sum, dimensions, NULL);
+    return status;
 }
 
 // Passes each entry of the state to host_entry. The argument `text` is NULL if all elements of the value are numbers.

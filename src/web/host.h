@@ -34,6 +34,11 @@ void host_parameter(const char *name, const char *fallback, const char *value, c
 HOST(system)
 void host_system(const char *name, uint32_t dimensions, uint32_t particles, uint32_t forces, double steps);
 HOST(column) void host_column(const char *name, const double *data, size_t stride);
+// Receives a contribution to the force on a particle. `kind` and `file` are NULL for the particle's own force,
+// `partner` is NULL if there is no other particle. Its vector has `dimensions` numbers.
+HOST(contribution)
+void host_contribution(const char *kind, const char *file, uint32_t line, uint32_t column, const char *partner,
+                       const double *vector, uint32_t dimensions);
 HOST(entry) void host_entry(const char *key, const double *numbers, uint32_t length, const char *text);
 // Receives a picture in the format of petri_picture_display_list.
 HOST(picture) void host_picture(const double *numbers, size_t count, const char *title, bool ready);

@@ -96,6 +96,27 @@ test('rewind gives the same frames again', () => {
     session.close();
 });
 
+test('the contributions to a force have the sum of the explanation, and lines of the script', () => {
+    const session = engine.open({ keepForces: true });
+    session.load(read('tests/repl/forces.fl'), 'forces.fl').step().step();
+    assert.equal(session.particleId(0, 1), '1');
+    assert.equal(session.particleId(0, 99), null);
+    const { contributions, sum } = session.explain(0, 1);
+    // the values of tests/repl/why.session
+    assert.deepEqual(contributions.map(({ kind, partner, file, line }) => [kind, partner, file && `${file}:${line}`]),
+        [[null, null, null], ['collision', '0', 'forces.fl:12'], ['collision', '2', 'forces.fl:12'], ['constant', null, 'forces.fl:7']]);
+    assert.deepEqual(contributions[1].vector, [0.4980451839876881, 0.0006476530350945229]);
+    assert.deepEqual(sum, [0.9986964138710219, 15.000431015824631]);
+    const total = contributions.slice(1).reduce((before, { vector }) => before.map((x, k) => x + vector[k]), contributions[0].vector);
+    assert.deepEqual(total, sum);
+    assert.throws(() => session.explain(0, 99), { status: 'invalid' });
+    assert.throws(() => session.explain(9, 0), { status: 'invalid' });
+    session.close();
+    const without = stepped(opened(DISH), 3);
+    assert.throws(() => without.explain(0, 0), { status: 'invalid' });
+    without.close();
+});
+
 test('an error has a position and leaves the running script unchanged', () => {
     const session = stepped(opened('!a x=frame\n'), 2);
     assert.throws(() => session.load('!a\n!b x=(\n', 'bad.fl'), error => {

@@ -82,6 +82,7 @@ test('a state of 100000 keys is filtered and sorted', options, () => opened('', 
         await page.waitForFunction(() => document.querySelector('#state-rows th').textContent === ':p;49999;:velocity');
         assert.equal(await page.getAttribute('#panel-state th:first-child', 'aria-sort'), 'descending');
         assert.match(await page.textContent('#state-rows tr:nth-child(2) td'), /^49999; -49999$/);
+        assert.match(await page.textContent('#state-digest'), /^digest [0-9a-f]{32}$/);
         await page.fill('#state-filter', '');
         await page.click('#state-after');
         await count('^101 to 200 of 10000\\d$');
@@ -191,5 +192,68 @@ test('pointer and keys are passed to the script while the picture has the focus'
         await shows('round(100*$(:at))', '25;50');
         await page.mouse.move(1, 1);
         await shows('$(:at)', 'null');
+    },
+}));
+
+// Clicks a point of the picture, given in its units, and returns what the panel shows.
+async function clicked(page, x, y, title) {
+    await page.evaluate(([px, py]) => {
+        const canvas = document.getElementById('picture'), box = canvas.getBoundingClientRect();
+        canvas.dispatchEvent(new MouseEvent('click', {
+            clientX: box.left + px / canvas.width * box.width, clientY: box.top + py / canvas.height * box.height,
+        }));
+    }, [x, y]);
+    await page.waitForFunction(wanted => document.getElementById('particle-title').textContent.startsWith(wanted), title);
+    return page.evaluate(() => ({
+        state: document.getElementById('particle-state').textContent,
+        rows: [...document.querySelectorAll('#particle-forces tr')].map(row => [...row.children].map(cell => cell.textContent)),
+    }));
+}
+
+const PULLED = `!physics state=:p dimensions=2 time=time
+    for i in ..3
+        !particle id=i*10 position=100+100*i;100 velocity=0
+    !gravity strength=10
+    !constant force=0;1
+`;
+
+test('a click on a particle that the script draws shows the forces on it', options, () => opened('', {
+    use: async page => {
+        await running(page, `${PULLED}!window size=800;600
+    !canvas
+        !transform translate=50;20 scale=2
+            for i in ..3
+                !transform translate=$(:p;i*10)
+                    !ellipse radius=20 fill=true color=1
+`);
+        await seek(page, 5);
+        const { state, rows } = await clicked(page, 450, 220, ':p;10 in frame 5: 3 contributions');
+        assert.match(state, /^\$\(:p;10\) = 200;100\.\d+\n\$\(:p;10;:velocity\) = /);
+        assert.deepEqual(rows.map(([kind, from, , line]) => [kind, from, line]),
+            [['gravity', '0', 'dish.fl:4'], ['gravity', '20', 'dish.fl:4'], ['constant', '', 'dish.fl:5'], ['sum', '', '']]);
+        const vectors = rows.map(row => row[2].split(';').map(Number));
+        assert.deepEqual([0, 1].map(k => vectors[0][k] + vectors[1][k] + vectors[2][k]), vectors[3]);
+        await page.click('#particle-forces tr:nth-child(3) button');
+        assert.ok(await page.evaluate(() => document.activeElement.classList.contains('cm-content')));
+        await page.click('#step'); // the panel follows the particle
+        await page.waitForFunction(() => document.getElementById('particle-title').textContent.startsWith(':p;10 in frame 6'));
+        await clicked(page, 20, 500, ':p;10 in frame 6'); // there is no particle
+    },
+}));
+
+test('a click on a particle of the automatic picture shows the forces on it', options, () => opened('', {
+    use: async page => {
+        await running(page, PULLED);
+        await seek(page, 4);
+        const [x, y] = await page.evaluate(() => { // the disc at the left
+            const canvas = document.getElementById('picture'), { data, width, height } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+            for (let i = 0; i < width; i++)
+                for (let k = 0; k < height; k++)
+                    if (data[4 * (k * width + i) + 2] > 150)
+                        return [i + 2, k];
+            return null;
+        });
+        const { rows } = await clicked(page, x, y, ':p;0 in frame 4');
+        assert.equal(rows.length, 4);
     },
 }));

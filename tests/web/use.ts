@@ -1,7 +1,7 @@
 // use.ts: a TypeScript program that uses the package. types.test.mjs checks its types and runs it.
 import { loadEngine, PetriError, STATUS } from 'petri';
 import type {
-    Column, Diagnostic, Engine, Frame, Help, Options, Parameter, Picture, RenderedImage, Snapshot, Status, System, Token,
+    Column, Diagnostic, Engine, Explanation, Frame, Help, Options, Parameter, Picture, RenderedImage, Snapshot, Status, System, Token,
 } from 'petri';
 import { pictureSize } from 'petri/drawing';
 
@@ -38,6 +38,7 @@ export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string,
     const size = picture && pictureSize(picture.numbers);
     const table = session.table(), rows: string = session.table(2).text;
     const snapshot: Snapshot = session.snapshot();
+    const forces: Explanation | null = session.particleId(0, 0) ? null : session.explain(0, 0);
     const hash: string = session.hash(), digest: string = session.digest();
     session.step();
     const again: string = session.rewind(snapshot).hash();
@@ -68,7 +69,7 @@ export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string,
 
     const result = {
         frame, parameters, systems: structuredClone(systems), picture, shown, snapshot, tokens, help, diagnostics, told, place, state, size,
-        same: hash === again && digest.length === 32 && table.dimensions === 2, text, number, printed, status,
+        same: hash === again && digest.length === 32 && forces === null && table.dimensions === 2, text, number, printed, status,
         statuses: STATUS, name, kinds, wrong, part, version: engine.version,
     };
     session.clear();

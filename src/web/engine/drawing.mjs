@@ -112,7 +112,7 @@ function pathOf(elements) {
 }
 
 // Reads the operands of commands (constants.mjs).
-class Reader {
+export class Reader {
     constructor(painter, numbers, at) {
         Object.assign(this, { painter, n: numbers, at });
     }

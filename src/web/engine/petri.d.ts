@@ -41,6 +41,8 @@ export interface Options {
     memory?: number;
     /** Work limit of a call in units of about ten nanoseconds. A frame that exceeds the limit is aborted. Default: 2^28. */
     work?: number;
+    /** Allows `explain`. A frame then takes slightly longer. Default: false. */
+    keepForces?: boolean;
     /** Files that scripts can read and import, by name. Scripts cannot access any other files. */
     files?: Record<string, string | Uint8Array>;
     onDiagnostic?: (diagnostic: Diagnostic) => void;
@@ -118,6 +120,25 @@ export interface System {
     ids: Column | null;
 }
 
+/** A contribution to the force on a particle. */
+export interface Contribution {
+    /** The node's kind, such as "gravity"; null for the particle's attribute `force`. */
+    kind: string | null;
+    /** Position of the node; null and 0 if it is unknown. */
+    file: string | null;
+    line: number;
+    column: number;
+    /** Id of the other particle as it is printed; null if there is none. */
+    partner: string | null;
+    vector: number[];
+}
+
+/** The forces on a particle in the order of summation. The sum of all vectors is `sum`, to the last bit. */
+export interface Explanation {
+    contributions: Contribution[];
+    sum: number[];
+}
+
 export interface Token {
     kind: TokenKind;
     /** Offsets in bytes of the UTF-8 text; `end` is the offset after the token. */
@@ -176,6 +197,13 @@ export interface Session {
     setGlobal(name: string, value: number | ArrayLike<number>): this;
     /** The systems of the last frame. Columns are views, valid until the next call that changes the session. Copy them to keep them. */
     readonly systems: System[];
+    /** Returns the id of a particle as it is printed; null if there is no such particle. Both arguments count from 0. */
+    particleId(system: number, particle: number): string | null;
+    /**
+     * Explains the force on a particle in the last step of the last frame. Needs `Options.keepForces`, and a frame in which the system
+     * took a step.
+     */
+    explain(system: number, particle: number): Explanation;
     /** Maps printed keys to arrays of numbers, or to the printed value if not all elements are numbers. */
     readonly state: Map<string, number[] | string>;
     /** Returns the digest of the state, which is the same on every machine. Takes little time. */

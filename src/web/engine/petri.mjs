@@ -61,6 +61,11 @@ class Engine {
             system: (name, dimensions, count, forces, steps) =>
                 now().taken.push({ name: text(name), dimensions, count, forces, steps }),
             column: (name, data, stride) => now().addColumn(text(name), data, stride),
+            contribution: (kind, file, line, column, partner, vector, dimensions) =>
+                now().taken.push({
+                    kind: text(kind), file: text(file), line, column, partner: text(partner),
+                    vector: Array.from(this.memory.numbers(vector, dimensions)),
+                }),
             entry: (key, numbers, length, mixed) =>
                 now().taken.push({
                     key: text(key),
@@ -100,7 +105,10 @@ class Engine {
 
 export class Session {
     constructor(engine,
-        { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, image = () => null, onDiagnostic, shouldInterrupt } = {}) {
+        {
+            fps = 0, memory = MEMORY, work = CALL_WORK, keepForces = false, files = {}, image = () => null, onDiagnostic,
+            shouldInterrupt,
+        } = {}) {
         this.engine = engine;
         this.memory = engine.memory;
         this.onDiagnostic = onDiagnostic;
@@ -117,7 +125,7 @@ export class Session {
         this.told = [];
         for (const [name, content] of Object.entries(files))
             this.setFile(name, content);
-        this.handle = this.run(wasm => wasm.web_open(fps, memory, work, STACK));
+        this.handle = this.run(wasm => wasm.web_open(fps, memory, work, STACK, keepForces ? 1 : 0));
         if (!this.handle)
             throw new RangeError('cannot open a session: out of memory or invalid options');
     }
@@ -272,6 +280,18 @@ export class Session {
     get systems() {
         this.run(wasm => wasm.web_systems(this.handle));
         return this.taken;
+    }
+
+    // Returns the id of a particle as it is printed, such as "7"; null if there is no such particle.
+    particleId(system, particle) {
+        return this.run(wasm => wasm.web_particle_id(this.handle, system, particle)) ? this.written.join('') : null;
+    }
+
+    // Returns the contributions to the force on a particle in the last step of the frame, and their sum.
+    explain(system, particle) {
+        this.check('explain the force', wasm => wasm.web_explain(this.handle, system, particle));
+        const contributions = this.taken.slice(0, -1);
+        return { contributions, sum: this.taken.at(-1).value };
     }
 
     addColumn(name, data, stride) {

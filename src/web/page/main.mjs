@@ -4,6 +4,7 @@ import { Dish, errorText, unsupportedText } from './dish.mjs';
 import { Editor } from './editor.mjs';
 import { ScriptSaver, savedScripts } from './saved_scripts.mjs';
 import { packLink, readLink } from './link.mjs';
+import { Particle } from './particle.mjs';
 import { Plot } from './plot.mjs';
 import { Problems } from './problems.mjs';
 import { Prompt } from './prompt.mjs';
@@ -15,7 +16,7 @@ const $ = id => document.getElementById(id);
 const FIRST = 'dish.fl';
 
 const encoder = new TextEncoder();
-let editor, dish, controls, problems, prompt, plot, table, samples, help = [], name = FIRST;
+let editor, dish, controls, problems, prompt, plot, table, particle, samples, help = [], name = FIRST;
 
 function say(text, bad = false) {
     $('message').textContent = text;
@@ -62,6 +63,7 @@ function look() {
         looking = 0;
         plot.refresh();
         table.refresh();
+        particle.refresh();
     }, dish.running ? 200 : 0);
 }
 
@@ -215,8 +217,10 @@ async function begin() {
     new SaveDialog(document, dish, stem);
     plot = new Plot(document, dish);
     table = new Table(document, dish);
-    new Tabs($('tabs'), panel => {
+    particle = new Particle(document, dish, (file, line, column) => file === name && editor.goTo(line, column), () => tabs.choose($('tab-particle')));
+    const tabs = new Tabs($('tabs'), panel => {
         plot.seen = panel === 'panel-plot';
+        particle.seen = panel === 'panel-particle';
         table.seen = panel === 'panel-state';
         look();
     });

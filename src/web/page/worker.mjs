@@ -1,6 +1,7 @@
 // worker.mjs: the engine's thread. It answers every message, one at a time, so the page knows when the thread is idle.
 import { loadEngine } from '../engine/petri.mjs';
 import { makeFilm, makeState, makeTable } from './exports.mjs';
+import { Forces } from './forces.mjs';
 import { addImage, imageOf } from './paint.mjs';
 import { Player } from './player.mjs';
 import { StateTable, Watches } from './tables.mjs';
@@ -13,7 +14,7 @@ const shouldInterrupt = () => flag !== null && Atomics.load(flag, 0) >= current;
 const images = new Map();
 const tell = diagnostic => told.push(diagnostic);
 
-const watches = new Watches(told), stateTable = new StateTable();
+const watches = new Watches(told), stateTable = new StateTable(), forces = new Forces();
 
 const picture = automatic => player.frame >= 0 ? player.session.render({ automatic }) : null;
 
@@ -38,7 +39,7 @@ const acts = {
                 player.redraw();
             postMessage({ type: 'context', lost });
         };
-        player = new Player(engine, { onDiagnostic: tell, shouldInterrupt, image: name => imageOf(images, name) }, watches);
+        player = new Player(engine, { keepForces: true, onDiagnostic: tell, shouldInterrupt, image: name => imageOf(images, name) }, watches);
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
     async files({ files }) {
@@ -96,6 +97,8 @@ const acts = {
         return { type: 'printed', text: player.session.prompt(text), told: take() };
     },
     state: query => ({ type: 'state', ...stateTable.rows(player, query) }),
+    choose: ({ x, y }) => ({ type: 'chosen', found: player.frame >= 0 && forces.choose(player, x, y) }),
+    forces: () => ({ type: 'forces', ...forces.describe(player), frame: player.frame, told: take() }),
     watch({ texts }) {
         watches.set(texts);
         if (player.frame >= 0)
