@@ -135,8 +135,8 @@ PETRI_API const char *petri_archive_read(void *archive, const char *name, size_t
 // petri_archive_problem or a diagnostic, if the archive is damaged. Call it again to go to another keyframe.
 PETRI_API PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int64_t frame);
 
-// Like petri_archive_load, but then computes the frames up to `frame`; -1 computes none. Returns PETRI_INVALID for the same
-// reasons, and the statuses of petri_step.
+// Like petri_archive_load, but then computes the frames up to `frame`; -1 computes none. Returns PETRI_INVALID for the
+// same reasons, and the statuses of petri_step.
 PETRI_API PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, int64_t frame);
 
 // Returns true if the current frame of a replay has a keyframe with another state. Returns false if it has no keyframe,
