@@ -47,6 +47,7 @@ pkg-config --exists cmocka: libcmocka-dev
 command -v tmux           : tmux
 command -v pgrep          : procps
 command -v strace         : strace
+command -v sqlite3        : sqlite3
 command -v Xvfb           : xvfb
 command -v xdotool        : xdotool
 command -v xprop          : x11-utils

@@ -44,11 +44,12 @@ PetriArchive *petri_archive_open(const char *file, size_t memory_limit) {
     if (!archive)
         return NULL;
     archive->memory_limit = memory_limit > 0 ? memory_limit : DEFAULT_MEMORY_LIMIT;
-    archive->recorded_end = archive->replay_frame = -1;
+    archive->recorded_end = -1;
     if (!petri_archive_is(file)) {
         archive_fail(archive, "it is not an archive");
         return archive;
     }
+    archive->replay_frame = 0; // petri_check reads the first versions of files
     if (archive_open_database(archive, file) && archive_read_files(archive) && read_keyframes(archive)) {
         count_rows(archive, SQL_COUNT_DIGESTS, true);
         count_rows(archive, SQL_COUNT_INPUTS, false);

@@ -1,6 +1,7 @@
 // segments.c: see segments.h.
 #include "archive/segments.h"
 
+#include "archive/details.h"
 #include "archive/open.h"
 #include "base/clock.h"
 #include "cli/progress.h"
@@ -98,7 +99,6 @@ static bool frame_is_same(Worker *worker, SegmentResult *result) {
     }
     if (!petri_archive_keyframe_differs(worker->archive))
         return true;
-    text_add_c(&result->details, "the state of the keyframe differs, although its digest may be the same\n");
     return false;
 }
 
@@ -161,6 +161,7 @@ static void verify_segment(Worker *worker, size_t number) {
                     petri_status_text(status));
         worker->failed = true;
     } else if (!same && !worker->failed) {
+        details_add(worker->archive, worker->session, segment->end, &result.details);
         note_difference(verification, number, &result);
     }
     text_free(&result.details);

@@ -15,7 +15,7 @@ typedef struct SegmentResult {
     int64_t frame;
     bool has_digests;
     char digests[2][33]; // of the archive and of the computed frame, in hexadecimal digits
-    Text details;        // what differs in the next keyframe; may be empty
+    Text details;        // what differs in the next keyframe; empty: unknown
 } SegmentResult;
 
 typedef struct Verification {

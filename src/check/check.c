@@ -1,5 +1,6 @@
 // check.c: the command `petri check`, which reports errors in scripts without running them.
 #include "check/report.h"
+#include "cli/archive.h"
 #include "cli/options.h"
 #include "cli/script.h"
 #include "petri.h"
@@ -25,21 +26,61 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
         fputs(diagnostic->rendered, stderr);
 }
 
-static int check_all(Check *check, const CommandContext *host) {
-    const Options *options = check->options;
+typedef struct Counts {
+    size_t rejected;
+    uint64_t errors;
+    uint64_t warnings;
+} Counts;
+
+// Checks scripts `first` to `end` - 1 with one session, which reads the files of an archive if `options` has one.
+static int check_scripts(Check *check, const CommandContext *host, const Options *options, size_t first, size_t end,
+                         Counts *counts) {
     PetriSession *session = NULL;
     int status = options_open(options, host, on_diagnostic, check, &session);
     if (status != OPTIONS_READ)
         return status;
-    size_t rejected = 0;
-    for (size_t i = 0; i < options->scripts.count; i++)
-        rejected += script_check(session, options->scripts.items[i].path) == PETRI_OK ? 0 : 1;
-    uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
-    uint64_t warnings = petri_diagnostic_count(session, PETRI_WARNING);
+    for (size_t i = first; i < end; i++) {
+        const char *path = options->scripts.items[i].path;
+        if (options->replayed)
+            counts->rejected += replay_check(options, session) != PETRI_OK;
+        else if (!petri_archive_is(path)) // check_archives checks archives
+            counts->rejected += script_check(session, path) != PETRI_OK;
+    }
+    counts->errors += petri_diagnostic_count(session, PETRI_ERROR);
+    counts->warnings += petri_diagnostic_count(session, PETRI_WARNING);
     petri_close(&session);
+    return status;
+}
+
+// Checks the scripts in archives.
+static int check_archives(Check *check, const CommandContext *host, Counts *counts) {
+    int status = OPTIONS_READ;
+    Options options = *check->options;
+    for (size_t i = 0; i < options.scripts.count && status == OPTIONS_READ; i++) {
+        const char *path = options.scripts.items[i].path;
+        if (!petri_archive_is(path))
+            continue;
+        options.replayed = petri_archive_open(path, options.memory);
+        if (!archive_report_problem(options.replayed, path))
+            status = check_scripts(check, host, &options, i, i + 1, counts);
+        counts->rejected += petri_archive_problem(options.replayed) != NULL;
+        petri_archive_close(&options.replayed);
+    }
+    return status;
+}
+
+static int check_all(Check *check, const CommandContext *host) {
+    const Options *options = check->options;
+    Counts counts = {0};
+    int status = check_scripts(check, host, options, 0, options->scripts.count, &counts);
+    if (status == OPTIONS_READ)
+        status = check_archives(check, host, &counts);
+    if (status != OPTIONS_READ)
+        return status;
+    uint64_t errors = counts.errors, warnings = counts.warnings;
     message("%zu file%s checked: %" PRIu64 " error%s, %" PRIu64 " warning%s", options->scripts.count,
             options->scripts.count == 1 ? "" : "s", errors, errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
-    bool clean = rejected == 0 && errors == 0 && !options->unreadable && !(options->werror && warnings > 0);
+    bool clean = counts.rejected == 0 && errors == 0 && !options->unreadable && !(options->werror && warnings > 0);
     int result = clean ? STATUS_DONE : STATUS_FAILED;
     return check->report.form == REPORT_TEXT ? result : report_end(&check->report, result);
 }

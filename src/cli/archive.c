@@ -3,6 +3,7 @@
 
 #include "base/source.h"
 #include "cli/script.h"
+#include "petri-edit.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,7 +12,7 @@
 // its author keeps files.
 static void add_word(Text *text, const char *word) {
     const char *slash = strchr(word, '/'), *equals = strchr(word, '=');
-    bool is_path = slash && (slash == word || slash == equals + (equals != NULL));
+    bool is_path = slash && (slash == word || (equals && slash == equals + 1));
     size_t prefix = is_path ? (size_t)(slash - word) : strlen(word);
     SCOPED_TEXT whole = {0};
     text_add(&whole, (Str){word, prefix});
@@ -116,4 +117,10 @@ PetriStatus replay_load(const Options *options, PetriSession *session) {
     if (status != PETRI_OK && !archive_report_problem(options->replayed, options->script))
         message("cannot replay '%s': %s", options->script, petri_status_text(status));
     return status;
+}
+
+PetriStatus replay_check(const Options *options, PetriSession *session) {
+    PetriArchiveInfo info;
+    bool known = petri_archive_info(options->replayed, &info, sizeof info);
+    return known ? petri_check(session, info.script) : PETRI_INVALID;
 }

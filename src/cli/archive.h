@@ -27,5 +27,7 @@ bool archiving_end(Archiving *archiving);
 int replay_open(Options *options, const Command *command);
 // Loads the archive and computes the frames before the first frame that was requested.
 PetriStatus replay_load(const Options *options, PetriSession *session);
+// Checks the script of the archive, as petri_check does.
+PetriStatus replay_check(const Options *options, PetriSession *session);
 // Prints the problem of an archive, if there is one. Returns true if there is one.
 bool archive_report_problem(const PetriArchive *archive, const char *file);

@@ -1,5 +1,33 @@
 # archive.sh: tests of archives: `petri run --archive`, `petri verify` and `petri info`. Part of run.sh.
 
+# reseal ARCHIVE: computes the SHA-256 sums of an archive again, as its README defines them.
+reseal() {
+    python3 - "$1" <<'END'
+import hashlib, sqlite3, struct, sys
+
+def pack(value):
+    if isinstance(value, int):
+        return struct.pack("<q", value)
+    value = value if isinstance(value, bytes) else value.encode()
+    return struct.pack("<q", len(value)) + value
+
+database = sqlite3.connect(sys.argv[1])
+before, sums = -2, None
+for frame, given, setup, state in database.execute("SELECT frame, given, setup, state FROM keyframe ORDER BY frame").fetchall():
+    data = sums.encode() if sums else b"".join(
+        pack(value) for table in ("meta ORDER BY key", "parameter ORDER BY name")
+        for row in database.execute(f"SELECT * FROM {table}") for value in row)
+    for columns in ("frame, name, sha256 FROM file", "frame, kind, payload FROM input", "frame, text FROM note", "frame, digest FROM digest"):
+        order = "frame" if "digest FROM" in columns else "id"
+        for row in database.execute(f"SELECT {columns} WHERE frame > ? AND frame <= ? ORDER BY {order}", (before, frame)):
+            data += b"".join(map(pack, row))
+    data += b"".join(map(pack, (frame, given, setup, state)))
+    before, sums = frame, hashlib.sha256(data).hexdigest()
+    database.execute("UPDATE keyframe SET sha256 = ? WHERE frame = ?", (sums, frame))
+database.commit()
+END
+}
+
 cat >dish.fl <<'END'
 let N=N or 5 -- 1..9 number of drops
 import mass from 'mass.fl'
@@ -22,6 +50,10 @@ if petri run dish.fl --frames 1 --archive run.petri && status_is 0; then
     check "info shows no absolute paths" eval '! has out "$work" && has out "command     petri run dish.fl -D N=7"'
     check "the archive contains no absolute paths" eval '! grep -q "$work" run.petri'
     digest=$(sed -n 's/^digest      //p' out)
+    if command -v sqlite3 >/dev/null 2>&1; then
+        reseal run.petri
+        check "the digest of the run is the one that the README defines" [ "$(sqlite3 run.petri 'SELECT sha256 FROM keyframe ORDER BY frame DESC LIMIT 1')" = "$digest" ]
+    fi
     rm mass.fl dish.fl
     for threads in 1 2; do
         petri verify run.petri --threads "$threads"
@@ -130,6 +162,19 @@ END
         rm dot.png
         petri render image.petri --frame 2 -o replay.png
         check "an archive has images that only drawing reads" eval 'status_is 0 && cmp -s script.png replay.png && empty err'
+    fi
+    petri check film.petri film.fl
+    check "check accepts an archive" eval 'status_is 0 && has err "2 files checked: 0 errors"'
+    if command -v sqlite3 >/dev/null 2>&1; then
+        # A forged archive, whose digests and seals fit a script that is not its own.
+        mkdir other
+        sed 's/rate=2/rate=3/' film.fl >other/film.fl
+        petri run other/film.fl -D R=6 --frames 40 --keyframe-every 7 --archive forged.petri
+        sqlite3 forged.petri "ATTACH 'film.petri' AS own; UPDATE file SET bytes = (SELECT bytes FROM own.file), sha256 = (SELECT sha256 FROM own.file)"
+        reseal forged.petri
+        petri verify forged.petri
+        check "verify finds the first frame of a forged archive, and what differs" eval \
+            'status_is 1 && has out "frame 1 differs" && has out "- digest" && has out "--- archive" && has out "first: \$:size"'
     fi
     petri diff film.petri film.fl
     check "diff compares an archive with a script" eval 'status_is 0 && empty out'
