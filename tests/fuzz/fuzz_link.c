@@ -32,10 +32,11 @@ static bool same_text(const char *a, const char *b) {
     return a && b ? strcmp(a, b) == 0 : a == b;
 }
 
+// The hash of an older link is not packed, and its frame only with a digest.
 static bool same_link(const Linked *a, const Linked *b) {
     bool same = a->text.len == b->text.len && memcmp(a->text.bytes, b->text.bytes, a->text.len) == 0 &&
-                same_text(a->name, b->name) && same_text(a->hash, b->hash) && a->change_count == b->change_count &&
-                (!a->hash || a->frame == b->frame);
+                same_text(a->name, b->name) && same_text(a->digest, b->digest) && a->change_count == b->change_count &&
+                (!a->digest || a->frame == b->frame);
     for (size_t i = 0; same && i < a->change_count; i++)
         same = a->changes[i].frame == b->changes[i].frame && same_text(a->changes[i].name, b->changes[i].name) &&
                same_text(a->changes[i].value, b->changes[i].value);

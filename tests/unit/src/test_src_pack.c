@@ -48,12 +48,12 @@ static void assert_json(const char *json, const char *problem) {
 
 #define NOT_A_LINK "petri: not a petri link\n"
 
-static void test_a_link_keeps_text_name_changes_and_hash(void **state) {
+static void test_a_link_keeps_text_name_changes_and_digest(void **state) {
     (void)state;
     LinkedChange changes[] = {{.frame = 5, .name = "A", .value = "2"},
                               {.frame = -1, .name = "B", .value = "'x'"},
                               {.frame = 5, .name = "A", .value = "3"}};
-    Linked linked = {.name = "dish.fl", .changes = changes, .change_count = 3, .frame = 9, .hash = "abc"}, got;
+    Linked linked = {.name = "dish.fl", .changes = changes, .change_count = 3, .frame = 9, .digest = "abc"}, got;
     SCOPED_TEXT link = {0};
     text_add_c(&linked.text, "!window\n\t\"ä\"\n");
     text_add_c(&link, "https://example.org/");
@@ -63,7 +63,8 @@ static void test_a_link_keeps_text_name_changes_and_hash(void **state) {
     assert_string_equal(read_link(&got, &link), "");
     assert_string_equal(got.text.bytes, linked.text.bytes);
     assert_string_equal(got.name, "dish.fl");
-    assert_string_equal(got.hash, "abc");
+    assert_string_equal(got.digest, "abc");
+    assert_null(got.hash);
     assert_int_equal(got.frame, 9);
     assert_int_equal(got.change_count, 3);
     static const char *const ordered[][2] = {{"B", "'x'"}, {"A", "2"}, {"A", "3"}}; // by frame, then as in the link
@@ -73,6 +74,19 @@ static void test_a_link_keeps_text_name_changes_and_hash(void **state) {
     }
     link_free(&got);
     text_free(&linked.text);
+}
+
+// Links of petri 0.2 contain the SHA-256 of the printed state.
+static void test_a_link_with_a_hash_can_be_read(void **state) {
+    (void)state;
+    SCOPED_TEXT link = {0};
+    Linked linked;
+    pack_json(&link, "{\"v\":1,\"t\":\"!a\",\"f\":7,\"h\":\"abc\"}");
+    assert_string_equal(read_link(&linked, &link), "");
+    assert_string_equal(linked.hash, "abc");
+    assert_null(linked.digest);
+    assert_int_equal(linked.frame, 7);
+    link_free(&linked);
 }
 
 static void test_line_breaks_and_plain_base64_are_accepted(void **state) {
@@ -90,6 +104,7 @@ static void test_line_breaks_and_plain_base64_are_accepted(void **state) {
     assert_string_equal(linked.text.bytes, "debug(1;22;333;4444;55555;666666)?>~");
     assert_string_equal(linked.name, "script.fl"); // the default
     assert_null(linked.hash);
+    assert_null(linked.digest);
     assert_int_equal(linked.frame, -1);
     link_free(&linked);
 }
@@ -174,7 +189,8 @@ static void test_sizes_are_limited(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_link_keeps_text_name_changes_and_hash),
+        cmocka_unit_test(test_a_link_keeps_text_name_changes_and_digest),
+        cmocka_unit_test(test_a_link_with_a_hash_can_be_read),
         cmocka_unit_test(test_line_breaks_and_plain_base64_are_accepted),
         cmocka_unit_test(test_damaged_links_are_rejected),
         cmocka_unit_test(test_other_json_is_rejected),
