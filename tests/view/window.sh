@@ -349,6 +349,21 @@ press ctrl+q
 check "Control and q quit" ended 0
 "$petri" run hands.fl --state hands.state --frames 1 --print state >out 2>err
 check "the state has the pointer's position" has out '$:mouse = 0.75'
+if "$petri" run hands.fl --frames 1 --archive probe.petri >out 2>err; then # otherwise built without SQLite
+    view hands hands.fl --archive hands.petri
+    xdotool mousemove --window "$window" 150 100
+    check "a recorded view sees the pointer" point 150 100 00ff00
+    press q
+    check "a recorded view sees keys" point 275 175 0000ff
+    press ctrl+q
+    check "a recorded view ends" ended 0
+    "$petri" verify hands.petri >out 2>err
+    check "the recorded input is replayed exactly" has out "verified: "
+    view hands hands.petri
+    check "a replay shows the recorded input" point 275 175 0000ff
+    press ctrl+q
+    check "a view of an archive ends" ended 0
+fi
 
 # Parameters: a change has the same effect as -D, but the script keeps running.
 cat >steps.fl <<'END'
