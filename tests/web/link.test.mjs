@@ -29,8 +29,10 @@ test('a link of petri 0.2 is compared by its hash', ways, async () => {
     const text = '!counter state=:c rate=3\n';
     const script = join(mkdtempSync(join(tmpdir(), 'petri-')), 'c.fl');
     writeFileSync(script, text);
-    const hash = execFileSync(petri, ['run', script, '--frames', '5', '--every', '4', '--print', 'hash'], { encoding: 'utf8' }).trim().slice(-64);
-    for (const [h, message] of [[hash, `Frame 4: the state matches the link exactly (SHA-256 ${hash}).`], ['0'.repeat(64), 'differs from the link']]) {
+    const printed = execFileSync(petri, ['run', script, '--frames', '5', '--every', '4', '--print', 'hash'], { encoding: 'utf8' });
+    const hash = printed.trim().slice(-64);
+    const same = `Frame 4: the state matches the link exactly (SHA-256 ${hash}).`;
+    for (const [h, message] of [[hash, same], ['0'.repeat(64), 'differs from the link']]) {
         const link = `#${deflateRawSync(JSON.stringify({ v: 1, t: text, n: 'c.fl', f: 4, h })).toString('base64url')}`;
         await opened(link, {
             use: async page => {

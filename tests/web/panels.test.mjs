@@ -246,7 +246,8 @@ test('a click on a particle of the automatic picture shows the forces on it', op
         await running(page, PULLED);
         await seek(page, 4);
         const [x, y] = await page.evaluate(() => { // the disc at the left
-            const canvas = document.getElementById('picture'), { data, width, height } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+            const canvas = document.getElementById('picture'), context = canvas.getContext('2d');
+            const { data, width, height } = context.getImageData(0, 0, canvas.width, canvas.height);
             for (let i = 0; i < width; i++)
                 for (let k = 0; k < height; k++)
                     if (data[4 * (k * width + i) + 2] > 150)

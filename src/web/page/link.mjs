@@ -64,7 +64,8 @@ export async function readLink(link) {
     if (Array.isArray(changes) && changes.length > MAX_CHANGES)
         throw new Error('the link contains more than 10000 parameter changes, so it is not opened');
     if (typeof text !== 'string' || !isFileName(name) || !Array.isArray(changes) || !changes.every(isChange)
-        || !Number.isInteger(frame) || frame < -1 || frame > 1e6 || [digest, hash].some(value => value !== null && typeof value !== 'string'))
+        || !Number.isInteger(frame) || frame < -1 || frame > 1e6
+        || [digest, hash].some(value => value !== null && typeof value !== 'string'))
         throw new Error('not a petri link');
     return { text, name, changes, frame, digest, hash };
 }

@@ -105,8 +105,9 @@ async function openText(text, called, wanted = {}) {
     editor.text = text;
     opening = false;
     const opened = await dish.open(text, name, wanted);
+    const kind = wanted.digest ? 'digest' : 'SHA-256';
     if (opened?.digest)
-        say(opened.same ? `Frame ${wanted.frame}: the state matches the link exactly (${wanted.digest ? 'digest' : 'SHA-256'} ${opened.digest}).`
+        say(opened.same ? `Frame ${wanted.frame}: the state matches the link exactly (${kind} ${opened.digest}).`
             : `Frame ${wanted.frame}: the state differs from the link, probably because another version of petri made the link.`,
         !opened.same);
 }
@@ -217,7 +218,8 @@ async function begin() {
     new SaveDialog(document, dish, stem);
     plot = new Plot(document, dish);
     table = new Table(document, dish);
-    particle = new Particle(document, dish, (file, line, column) => file === name && editor.goTo(line, column), () => tabs.choose($('tab-particle')));
+    const goTo = (file, line, column) => file === name && editor.goTo(line, column);
+    particle = new Particle(document, dish, goTo, () => tabs.choose($('tab-particle')));
     const tabs = new Tabs($('tabs'), panel => {
         plot.seen = panel === 'panel-plot';
         particle.seen = panel === 'panel-particle';

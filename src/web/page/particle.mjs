@@ -17,7 +17,8 @@ export class Particle {
     constructor(root, dish, goTo, choose) {
         const $ = id => root.getElementById(id);
         Object.assign(this, {
-            dish, goTo, choose, title: $('particle-title'), state: $('particle-state'), rows: $('particle-forces'), seen: false, asking: false,
+            dish, goTo, choose, title: $('particle-title'), state: $('particle-state'), rows: $('particle-forces'),
+            seen: false, asking: false,
         });
         dish.canvas.addEventListener('click', event => this.pick(event));
     }
@@ -26,7 +27,8 @@ export class Particle {
         if (this.dish.loaded === null)
             return;
         const box = this.dish.canvas.getBoundingClientRect();
-        const answer = await this.dish.attempt('choose', { x: (event.clientX - box.left) / box.width, y: (event.clientY - box.top) / box.height });
+        const place = { x: (event.clientX - box.left) / box.width, y: (event.clientY - box.top) / box.height };
+        const answer = await this.dish.attempt('choose', place);
         if (!answer?.found)
             return;
         this.choose();

@@ -50,13 +50,16 @@ class CircleReader {
 
     add(x, y, radius) {
         const [xx, yx, xy, yy, x0, y0] = this.transform, scale = scaleOf(this.transform);
-        this.circles.push({ panel: this.panel, linear: this.transform.slice(0, 4), x: xx * x + xy * y + x0, y: yx * x + yy * y + y0, radius: radius * scale });
+        this.circles.push({
+            panel: this.panel, linear: this.transform.slice(0, 4), x: xx * x + xy * y + x0, y: yx * x + yy * y + y0, radius: radius * scale,
+        });
     }
 }
 
 const scaleOf = ([xx, yx, xy, yy]) => Math.sqrt(Math.abs(xx * yy - xy * yx));
 
-const isFinitePosition = ({ position: { data, stride }, dimensions }, i) => data.subarray(i * stride, i * stride + dimensions).every(Number.isFinite);
+const isFinitePosition = ({ position: { data, stride }, dimensions }, i) =>
+    data.subarray(i * stride, i * stride + dimensions).every(Number.isFinite);
 
 // In the automatic picture of a system with up to two dimensions, circle k belongs to the k-th particle that has a finite position.
 function particleOfPanel(systems, circles, hit) {

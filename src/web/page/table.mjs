@@ -6,7 +6,8 @@ export class Table {
     constructor(root, dish) {
         const $ = id => root.getElementById(id);
         Object.assign(this, {
-            dish, body: $('state-rows'), count: $('state-count'), digest: $('state-digest'), seen: false, asking: false, from: 0, by: null, down: false,
+            dish, body: $('state-rows'), count: $('state-count'), digest: $('state-digest'),
+            seen: false, asking: false, from: 0, by: null, down: false,
         });
         this.filter = $('state-filter');
         this.filter.oninput = () => this.go(0);

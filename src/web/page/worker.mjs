@@ -39,7 +39,8 @@ const acts = {
                 player.redraw();
             postMessage({ type: 'context', lost });
         };
-        player = new Player(engine, { keepForces: true, onDiagnostic: tell, shouldInterrupt, image: name => imageOf(images, name) }, watches);
+        const options = { keepForces: true, onDiagnostic: tell, shouldInterrupt, image: name => imageOf(images, name) };
+        player = new Player(engine, options, watches);
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
     async files({ files }) {
