@@ -44,7 +44,7 @@ static inline PetriArchiveOptions petri_archive_default_options(void) {
 PETRI_API PetriArchive *petri_archive_create(PetriSession *session, const char *file,
                                              const PetriArchiveOptions *options);
 
-// Returns true if a file starts like an archive. Needs no SQLite.
+// Returns true if a file starts like an archive. Only regular files are opened. Needs no SQLite.
 PETRI_API bool petri_archive_is(const char *file);
 
 // Opens an archive to read it. Reads at most `memory_limit` bytes of its files; 0: 2 GiB. Check petri_archive_problem

@@ -1,25 +1,41 @@
 // recognise.c: functions of petri-archive.h that need no SQLite.
 #include "recording/recognise.h"
 
+#include "base/file.h"
 #include "base/host_struct.h"
 #include "petri-archive.h"
 
-#include <stdio.h>
+#include <fcntl.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 void petri_archive_options_init(PetriArchiveOptions *options, size_t size) {
     const PetriArchiveOptions usual = {.size = size, .keyframe_every = 1000, .digest_every = 1};
     host_struct_write(options, size, &usual, sizeof usual);
 }
 
+// Opens a regular file for reading. Other files are not even opened, because a pipe could block or lose its reader.
+static int open_regular(const char *path) {
+    struct stat info;
+    if (!path || stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+        return -1;
+    int file = file_open_at(AT_FDCWD, path, O_RDONLY | O_NONBLOCK, 0);
+    if (file >= 0 && (fstat(file, &info) != 0 || !S_ISREG(info.st_mode))) {
+        close(file);
+        return -1;
+    }
+    return file;
+}
+
 bool petri_archive_is(const char *file) {
     static const char magic[] = "SQLite format 3";
     enum { ID_AT = 68 }; // position of the application id in the header of a database
     unsigned char header[ID_AT + 4];
-    FILE *stream = file ? fopen(file, "rb") : NULL;
-    size_t length = stream ? fread(header, 1, sizeof header, stream) : 0;
-    if (stream)
-        fclose(stream);
+    int opened = open_regular(file);
+    ssize_t length = opened < 0 ? 0 : read(opened, header, sizeof header);
+    if (opened >= 0)
+        close(opened);
     const unsigned char *id = header + ID_AT;
     return length == sizeof header && memcmp(header, magic, sizeof magic) == 0 &&
            ((uint32_t)id[0] << 24 | (uint32_t)id[1] << 16 | (uint32_t)id[2] << 8 | id[3]) == ARCHIVE_APPLICATION_ID;
