@@ -65,7 +65,9 @@ bool compile_is_optional(Compiler *compiler, const Symbol *name) {
     if (!compiler->uses)
         compiler->uses = find_uses(compiler->scratch, compiler->root);
     const NameUses *uses = compiler->uses;
-    const NameUse key = {.name = name}, *first = bsearch(&key, uses->items, uses->count, sizeof key, by_name);
+    const NameUse key = {.name = name}, *first = NULL;
+    if (uses->count > 0)
+        first = bsearch(&key, uses->items, uses->count, sizeof key, by_name);
     if (!first)
         return false; // the name is used in an included file only
     while (first > uses->items && first[-1].name == name)
