@@ -139,23 +139,26 @@ void file_access_report(const FileAccess *file_access, const char *path, Str byt
         file_access->on_read(file_access->on_read_user_data, path, bytes);
 }
 
-// Opens the path `rest` below `folder` one component at a time, without following links. Used on systems without
-// openat2. Modifies `rest` and closes `folder`.
-static int open_by_components(int folder, char *rest, int flags) {
+// Closes a folder and keeps errno.
+static void close_folder(int folder) {
+    int error = errno;
+    close(folder);
+    errno = error;
+}
+
+int file_open_below(int folder, char *rest, int flags, mode_t mode, bool make_folders) {
     for (char *slash; (slash = strchr(rest, '/')); rest = slash + 1) {
         *slash = '\0';
+        if (make_folders)
+            mkdirat(folder, rest, 0777); // fails if it exists
         int next = file_open_at(folder, rest, O_PATH | O_DIRECTORY | O_NOFOLLOW, 0);
-        int error = errno;
-        close(folder);
-        errno = error;
+        close_folder(folder);
         if (next < 0)
             return -1;
         folder = next;
     }
-    int file = file_open_at(folder, rest[0] ? rest : ".", flags | O_NOFOLLOW, 0);
-    int error = errno;
-    close(folder);
-    errno = error;
+    int file = file_open_at(folder, rest[0] ? rest : ".", flags | O_NOFOLLOW, mode);
+    close_folder(folder);
     return file;
 }
 
@@ -180,7 +183,7 @@ static int open_below(const Str *folder, char *path, int flags) {
         return (int)file;
     }
 #endif
-    return open_by_components(start, rest, flags);
+    return file_open_below(start, rest, flags, 0, false); // for systems without openat2
 }
 
 int file_access_open(const FileAccess *file_access, const char *path, int flags) {

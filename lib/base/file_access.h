@@ -9,6 +9,8 @@
 #include "base/replace.h"
 #include "base/str.h"
 
+#include <sys/types.h>
+
 typedef enum FileAccessKind { FILE_ACCESS_READ, FILE_ACCESS_WRITE, FILE_ACCESS_KIND_COUNT } FileAccessKind;
 
 typedef struct FileAccess {
@@ -57,6 +59,10 @@ void file_access_report(const FileAccess *file_access, const char *path, Str byt
 // Opens a file if reading it is allowed. `flags` are those of open. On failure returns -1 with errno set (EXDEV: not
 // allowed).
 int file_access_open(const FileAccess *file_access, const char *path, int flags);
+// Opens the relative path `rest` below an open folder, one component at a time and without following links. If
+// `make_folders` is true, creates missing folders. Modifies `rest` and closes `folder`. On failure returns -1 with errno
+// set.
+int file_open_below(int folder, char *rest, int flags, mode_t mode, bool make_folders);
 // Like replace_begin, but only for a regular or new file, and only if writing it is allowed. On failure returns false
 // with errno set (EXDEV: not allowed).
 bool file_access_replace(const FileAccess *file_access, const char *path, Replacement *replacement)

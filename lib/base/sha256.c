@@ -77,3 +77,9 @@ void sha256_end(Sha256 *hash, char digits[SHA256_DIGITS]) {
     for (int i = 0; i < SHA256_DIGITS; i++)
         digits[i] = "0123456789abcdef"[hash->state[i / 8] >> (28 - 4 * (i % 8)) & 15];
 }
+
+void sha256_of(const char *text, size_t length, char digits[SHA256_DIGITS]) {
+    Sha256 hash = sha256_new();
+    sha256_add(&hash, text, length);
+    sha256_end(&hash, digits);
+}

@@ -16,3 +16,5 @@ Sha256 sha256_new(void);
 void sha256_add(Sha256 *hash, const char *text, size_t length);
 // Writes the hash as hexadecimal digits without a NUL byte. `hash` must not be used after this call.
 void sha256_end(Sha256 *hash, char digits[SHA256_DIGITS]);
+// Writes the hash of `length` bytes like sha256_end.
+void sha256_of(const char *text, size_t length, char digits[SHA256_DIGITS]);

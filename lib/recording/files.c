@@ -77,9 +77,7 @@ bool archive_load_file(PetriArchive *archive, ArchiveFile *file) {
         sqlite3_bind_int64(row, 1, file->id);
     if (!archive_next(archive, row) || !archive_column_blob(archive, row, 0, &bytes))
         return archive_fail(archive, "the archive is damaged: table file: row %lld is missing", (long long)file->id);
-    Sha256 hash = sha256_new();
-    sha256_add(&hash, bytes.bytes, bytes.len);
-    sha256_end(&hash, sha256);
+    sha256_of(bytes.bytes, bytes.len, sha256);
     if (bytes.len != file->length || memcmp(sha256, file->sha256, SHA256_DIGITS) != 0)
         return archive_fail(archive, "the archive is damaged: table file: row %lld has another SHA-256",
                             (long long)file->id);

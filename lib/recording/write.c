@@ -52,11 +52,8 @@ static void on_file(void *user_data, const char *name, Str bytes) {
     char sha256[SHA256_DIGITS + 1] = "";
     if (archive_fails(archive))
         return;
-    if (bytes.bytes) {
-        Sha256 hash = sha256_new();
-        sha256_add(&hash, bytes.bytes, bytes.len);
-        sha256_end(&hash, sha256);
-    }
+    if (bytes.bytes)
+        sha256_of(bytes.bytes, bytes.len, sha256);
     ArchiveFile *last = archive_find_file(archive, str_from(name), INT64_MAX);
     if (last ? strcmp(last->sha256, sha256) == 0 : !bytes.bytes)
         return;

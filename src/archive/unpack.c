@@ -1,6 +1,7 @@
 // unpack.c: `petri unpack`, which writes the files of an archive to a folder.
 #include "archive/open.h"
 #include "base/file.h"
+#include "base/file_access.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -24,37 +25,15 @@ static bool is_valid_name(const char *name) {
     return true;
 }
 
-// Creates the folders of a path below `folder`, and returns the last one. Does not follow links. Returns -1
-// with errno set on failure.
-static int open_folder(int folder, char *name) {
-    for (char *slash; (slash = strchr(name, '/')); name = slash + 1) {
-        *slash = '\0';
-        mkdirat(folder, name, 0777);
-        int next = file_open_at(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW, 0);
-        int error = errno;
-        close(folder);
-        errno = error;
-        *slash = '/';
-        if (next < 0)
-            return -1;
-        folder = next;
-    }
-    return folder;
-}
-
 // Writes a new file. Does not replace an existing one.
 static bool write_file(const char *folder, const PetriArchiveFile *file) {
     SCOPED_STRING name = memory_strdup(file->name);
-    int parent = file_open_at(AT_FDCWD, folder, O_RDONLY | O_DIRECTORY, 0);
-    parent = parent < 0 ? -1 : open_folder(parent, name);
-    const char *base = strrchr(file->name, '/') ? strrchr(file->name, '/') + 1 : file->name;
-    int written = parent < 0 ? -1 : file_open_at(parent, base, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
+    int root = file_open_at(AT_FDCWD, folder, O_RDONLY | O_DIRECTORY, 0);
+    int written = root < 0 ? -1 : file_open_below(root, name, O_WRONLY | O_CREAT | O_EXCL, 0666, true);
     bool good = written >= 0 && file_write(written, file->bytes, file->length);
     int error = errno;
     if (written >= 0)
         close(written);
-    if (parent >= 0)
-        close(parent);
     if (!good)
         message("cannot write '%s' in '%s': %s", file->name, folder, strerror(error));
     return good;

@@ -60,9 +60,7 @@ static bool remove_checksum(Text *text) {
     char digits[SHA256_DIGITS];
     if (text->len < length || memcmp(text->bytes + text->len - length, name, sizeof name - 1) != 0)
         return false;
-    Sha256 hash = sha256_new();
-    sha256_add(&hash, text->bytes, text->len - length);
-    sha256_end(&hash, digits);
+    sha256_of(text->bytes, text->len - length, digits);
     bool good = memcmp(digits, text->bytes + text->len - SHA256_DIGITS - 1, SHA256_DIGITS) == 0;
     text->len -= length;
     return good;
@@ -70,9 +68,7 @@ static bool remove_checksum(Text *text) {
 
 static void add_checksum(Text *text) {
     char digits[SHA256_DIGITS];
-    Sha256 hash = sha256_new();
-    sha256_add(&hash, text->bytes, text->len);
-    sha256_end(&hash, digits);
+    sha256_of(text->bytes, text->len, digits);
     text_add_format(text, "sha256 %.*s\n", SHA256_DIGITS, digits);
 }
 

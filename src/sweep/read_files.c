@@ -13,17 +13,10 @@ struct KnownHash {
     char hash[SHA256_DIGITS + 1];
 };
 
-static void hash_contents(char hash[SHA256_DIGITS + 1], const char *bytes, size_t length) {
-    Sha256 contents = sha256_new();
-    sha256_add(&contents, bytes, length);
-    sha256_end(&contents, hash);
-    hash[SHA256_DIGITS] = '\0';
-}
-
 void read_files_add(ReadFiles *files, const char *name, const char *bytes, size_t length) {
     ReadFile read = {.hash = "-"};
-    if (bytes)
-        hash_contents(read.hash, bytes, length);
+    if (bytes) // the digits are followed by zeros
+        sha256_of(bytes, length, read.hash);
     files->changed = files->changed || str_ends_with(str_from(name), STR("/"));
     for (size_t i = 0; i < files->count; i++) {
         ReadFile *file = &files->items[i];
@@ -82,7 +75,8 @@ static const char *hash_file(KnownHashes *known, const char *path) {
         *found = (KnownHash){.path = memory_strdup(path)};
     }
     found->info = info;
-    hash_contents(found->hash, text.bytes, text.len);
+    sha256_of(text.bytes, text.len, found->hash);
+    found->hash[SHA256_DIGITS] = '\0';
     return found->hash;
 }
 
