@@ -5,24 +5,33 @@
 #include <string.h>
 #include <unistd.h>
 
+static const char BIBTEX_SPECIAL[] = "#$%&_{}\\~^";
 enum { SHORT_DIGEST = 12 }; // digits of the digest in the key of BibTeX
 
-// Adds a text with each character of `special` escaped by a backslash; control characters become spaces.
+// Adds a text with each character of `special` escaped by a backslash. The text may come from a stranger.
 static void add_escaped(Text *text, const char *part, const char *special) {
-    for (const char *c = part; *c; c++)
-        text_add_format(text, "%s%c", strchr(special, *c) ? "\\" : "", (unsigned char)*c < ' ' ? ' ' : *c);
+    SCOPED_TEXT printable = {0};
+    text_add_printable(&printable, str_from(part), "");
+    text_add_c(text, "");
+    for (size_t i = 0; i < printable.len; i++) {
+        if (strchr(special, printable.bytes[i]))
+            text_add_char(text, '\\');
+        text_add_char(text, printable.bytes[i]);
+    }
 }
 
 static void print_citation(const PetriArchiveInfo *info, Output *output) {
     SCOPED_TEXT bibtex = {0};
     SCOPED_TEXT yaml = {0};
-    add_escaped(&bibtex, info->script, "#$%&_{}\\~^");
+    SCOPED_TEXT version = {0};
+    add_escaped(&bibtex, info->script, BIBTEX_SPECIAL);
     add_escaped(&yaml, info->script, "\"\\");
+    add_escaped(&version, info->version, BIBTEX_SPECIAL);
     output_format(output, "digest: %s\n\n", info->sha256);
     output_format(output,
                   "@misc{petri-%.*s,\n  title = {Archive of a run of %s},\n  note = {petri %s, run digest %s},\n"
                   "  howpublished = {verify with: petri verify}\n}\n\n",
-                  SHORT_DIGEST, info->sha256, bibtex.bytes, info->version, info->sha256);
+                  SHORT_DIGEST, info->sha256, bibtex.bytes, version.bytes, info->sha256);
     output_format(output,
                   "cff-version: 1.2.0\nmessage: If you use this run, please cite it.\ntype: dataset\n"
                   "title: \"Archive of a run of %s\"\nauthors:\n  - name: \"your name\"\nidentifiers:\n"
