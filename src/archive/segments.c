@@ -97,9 +97,7 @@ static bool frame_is_same(Worker *worker, SegmentResult *result) {
             return false;
         result->has_digests = false;
     }
-    if (!petri_archive_keyframe_differs(worker->archive))
-        return true;
-    return false;
+    return !petri_archive_keyframe_differs(worker->archive);
 }
 
 // Returns true if a segment before number `number` is known to differ, so that this one need not be verified.

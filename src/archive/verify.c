@@ -1,13 +1,9 @@
 // verify.c: `petri verify`, which computes a run again and compares it with its archive.
 #include "archive/open.h"
 #include "archive/segments.h"
-#include "base/clock.h"
-#include "cli/memory.h"
 #include "cli/output.h"
-#include "cli/progress.h"
 
 #include <inttypes.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 static void print_difference(const Verification *verification, Output *output) {

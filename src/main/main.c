@@ -76,7 +76,8 @@ static int dispatch(const CommandContext *host, int argc, char **argv) {
     if (status >= 0)
         return status;
 #endif
-    if ((command || is_script) && helper_exec_needs_archives(argv))
+    bool replays = is_script || command == &RUN_COMMAND || command == &DIFF_COMMAND || command == &CHECK_COMMAND;
+    if (replays && helper_exec_needs_archives(argv))
         return helper_exec_pictures(argv);
     if (command)
         return command_run(command, host, argc - 2, argv + 2);

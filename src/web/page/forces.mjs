@@ -38,8 +38,8 @@ export class Forces {
         return null;
     }
 
-    // Returns what the page shows of the chosen particle: its key, entries of the state, contributions and their sum. `note` says why there
-    // are no contributions.
+    // Returns what the page shows of the chosen particle: its key, entries of the state, contributions and their sum. If there is nothing
+    // to show, `note` gives the reason.
     describe({ session }) {
         if (!this.chosen)
             return { key: null };
