@@ -60,8 +60,8 @@ void file_access_report(const FileAccess *file_access, const char *path, Str byt
 // allowed).
 int file_access_open(const FileAccess *file_access, const char *path, int flags);
 // Opens the relative path `rest` below an open folder, one component at a time and without following links. If
-// `make_folders` is true, creates missing folders. Modifies `rest` and closes `folder`. On failure returns -1 with errno
-// set.
+// `make_folders` is true, creates missing folders. Modifies `rest` and closes `folder`. On failure returns -1 with
+// errno set.
 int file_open_below(int folder, char *rest, int flags, mode_t mode, bool make_folders);
 // Like replace_begin, but only for a regular or new file, and only if writing it is allowed. On failure returns false
 // with errno set (EXDEV: not allowed).
