@@ -2,6 +2,7 @@
 #include "archive/open.h"
 #include "archive/segments.h"
 #include "cli/output.h"
+#include "cli/script.h"
 
 #include <inttypes.h>
 #include <unistd.h>
@@ -14,6 +15,12 @@ static void print_difference(const Verification *verification, Output *output) {
                       found->digests[1]);
     if (found->details.len > 0)
         output_write(output, found->details.bytes, found->details.len);
+    // An archive has digests and states, but no forces. They are known only to the program that computed them.
+    SCOPED_TEXT command = {0};
+    text_add_c(&command, "petri diff ");
+    shell_add_word(&command, verification->file);
+    output_format(output, "to compare the forces, run '%s --with PROGRAM' with the petri that wrote the archive\n",
+                  command.bytes);
 }
 
 static void print_success(const Verification *verification, const PetriArchiveInfo *info, Output *output) {

@@ -175,6 +175,7 @@ END
         petri verify forged.petri
         check "verify finds the first frame of a forged archive, and what differs" eval \
             'status_is 1 && has out "frame 1 differs" && has out "- digest" && has out "--- archive" && has out "first: \$:size"'
+        check "verify says how to compare the forces" has out "'petri diff forged.petri --with PROGRAM'"
     fi
     petri diff film.petri film.fl
     check "diff compares an archive with a script" eval 'status_is 0 && empty out'
@@ -182,6 +183,16 @@ END
     sed 's/rate=2/rate=3/' film.fl >changed.fl
     petri diff film.petri changed.fl
     check "diff finds the first frame that differs from an archive" eval 'status_is 1 && has out "frame 1, time 0.04"'
+    # The petri that wrote an archive, which computes a force that differs by one ulp.
+    printf '!physics state=:p dimensions=2 time=time\n    for i in ..5\n        !particle id=i position=i;i*0.5 velocity=0.3;0.7 radius=1\n    !collision\n    !drag strength=1.5\n' >moving.fl
+    sed 's/1\.5$/1.5000000000000002/' moving.fl >author.fl
+    petri run moving.fl --frames 9 --archive moving.petri
+    # shellcheck disable=SC2016
+    printf '#!/bin/sh\nfor word; do\n    shift\n    [ "$word" = moving.petri ] && word=author.fl\n    set -- "$@" "$word"\ndone\nexec "%s" "$@"\n' "$petri" >author
+    chmod +x author
+    petri diff moving.petri --with ./author
+    check "diff names the force that differs from that of the program that wrote an archive" eval \
+        'status_is 1 && grep -q "^force on :p;.*: drag$" out && has out "  moving.fl:5" && has out "  author.fl:5"'
     petri cite film.petri
     check "cite prints the digest, BibTeX and CITATION.cff" eval \
         'status_is 0 && has out "digest: " && has out "@misc{petri-" && has out "cff-version: 1.2.0"'
