@@ -139,6 +139,9 @@ PETRI_API PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *se
 // same reasons, and the statuses of petri_step.
 PETRI_API PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, int64_t frame);
 
+// Ends a replay: its session continues without recorded input. It still reads its files from the archive.
+PETRI_API void petri_archive_end_replay(PetriArchive *archive);
+
 // Returns true if the current frame of a replay has a keyframe with another state. Returns false if it has no keyframe,
 // or if the keyframe's state was given.
 PETRI_API bool petri_archive_keyframe_differs(PetriArchive *archive);

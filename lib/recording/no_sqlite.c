@@ -97,6 +97,10 @@ PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, i
     return PETRI_UNSUPPORTED;
 }
 
+void petri_archive_end_replay(PetriArchive *archive) {
+    (void)archive;
+}
+
 bool petri_archive_keyframe_differs(PetriArchive *archive) {
     (void)archive;
     return false;

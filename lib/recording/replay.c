@@ -170,6 +170,11 @@ PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, i
     return status;
 }
 
+void petri_archive_end_replay(PetriArchive *archive) {
+    if (archive && archive->session && !archive->writes)
+        recorder_set(archive->session, NULL);
+}
+
 bool petri_archive_keyframe_differs(PetriArchive *archive) {
     PetriSession *session = archive ? archive->session : NULL;
     KeyframeTexts texts;

@@ -76,7 +76,8 @@ static int dispatch(const CommandContext *host, int argc, char **argv) {
     if (status >= 0)
         return status;
 #endif
-    bool replays = is_script || command == &RUN_COMMAND || command == &DIFF_COMMAND || command == &CHECK_COMMAND;
+    bool replays = is_script || command == &RUN_COMMAND || command == &DIFF_COMMAND || command == &CHECK_COMMAND ||
+                   command == &SWEEP_COMMAND;
     if (replays && helper_exec_needs_archives(argv))
         return helper_exec_pictures(argv);
     if (command)

@@ -2,6 +2,7 @@
 #include "sweep/measure.h"
 
 #include "base/file.h"
+#include "cli/archive.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "petri-inspect.h"
@@ -31,15 +32,44 @@ static void on_file_read(void *user_data, const char *name, const char *bytes, s
     read_files_add(&measure->files, name, bytes, length);
 }
 
+// Loads the script of the archive with the configuration of its first keyframe. Returns false after a message.
+static bool load_archive(Measure *measure) {
+    PetriStatus status = petri_archive_load(measure->archive, measure->session, -1);
+    petri_archive_end_replay(measure->archive);
+    if (status != PETRI_OK && !archive_report_problem(measure->archive, measure->sweep->options->script))
+        message("cannot read '%s': %s", measure->sweep->options->script, petri_status_text(status));
+    return status == PETRI_OK;
+}
+
+// Opens an archive instead of a script. Returns false after a message.
+static bool open_archive(Measure *measure, Options *options) {
+    PetriArchiveInfo info;
+    measure->archive = petri_archive_open(options->script, options->memory);
+    if (!measure->archive || !petri_archive_info(measure->archive, &info, sizeof info)) {
+        archive_report_problem(measure->archive, options->script);
+        return false;
+    }
+    measure->archive_sha256 = info.sha256;
+    options->replayed = measure->archive;
+    return true;
+}
+
 bool measure_open(Measure *measure, const Sweep *sweep,
                   void (*report)(void *context, PetriLevel level, const char *rendered), void *context) {
     *measure = (Measure){.sweep = sweep, .on_diagnostic = report, .context = context, .silent = true};
     Options options = *sweep->options;
     options.on_file_read = sweep->options->cache ? on_file_read : NULL;
+    if (petri_archive_is(options.script) && !open_archive(measure, &options))
+        return false;
     if (options_open(&options, sweep->host, on_diagnostic, measure, &measure->session) != OPTIONS_READ)
         return false;
-    // This may fail, for example if the script needs definitions. Each run then loads the script and reports errors.
-    petri_load(measure->session, sweep->options->script);
+    if (measure->archive) {
+        if (!load_archive(measure))
+            return false;
+    } else {
+        // This may fail, for example if the script needs definitions. Each run then loads it and reports errors.
+        petri_load(measure->session, sweep->options->script);
+    }
     measure->base = petri_config_get(measure->session);
     if (!measure->base)
         message("out of memory");
@@ -50,6 +80,7 @@ bool measure_open(Measure *measure, const Sweep *sweep,
 void measure_close(Measure *measure) {
     petri_config_free(measure->base);
     petri_close(&measure->session);
+    petri_archive_close(&measure->archive);
     text_free(&measure->rows);
     text_free(&measure->error);
     read_files_free(&measure->files);
@@ -244,6 +275,8 @@ int measure_dry_run(Measure *measure) {
 
 void measure_hash_sources(Measure *measure, Sha256 *hash) {
     const char *path = NULL;
+    if (measure->archive_sha256)
+        sha256_add(hash, measure->archive_sha256, strlen(measure->archive_sha256));
     for (size_t i = 0; (path = petri_source_file(measure->session, i)); i++) {
         SCOPED_TEXT text = {0};
         text_read_file(&text, path, SIZE_MAX);

@@ -1,5 +1,8 @@
 // measure.h: execution of runs, one after the other in the same session. If the script can be loaded without
 // definitions, its file is read only once. The script is compiled again for each run, with the definitions of that run.
+//
+// If the script is an archive, its files and its first configuration are used, without its inputs. Each process opens
+// the archive itself.
 #pragma once
 
 #include "petri-edit.h"
@@ -9,15 +12,17 @@
 typedef struct Measure {
     const Sweep *sweep;
     PetriSession *session;
-    PetriConfig *base;       // configuration without definitions
-    bool silent;             // true if diagnostics are not reported
-    bool invalid_definition; // true if the script rejected a value
-    int64_t frames;          // number of frames of the last run
-    Text rows;               // measurements of the last run, in the format of Result.rows
-    ResultOrigin origin;     // of the last run
-    ReadFiles files;         // read by the session so far; used if there is a cache
-    KnownHashes known;       // of files that earlier runs have read
-    Text error;              // last error of the last run; empty: none
+    struct PetriArchive *archive; // archive that is used instead of a script; NULL: none
+    const char *archive_sha256;   // digest of the archived run; NULL: none
+    PetriConfig *base;            // configuration without the definitions of a run
+    bool silent;                  // true if diagnostics are not reported
+    bool invalid_definition;      // true if the script rejected a value
+    int64_t frames;               // number of frames of the last run
+    Text rows;                    // measurements of the last run, in the format of Result.rows
+    ResultOrigin origin;          // of the last run
+    ReadFiles files;              // read by the session so far; used if there is a cache
+    KnownHashes known;            // of files that earlier runs have read
+    Text error;                   // last error of the last run; empty: none
     void (*on_diagnostic)(void *context, PetriLevel level, const char *rendered);
     void *context;
 } Measure;
@@ -31,5 +36,5 @@ void measure_run(Measure *measure, size_t run);
 // Computes the first frame of the first run, to find errors in the script, its parameters and the expressions early.
 // Returns STATUS_DONE, or the exit status after a message.
 int measure_dry_run(Measure *measure);
-// Adds the contents of all source files of the script to the hash.
+// Adds the contents of all source files of the script, or the digest of the archive, to the hash.
 void measure_hash_sources(Measure *measure, Sha256 *hash);

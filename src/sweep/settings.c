@@ -2,6 +2,7 @@
 #include "cli/args.h"
 #include "cli/mpirun.h"
 #include "cli/script.h"
+#include "petri-archive.h"
 #include "sweep/plot_support.h"
 
 #include <stdio.h>
@@ -94,6 +95,10 @@ static bool check_plot(const Sweep *sweep) {
 static bool check_cache(const Sweep *sweep) {
     if (sweep->options->verify_cache > 0 && !sweep->options->cache) {
         message("option '--verify-cache' needs a cache; add --cache DIR");
+        return false;
+    }
+    if (sweep->options->cache && petri_archive_is(sweep->options->script)) {
+        message("cannot use '--cache' with an archive; write its files to a folder with 'petri unpack'");
         return false;
     }
     return true;

@@ -3,6 +3,7 @@
 
 #include "cli/particles.h"
 #include "cli/script.h"
+#include "petri-archive.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -122,9 +123,15 @@ void table_commands(const Sweep *sweep, Text *out) {
     const Design *design = &sweep->design;
     SCOPED_TEXT head = {0};
     shell_add_program(&head, sweep->host->invoked_as);
-    text_add_format(&head, " run ");
+    // petri run replays an archive with its own parameters.
+    bool archived = petri_archive_is(sweep->options->script);
+    text_add_format(&head, archived ? " sweep " : " run ");
     shell_add_word(&head, sweep->options->script);
     text_add(&head, text_str(&sweep->shared));
+    for (size_t i = 0; archived && i < sweep->options->metrics.count; i++) {
+        text_add_c(&head, " --metric ");
+        shell_add_word(&head, sweep->options->metrics.items[i]);
+    }
     for (size_t run = 0; run < design->run_count; run++) {
         text_add(out, text_str(&head));
         add_definitions(design, run, out);

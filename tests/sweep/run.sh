@@ -24,6 +24,37 @@ refused() {
     check "$check_name: the message gives the reason" has err "$text"
 }
 
+# --- archives
+
+cat >archived.fl <<'END'
+%pragma fps 25
+import scale from 'scale.fl'
+let A=A or 1 B=B or 2*A SEED=SEED or 1
+!counter state=:n rate=A
+END
+echo 'let scale=3' >scale.fl
+if "$petri" run archived.fl -D SEED=5 --frames 10 --archive run.petri 2>err; then
+    sweep archived.fl -D SEED=5 -D 'A=1;2' --frames 4 --metric b=B --metric time=time --metric scale=scale --metric n='$:n' --every 3
+    sed 's/,5,/,/; s/,SEED//' out >expected
+    rm archived.fl scale.fl
+    sweep run.petri -D 'A=1;2' --frames 4 --metric b=B --metric time=time --metric scale=scale --metric n='$:n' --every 3 --jobs 2
+    check "the script of an archive runs with its own and with other parameters" same expected out
+    sweep run.petri -D 'A=1;2' --frames 4 --metric seed=SEED -o table.csv
+    grep ' -D A=2 ' table.csv.runs >again
+    sh ./again >out
+    check "each run of an archive's script can be repeated" out_is 'run,A,frame,seed,error
+1,2,3,5,'
+    sed 2d table.csv >expected
+    sed 's/^1,/2,/' out | cmp -s - expected
+    check "the repeated run has the same result" [ $? -eq 0 ]
+    refused "--cache needs a script" "cannot use '--cache' with an archive" run.petri -D A=1..2 --metric a=A --cache store
+    head -c 3000 run.petri >cut.petri
+    sweep cut.petri -D A=1..2 --metric a=A
+    check "a damaged archive is an error" eval 'status_is 1 && has err "cannot read"'
+else
+    check "a build without SQLite says what is missing" has err "built without SQLite"
+fi
+
 # --- the runs
 
 cat >sum.fl <<'END'
