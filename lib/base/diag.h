@@ -10,12 +10,20 @@
 
 typedef enum DiagLevel { DIAG_ERROR, DIAG_WARNING, DIAG_NOTE } DiagLevel;
 
+// The program that a shader compiler's message is about. The text of such a diagnostic is the message itself until
+// draw_place_shader_error has found the position in the script.
+typedef struct DiagShader {
+    const char *node; // kind of the node; NULL: the diagnostic is not such a message
+    Str program;      // must outlive the sink
+} DiagShader;
+
 typedef struct Diag {
     DiagLevel level;
     Origin at; // location; its source is NULL if the diagnostic has none
     Str text;
     Str hint;         // advice for fixing the problem; empty: none
     const char *code; // short name of the kind of diagnostic, such as "unbound-name"; NULL: none
+    DiagShader shader;
 } Diag;
 
 // A growing list of distinct diagnostics.

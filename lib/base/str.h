@@ -60,7 +60,7 @@ typedef struct Text {
 } Text;
 
 Text text_new(Arena *arena) PRIVATE_API(text_new);
-void text_free(Text *text); // frees a text on the heap; it is then empty
+void text_free(Text *text) PRIVATE_API(text_free); // frees a text on the heap; it is then empty
 // Ensures space for `more` bytes and a NUL after text->len. Returns the address of that space.
 char *text_reserve(Text *text, size_t more);
 void text_add(Text *text, Str part) PRIVATE_API(text_add);

@@ -6,6 +6,7 @@
 #include "base/host_struct.h"
 #include "base/number.h"
 #include "draw/render_graph.h"
+#include "draw/shader_errors.h"
 #include "draw/systems.h"
 #include "maths/maths.h"
 #include "session/draw_access.h"
@@ -359,13 +360,24 @@ bool petri_picture_lacks_shader(const PetriPicture *picture) {
     return false;
 }
 
+// Reports a problem that was found while the picture was drawn. The script may have been unloaded since then.
+static void report_fault(PetriSession *session, Diag *fault) {
+    if (!session_has_source(session, fault))
+        fault->at.source = NULL;
+    Diag placed = *fault; // the original recognises the same problem when the picture is drawn again
+    Text text = {0};
+    if (placed.shader.node)
+        draw_place_shader_error(&placed, &text);
+    session_report(session, &placed);
+    text_free(&text);
+}
+
 void petri_picture_report(PetriSession *session, PetriPicture *picture) {
     if (!session || !picture)
         return;
     for (uint32_t i = 0; i < picture->faults.count; i++)
-        if (!session_has_source(session, &picture->faults.items[i]))
-            picture->faults.items[i].at.source = NULL;
-    session_report_all(session, &picture->faults);
+        report_fault(session, &picture->faults.items[i]);
+    session_report_dropped(session, &picture->faults);
     session_add_work(session, picture->work);
     picture->work = 0;
 }

@@ -3,7 +3,6 @@
 
 #include "gl/input_composite.h"
 #include "gl/internal.h"
-#include "gl/shader_errors.h"
 
 #include <math.h>
 
@@ -50,6 +49,15 @@ uint32_t gl_shader_passes(const DrawNode *node) {
     return wanted >= 2 ? wanted < MAX_PASSES ? (uint32_t)wanted : MAX_PASSES : 1;
 }
 
+static void report_rejected(DiagSink *faults, const DrawNode *node, const GlShaderError *fault) {
+    const AttrValue *own = draw_attr(node, fault->in_vertex ? ATTR_VERTEX : ATTR_FRAGMENT);
+    diag_report(faults, &(Diag){.level = fault->failed ? DIAG_ERROR : DIAG_WARNING,
+                                .at = node->origin,
+                                .text = fault->text,
+                                .code = "bad-shader",
+                                .shader = {schema_kinds[node->kind].name, own ? own->as.text : (Str){0}}});
+}
+
 GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
     const DrawNode *node = effect->node;
     const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
@@ -68,7 +76,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     }
     unsigned program = gl_own_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);
     if (!program) {
-        gl_report_shader_error(faults, node, &fault);
+        report_rejected(faults, node, &fault);
         return (GlImage){0};
     }
     uint32_t count = gl_shader_passes(node);

@@ -25,7 +25,7 @@ Expr *compile_constant(Compiler *compiler, const Ast *ast, Value value) {
 }
 
 void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *code, Str text, Str hint) {
-    diag_report(compiler->diags, &(Diag){level, {compiler->source, span}, text, hint, code});
+    diag_report(compiler->diags, &(Diag){level, {compiler->source, span}, text, .hint = hint, .code = code});
 }
 
 // Returns true if the value of an expression is or contains the value of its child i. If the expression's value becomes

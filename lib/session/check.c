@@ -25,7 +25,8 @@ void session_lint_top_nodes(PetriSession *session) {
             continue;
         Str text = str_format(&session->frame.systems_arena, "'!%.*s' does nothing", STR_ARGS(kind));
         Str hint = str_format(&session->frame.systems_arena, "did you mean '!%.*s'?", STR_ARGS(nearest));
-        session_report(session, &(Diag){DIAG_WARNING, node_origin(item->as.node, NULL), text, hint, "unknown-node"});
+        session_report(session, &(Diag){DIAG_WARNING, node_origin(item->as.node, NULL), text, .hint = hint,
+                                        .code = "unknown-node"});
     }
 }
 

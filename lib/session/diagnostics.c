@@ -193,11 +193,15 @@ void session_report_text(PetriSession *session, DiagLevel level, const char *cod
 void session_report_all(PetriSession *session, const DiagSink *sink) {
     for (uint32_t i = 0; i < sink->count; i++)
         session_report(session, &sink->items[i]);
-    if (sink->dropped) {
-        char text[64];
-        snprintf(text, sizeof text, "%u more diagnostics are not shown", sink->dropped);
-        session_report_text(session, DIAG_NOTE, NULL, str_from(text));
-    }
+    session_report_dropped(session, sink);
+}
+
+void session_report_dropped(PetriSession *session, const DiagSink *sink) {
+    char text[64];
+    if (!sink->dropped)
+        return;
+    snprintf(text, sizeof text, "%u more diagnostics are not shown", sink->dropped);
+    session_report_text(session, DIAG_NOTE, NULL, str_from(text));
 }
 
 uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level) {

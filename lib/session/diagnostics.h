@@ -31,7 +31,7 @@ bool diagnostics_repeat(Diagnostics *diagnostics, bool repeat);
 void diagnostics_forward(PetriSession *session, const PetriDiagnostic *diagnostic);
 
 // Reports a diagnostic to the host, unless it was already reported since the last load.
-void session_report(PetriSession *session, const Diag *diag);
+void session_report(PetriSession *session, const Diag *diag) PRIVATE_API(session_report);
 // Like session_report, but uses `key` instead of the rendered text to recognise a repeated diagnostic. If `key` is
 // empty, uses the rendered text.
 void session_report_keyed(PetriSession *session, const Diag *diag, Str key);
@@ -39,4 +39,6 @@ void session_report_keyed(PetriSession *session, const Diag *diag, Str key);
 void session_report_text(PetriSession *session, DiagLevel level, const char *code, Str text)
     PRIVATE_API(session_report_text);
 // Reports all diagnostics of a sink.
-void session_report_all(PetriSession *session, const DiagSink *sink) PRIVATE_API(session_report_all);
+void session_report_all(PetriSession *session, const DiagSink *sink);
+// Reports how many diagnostics a sink has not stored, if any.
+void session_report_dropped(PetriSession *session, const DiagSink *sink) PRIVATE_API(session_report_dropped);

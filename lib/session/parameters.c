@@ -78,7 +78,7 @@ typedef struct Check {
 } Check;
 
 static void report_definition(const Check *check, DiagLevel level, const char *code, Origin at, Str text, Str hint) {
-    session_report(check->session, &(Diag){level, at, text, hint, code});
+    session_report(check->session, &(Diag){level, at, text, .hint = hint, .code = code});
 }
 
 static Origin origin_of(const Parameter *parameter) {

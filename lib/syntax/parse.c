@@ -20,7 +20,7 @@ static void report_error(ParseContext *context, Span span, const char *code, Str
     context->error_line = line;
     if (follows)
         return;
-    diag_report(context->diags, &(Diag){DIAG_ERROR, {context->source, span}, text, hint, code});
+    diag_report(context->diags, &(Diag){DIAG_ERROR, {context->source, span}, text, .hint = hint, .code = code});
 }
 
 // Reports an unexpected token. A hint for other languages' syntax (syntax_hints.h) takes precedence over `hint`.

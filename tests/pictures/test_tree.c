@@ -206,6 +206,29 @@ static void test_shader_errors_are_at_their_lines(void **state) {
     remove("bad.glsl");
 }
 
+// petri_view draws the last picture again while a changed script is loaded.
+static void test_pictures_outlive_scripts(void **state) {
+    (void)state;
+    static const char bad[] =
+        SIZE "    !shader fragment=\"\"\"${HEADER}\nout vec4 color;\nvoid main() { wrong = 1.0; }\"\"\"\n";
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    Drawn drawn;
+    drawn_open(&drawn, SIZE "    !canvas\n", 1);
+    assert_int_equal(petri_load_text(drawn.session, "t.fl", bad, PETRI_NUL_TERMINATED), PETRI_OK);
+    assert_int_equal(petri_step(drawn.session), PETRI_OK);
+    assert_int_equal(petri_picture(drawn.session, &options, &picture), PETRI_OK);
+    assert_int_equal(petri_load_text(drawn.session, "t.fl", SIZE, PETRI_NUL_TERMINATED), PETRI_OK);
+    assert_int_equal(petri_step(drawn.session), PETRI_OK);
+    assert_int_equal(petri_picture_render(picture, drawn.painter), PETRI_OK);
+    drawn.reported[0] = '\0';
+    petri_picture_report(drawn.session, picture);
+    const char *start = "0 [bad-shader] !shader: line "; // line 0: the diagnostic has no position
+    assert_memory_equal(drawn.reported, start, strlen(start));
+    petri_picture_free(&picture);
+    drawn_close(&drawn);
+}
+
 static void test_bad_input_is_reported_once(void **state) {
     (void)state;
     static char deep[20000];
@@ -297,7 +320,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(test_ids_refer_to_pictures),         cmocka_unit_test(test_memory_limit_is_reported_once),
         cmocka_unit_test(test_nodes_continue_between_frames), cmocka_unit_test(test_passes_see_first_and_last),
         cmocka_unit_test(test_uniforms_have_values),          cmocka_unit_test(test_shader_errors_are_at_their_lines),
-        cmocka_unit_test(test_bad_input_is_reported_once),
+        cmocka_unit_test(test_pictures_outlive_scripts),      cmocka_unit_test(test_bad_input_is_reported_once),
     };
     static const struct CMUnitTest without[] = {cmocka_unit_test(test_without_gpu_children_are_drawn)};
     enum { SKIP = 77 };

@@ -1,5 +1,5 @@
 // shader_errors.c: see shader_errors.h.
-#include "gl/shader_errors.h"
+#include "draw/shader_errors.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -107,32 +107,32 @@ static Str find_file(Str text) {
     return (Str){0};
 }
 
-static Str format_message(Arena *arena, const DrawNode *node, const CompilerMessage *message) {
-    const char *kind = schema_kinds[node->kind].name;
-    const Source *source = node->origin.source;
-    Span span = node->origin.span;
+static void format_message(Text *out, const Diag *diag, const CompilerMessage *message) {
+    const Source *source = diag->at.source;
+    Span span = diag->at.span;
     Str file = source ? find_file((Str){source->text.bytes + span.start, span.end - span.start}) : (Str){0};
-    if (message->line == 0)
-        return str_format(arena, "!%s: %.*s", kind, STR_ARGS(message->text));
-    if (file.len == 0)
-        return str_format(arena, "!%s: line %u of the shader: %.*s", kind, message->line, STR_ARGS(message->text));
-    return str_format(arena, "!%s: %.*s:%u: %.*s", kind, STR_ARGS(file), message->line, STR_ARGS(message->text));
+    text_add_format(out, "!%s: ", diag->shader.node);
+    if (message->line > 0 && file.len > 0)
+        text_add_format(out, "%.*s:%u: ", STR_ARGS(file), message->line);
+    else if (message->line > 0)
+        text_add_format(out, "line %u of the shader: ", message->line);
+    text_add(out, message->text);
 }
 
-void gl_report_shader_error(DiagSink *faults, const DrawNode *node, const GlShaderError *fault) {
-    const AttrValue *own = draw_attr(node, fault->in_vertex ? ATTR_VERTEX : ATTR_FRAGMENT);
-    const Source *source = node->origin.source;
-    CompilerMessage message = read_message(fault->text);
+void draw_place_shader_error(Diag *diag, Text *out) {
+    const Source *source = diag->at.source;
+    Str program = diag->shader.program;
+    CompilerMessage message = read_message(diag->text);
     uint32_t start = UINT32_MAX;
-    Diag diag = {.level = fault->failed ? DIAG_ERROR : DIAG_WARNING, .at = node->origin, .code = "bad-shader"};
-    if (source && own && message.line > 0) {
-        start = find_text(source->text, own->as.text, node->origin.span.start);
-        start = start == UINT32_MAX ? find_text(source->text, own->as.text, 0) : start;
+    if (source && message.line > 0) {
+        start = find_text(source->text, program, diag->at.span.start);
+        start = start == UINT32_MAX ? find_text(source->text, program, 0) : start;
     }
     if (start != UINT32_MAX) {
-        diag.at.span = span_of(source->text, start, &message);
+        diag->at.span = span_of(source->text, start, &message);
         message.line = 0;
     }
-    diag.text = format_message(faults->arena, node, &message);
-    diag_report(faults, &diag);
+    format_message(out, diag, &message);
+    diag->text = text_str(out);
+    diag->shader = (DiagShader){0};
 }
