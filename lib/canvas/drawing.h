@@ -20,6 +20,21 @@ struct DrawNode {
     Origin origin;
 };
 
+// Returns true if the source of a shader contains syntax of templates (Mako) other than ${HEADER}, which petri does not
+// expand: ${name}, <%tag>, or a line that starts with % or ##.
+static inline bool draw_has_template(Str source) {
+    bool line_start = true; // true if only white space comes before in this line
+    for (size_t i = 0; i < source.len; i++) {
+        Str rest = {source.bytes + i, source.len - i};
+        char c = source.bytes[i];
+        if ((str_starts_with(rest, STR("${")) && !str_starts_with(rest, STR("${HEADER}"))) ||
+            str_starts_with(rest, STR("<%")) || (line_start && (c == '%' || str_starts_with(rest, STR("##")))))
+            return true;
+        line_start = c == '\n' || (line_start && (c == ' ' || c == '\t' || c == '\r'));
+    }
+    return false;
+}
+
 // Returns the attribute; NULL if it is not set.
 static inline const AttrValue *draw_attr(const DrawNode *node, AttrName name) {
     for (uint32_t i = 0; i < node->attr_count; i++)

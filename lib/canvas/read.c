@@ -6,21 +6,6 @@
 
 #include <errno.h>
 
-static void report_misplaced(const Reader *reader, const Node *child, bool known) {
-    Text out = text_new(reader->arena);
-    Str name = child->kind->name;
-    text_add_format(&out, "'!%.*s' ", STR_ARGS(name));
-    text_add_c(&out, known ? "has no effect here; ignored" : "is not supported; ignored");
-    bool exists = !known && schema_is_unsupported(name);
-    if (!known && !exists)
-        schema_add_nearest_kind(&out, name, PLACE_TOP, "'!", "'");
-    reader_report_at(reader,
-                     known    ? "misplaced-node"
-                     : exists ? "unsupported-node"
-                              : "unknown-node",
-                     node_origin(child, NULL), name, text_str(&out));
-}
-
 // Reports a node whose file the script is not allowed to access. Returns false if the file would be read; the node must
 // then be left out. If the file would be written, returns true, because the write fails later. This problem is already
 // reported here, where the position in the script is known.
@@ -42,6 +27,15 @@ static bool can_use_file(const Reader *reader, const DrawNode *node) {
                  str_format(reader->arena, "cannot %s '%s': %s", writes ? "write" : "read", name->as.text.bytes,
                             file_access_reason(reader->arena, reach, kind, path)));
     return writes;
+}
+
+static void check_programs(const Reader *reader, const DrawNode *node) {
+    static const AttrName names[] = {ATTR_VERTEX, ATTR_FRAGMENT};
+    for (int i = 0; i < 2; i++) {
+        const AttrValue *source = schema_row(reader->kind, names[i]) ? draw_attr(node, names[i]) : NULL;
+        if (source && draw_has_template(source->as.text))
+            reader_report_attr(reader, "bad-shader", names[i], STR("no template is supported except '${HEADER}'"));
+    }
 }
 
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind);
@@ -76,7 +70,7 @@ static void read_children(const Reader *reader, DrawNode *out) {
     for (uint32_t i = 0; i < count; i++) {
         NodeKind child = child_kind(reader, nodes[i]);
         if (child == KIND_COUNT) {
-            report_misplaced(reader, nodes[i], schema_window_kind(reader->schema, nodes[i]) != KIND_COUNT);
+            reader_report_child(reader, nodes[i]);
             continue;
         }
         const DrawNode *read = read_node(reader->schema, reader->arena, nodes[i], child);
@@ -112,6 +106,7 @@ static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node,
         out->tags = join_tags(arena, node);
     if (!reader_list(&reader, attrs, &out->attr_count) && schema_kinds[kind].place != PLACE_TOP)
         return NULL;
+    check_programs(&reader, out);
     if (!can_use_file(&reader, out))
         return NULL;
     read_children(&reader, out);

@@ -9,10 +9,12 @@
 enum { MAX_PASSES = 64 };
 
 // Replaces ${HEADER} or a line `#version 330` by gl_header. Adds #line directives, so that compiler messages contain
-// the line numbers of the original text. Returns false if the text contains other templates.
+// the line numbers of the original text. Returns false if the text contains other templates; canvas_read reports them.
 static bool expand_template(Text *out, Str text) {
     static const Str header = {"${HEADER}", 9}, version = {"#version 330", 12};
     size_t line_number = 1, i = 0;
+    if (draw_has_template(text))
+        return false;
     for (; i < text.len && strchr(" \t\n\r", text.bytes[i]); i++)
         line_number += text.bytes[i] == '\n'; // white space is dropped, because the version must be the first line
     const size_t start = i;
@@ -26,8 +28,6 @@ static bool expand_template(Text *out, Str text) {
             i += header.len - 1;
             while (own && i + 1 < text.len && text.bytes[i + 1] != '\n')
                 i++;
-        } else if (str_starts_with(rest, STR("${")) || (line && text.bytes[i] == '%')) {
-            return false;
         } else {
             text_add(out, (Str){text.bytes + i, 1});
         }
@@ -70,10 +70,8 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
         return (GlImage){0};
     else
         text_add_c(&texts[1], "void main() { color = merged(coord) * alpha; }\n");
-    if (!good) {
-        gl_report(faults, node, "bad-shader", STR("no template is supported except '${HEADER}'"));
+    if (!good)
         return (GlImage){0};
-    }
     unsigned program = gl_own_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);
     if (!program) {
         report_rejected(faults, node, &fault);

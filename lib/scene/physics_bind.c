@@ -115,11 +115,14 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
         settings->resolution = frame->resolution;
     if (!isfinite(settings->run))
         settings->run = 0;
+    const Symbol *dimensions = reader->schema->slots[ROW_PHYSICS_DIMENSIONS].name;
     const char *reason = NULL;
     if (settings->state.len == 0)
         reason = "attribute 'state' is missing or null; the system is skipped";
     else if (!state_key_valid(settings->state))
         reason = "attribute 'state' must be numbers, symbols or strings, such as :x; the system is skipped";
+    else if (!(settings->dimensions >= 1) && node_get(reader->node, dimensions).len == 0)
+        reason = "attribute 'dimensions' is missing or null; the system is skipped";
     else if (!(settings->dimensions >= 1))
         reason = "dimensions must be at least 1; the system is skipped";
     else if (settings->dimensions > 1e9)

@@ -268,8 +268,12 @@ static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms
 
 static void report_unknown_kind(const Reader *reader) {
     Text out = text_new(reader->arena);
+    Str name = reader->node->kind->name;
     text_add_c(&out, "unknown inside !physics; the node is ignored");
-    schema_add_nearest_kind(&out, reader->node->kind->name, PLACE_PHYSICS, "!", "");
+    if (schema_rejection(name) == NODE_MISPLACED)
+        schema_add_home(&out, name);
+    else
+        schema_add_nearest_kind(&out, name, PLACE_PHYSICS, "!", "");
     reader_report(reader, "unknown-node", "", text_str(&out));
 }
 

@@ -156,6 +156,9 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
             }
         } else {
             ++*count;
+            // Without an effect in Flitter either, if the flag has its default value.
+            if (schema_types[found->type].shape != SHAPE_FLAG || attr->as.flag != (found->default_value.value != 0))
+                reader_report_ignored(reader, found);
         }
     }
     return good;

@@ -35,7 +35,7 @@
 NODE(WINDOW, "window", TOP, WINDOW, "a window on the screen, or the rendered picture; black where nothing is drawn")
 PROGRAM_ROWS(WINDOW)
 ATTR(WINDOW, TITLE, TEXT, NOWHERE, DESCRIBED(0, "Flitter"), "", "")
-ATTR(WINDOW, SCREEN, AMOUNT, NOWHERE, NONE, "", "ignored")
+ATTR(WINDOW, SCREEN, AMOUNT, NOWHERE, NONE, "", "ignored; use 'petri view --screen'")
 ATTR(WINDOW, FULLSCREEN, FLAG, NOWHERE, IS(false), "", "ignored; use 'petri view --fullscreen'")
 ATTR(WINDOW, VSYNC, FLAG, NOWHERE, IS(false), "", "ignored")
 ATTR(WINDOW, CURSOR, FLAG, NOWHERE, IS(true), "", "ignored")

@@ -4,6 +4,7 @@
 // with values of the expected form are stored directly. Other attributes are read again by fill_checked, which reports
 // mistakes.
 #include "schema/reader_internal.h"
+#include "value/node_batch.h"
 
 #include <math.h>
 
@@ -175,6 +176,13 @@ static void fill_vector_defaults(const Reader *reader, char *record) {
     }
 }
 
+static __attribute__((noinline)) void report_children(const Reader *reader) {
+    uint32_t count;
+    const Node *const *children = node_children(reader->arena, reader->node, &count);
+    for (uint32_t i = 0; i < count; i++)
+        reader_report_child(reader, children[i]);
+}
+
 void reader_fill(const Reader *reader, void *record) {
     const Schema *schema = reader->schema;
     const SchemaSlot *first = schema->slots + schema->first_row[reader->kind], *guess = first;
@@ -186,6 +194,8 @@ void reader_fill(const Reader *reader, void *record) {
             fill_checked(reader, attr, (int)(slot - schema->slots), record);
         guess = slot < end ? slot + 1 : first;
     }
+    if (reader->node->child_count > 0 && schema_kinds[reader->kind].children == PLACE_NOTHING)
+        report_children(reader);
     if (schema->has_vector_default[reader->kind])
         fill_vector_defaults(reader, record);
 }

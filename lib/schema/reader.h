@@ -81,6 +81,12 @@ void reader_report_at(const Reader *reader, const char *code, Origin place, Str 
 // every kind that can be in a window. `before` and `after` enclose the suggested name.
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after);
 
+// Reports a child that the node does not accept.
+void reader_report_child(const Reader *reader, const Node *child);
+// Adds "; it belongs in '!canvas'" or another place where a kind with this name is accepted. Adds nothing if there is
+// no such kind.
+void schema_add_home(Text *out, Str kind);
+
 // Stores the defaults of a kind in its record. Vectors become NULL.
 void schema_defaults(NodeKind kind, void *record) PRIVATE_API(schema_defaults);
 // Reads the attributes into a record that contains the defaults. Unknown or malformed attributes are reported and keep

@@ -7,6 +7,8 @@
 void reader_report_unknown(const Reader *reader, const Symbol *name);
 // Reports "attribute should be …, not …".
 void reader_report_shape(const Reader *reader, const SchemaRow *row, Value found);
+// Reports an attribute of a drawing node that petri accepts but ignores. Does nothing for other attributes.
+void reader_report_ignored(const Reader *reader, const SchemaRow *row);
 // Reports "attribute=value …" for a value that is valid but unlikely to be intended.
 void reader_report_lint(const Reader *reader, const char *code, const SchemaRow *row, Value v, const char *text);
 

@@ -2,6 +2,8 @@
 #include "schema/reader_internal.h"
 #include "value/format.h"
 
+#include <string.h>
+
 // Adds " name=value" of an attribute that identifies the node: the state of a system, the id of other nodes.
 static void add_identifier(Text *out, const Reader *reader, AttrRow row) {
     Value v = node_get(reader->node, reader->schema->slots[row].name);
@@ -54,6 +56,36 @@ void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *b
         text_add_format(out, "; did you mean %s%.*s%s?", before, STR_ARGS(nearest.found), after);
 }
 
+void schema_add_home(Text *out, Str kind) {
+    static const char *const homes[] = {
+        [PLACE_SCENE] = "at the top level", [PLACE_PHYSICS] = "in '!physics'", [PLACE_TOP] = "at the top level",
+        [PLACE_PICTURE] = "in '!window'",   [PLACE_INPUT] = "in '!window'",    [PLACE_DRAWING] = "in '!canvas'",
+        [PLACE_SOURCE] = "in '!canvas'",    [PLACE_FILTER] = "in '!canvas'",   [PLACE_EFFECT] = "in '!canvas'",
+        [PLACE_STOP] = "in '!gradient'",    [PLACE_SCENE3D] = "in '!canvas3d'"};
+    const char *found[KIND_COUNT];
+    int count = 0;
+    for (int i = 0; i < KIND_COUNT; i++) {
+        const char *home = homes[schema_kinds[i].place];
+        if (str_equal(kind, str_from(schema_kinds[i].name)) && (count == 0 || strcmp(home, found[count - 1]) != 0))
+            found[count++] = home;
+    }
+    for (int i = 0; i < count; i++)
+        text_add_format(out, "%s%s", i == 0 ? "; it belongs " : i + 1 == count ? " or " : ", ", found[i]);
+}
+
+void reader_report_child(const Reader *reader, const Node *child) {
+    Text out = text_new(reader->arena);
+    Str name = child->kind->name;
+    NodeRejection why = schema_rejection(name);
+    text_add_format(&out, "'!%.*s' %s; ignored", STR_ARGS(name),
+                    why == NODE_MISPLACED ? "has no effect here" : "is not supported");
+    if (why == NODE_MISPLACED)
+        schema_add_home(&out, name);
+    else if (why == NODE_UNKNOWN)
+        schema_add_nearest_kind(&out, name, PLACE_TOP, "'!", "'");
+    reader_report_at(reader, schema_rejection_codes[why], node_origin(child, NULL), name, text_str(&out));
+}
+
 static void add_hex(Text *out, Value found) {
     Text colour = text_new(out->arena);
     if (found.len == 1 && found.kind == VALUE_MIXED && found.as.items[0].type == ITEM_STRING &&
@@ -83,6 +115,14 @@ void reader_report_shape(const Reader *reader, const SchemaRow *row, Value found
     if (type->shape == SHAPE_COLOR)
         add_hex(&out, found);
     report_symbol(reader, "bad-attribute", reader->schema->slots[row - schema_rows].name, text_str(&out));
+}
+
+void reader_report_ignored(const Reader *reader, const SchemaRow *row) {
+    if (!str_starts_with(str_from(row->help), STR("ignored")))
+        return;
+    const Symbol *attr = reader->schema->slots[row - schema_rows].name;
+    Str text = str_format(reader->arena, "attribute '%s' is %s", schema_names[row->name], row->help);
+    report_symbol(reader, "ignored-attribute", attr, text);
 }
 
 void reader_report_lint(const Reader *reader, const char *code, const SchemaRow *row, Value v, const char *text) {

@@ -108,7 +108,16 @@ NodeKind schema_kind_of_force(PhysForceKind force) {
     return kinds[force];
 }
 
-bool schema_is_unsupported(Str name) {
-    static const char unsupported[] = "video";
-    return str_word_number(name, unsupported) >= 0;
+const char *const schema_rejection_codes[NODE_REJECTION_COUNT] = {
+    [NODE_MISPLACED] = "misplaced-node",
+    [NODE_UNSUPPORTED] = "unsupported-node",
+    [NODE_UNKNOWN] = "unknown-node",
+};
+
+NodeRejection schema_rejection(Str name) {
+    static const char unsupported[] = "controller dmx laser osc video";
+    for (int i = 0; i < KIND_COUNT; i++)
+        if (str_equal(name, str_from(schema_kinds[i].name)))
+            return NODE_MISPLACED;
+    return str_word_number(name, unsupported) >= 0 ? NODE_UNSUPPORTED : NODE_UNKNOWN;
 }

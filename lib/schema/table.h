@@ -167,5 +167,14 @@ const char *schema_formula(NodeKind kind);
 NodeKind schema_kind_of_force(PhysForceKind force);
 // Returns true if a node of this kind is allowed as a child of a node that accepts `children`.
 bool schema_can_contain(NodeKind kind, PlaceKind children);
-// Returns true for nodes that Flitter draws but petri does not.
-bool schema_is_unsupported(Str name);
+// Why a node is ignored.
+typedef enum NodeRejection {
+    NODE_MISPLACED,   // its kind is accepted elsewhere
+    NODE_UNSUPPORTED, // Flitter has the kind, but petri does not
+    NODE_UNKNOWN,
+    NODE_REJECTION_COUNT
+} NodeRejection;
+// Returns why a node with this name is ignored at a place that does not accept it.
+NodeRejection schema_rejection(Str name);
+// Code of the diagnostic for each rejection.
+extern const char *const schema_rejection_codes[NODE_REJECTION_COUNT];

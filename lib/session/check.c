@@ -1,34 +1,7 @@
-// check.c: checks of scripts (petri_check), and of the top-level nodes of the first frame.
+// check.c: checks of scripts (petri_check).
 #include "session/session.h"
 
 #include <string.h>
-
-// Returns the known kind of top-level node that is spelled most similarly. Returns an empty string if `kind` is itself
-// known, or if no kind is similar. Top-level nodes of unknown kinds are allowed, but have no effect.
-static Str nearest_top_kind(Str kind) {
-    StrNearest nearest = str_nearest(kind);
-    for (int i = 0; i < KIND_COUNT && nearest.limit > 0; i++)
-        if (schema_kinds[i].place == PLACE_SCENE || schema_kinds[i].place == PLACE_TOP)
-            str_try_nearest(&nearest, str_from(schema_kinds[i].name));
-    return nearest.limit > 0 ? nearest.found : (Str){0};
-}
-
-void session_lint_top_nodes(PetriSession *session) {
-    const Symbol *last = NULL; // kind of the previous node; successive nodes of one kind are reported once
-    for (uint32_t i = 0; session->frame.tree.kind == VALUE_MIXED && i < session->frame.tree.len; i++) {
-        const Item *item = &session->frame.tree.as.items[i];
-        if (item->type != ITEM_NODE || item->as.node->kind == last)
-            continue;
-        last = item->as.node->kind;
-        Str kind = last->name, nearest = nearest_top_kind(kind);
-        if (!nearest.len)
-            continue;
-        Str text = str_format(&session->frame.systems_arena, "'!%.*s' does nothing", STR_ARGS(kind));
-        Str hint = str_format(&session->frame.systems_arena, "did you mean '!%.*s'?", STR_ARGS(nearest));
-        session_report(session, &(Diag){DIAG_WARNING, node_origin(item->as.node, NULL), text, .hint = hint,
-                                        .code = "unknown-node"});
-    }
-}
 
 // Reads all windows in the same way as for drawing, to report errors in their nodes.
 static PetriStatus lint_windows(PetriSession *session, void *context) {
@@ -76,8 +49,6 @@ static void add_to_log(void *context) {
 static void log_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     CheckLog *log = host;
     Arena *arena = &log->arena;
-    if (diagnostic->code && strcmp(diagnostic->code, "unsupported-node") == 0)
-        return; // not a mistake in the script
     CheckLogEntry entry = {log, diagnostic};
     log->incomplete |= arena_protect(&arena, 1, add_to_log, &entry) != ARENA_OK;
 }

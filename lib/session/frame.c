@@ -289,9 +289,7 @@ static PetriStatus update_systems(PetriSession *session, void *context) {
     (void)context;
     SessionFrame *made = &session->frame;
     double start = clock_seconds();
-    if (made->no_frame_yet)
-        session_lint_top_nodes(session);
-    made->no_frame_yet = false;
+    session_lint_top_nodes(session);
     SceneFrame frame = {.state = session->state,
                         .arena = &made->systems_arena,
                         .time = session->clock.time,
@@ -339,7 +337,11 @@ static PetriStatus evaluate_frame(PetriSession *session, const FrameClock *recor
 // Updates the systems after the script was evaluated.
 static PetriStatus update_frame(PetriSession *session) {
     SessionFrame *frame = &session->frame;
-    session->spent = session->budget.work; // evaluation and systems share one budget
+    uint64_t evaluation_work = session->budget.work;
+    if (frame->no_frame_yet)
+        session_lint_windows(session);
+    frame->no_frame_yet = false;
+    session->spent = evaluation_work; // evaluation and systems share one budget
     PetriStatus status = session_protect(session, NULL, update_systems, NULL);
     bool exhausted = scene_clear_exhausted(session->scene);
     exhausted |= state_clear_exhausted(session->state);

@@ -166,9 +166,11 @@ ClockRates session_pragma_rates(PetriSession *session, const Program *program);
 // Gives the engine's names, such as `time` and `beat`, their values for the current frame in `vm`. Before the first
 // frame, only constant names have valid values.
 void session_set_globals(const PetriSession *session, Vm *vm);
-// Warns about top-level nodes that have no effect and are probably misspelled: their kind resembles a kind with an
-// effect. Called within a protected call.
+// Warns about top-level nodes that have no effect, once for each kind. Called within a protected call.
 void session_lint_top_nodes(PetriSession *session);
+// Reads the windows of the frame, to report nodes and attributes that are ignored in them. A limit that this exceeds is
+// reported only when the windows are drawn.
+void session_lint_windows(PetriSession *session);
 
 // Text output to a callback of the host, in chunks (text_sink.c).
 typedef struct TextSink {

@@ -117,15 +117,64 @@ for diagnostic in "4:13: warning: !path: '!elipse' is not supported; ignored; di
     "25:10: warning: cannot include 'gone.fl'"; do
     check "check finds $diagnostic" count_is err "nodes.fl:$diagnostic" 1
 done
-check "check gives no other diagnostics" last_line_is err "petri: 1 file checked: 0 errors, 14 warnings"
+check "check gives no other diagnostics" last_line_is err "petri: 1 file checked: 0 errors, 15 warnings"
 petri run --frames 2 nodes.fl
 check "a run also reports a misspelled node at the top" count_is err "did you mean '!physics'?" 1
 
-# Other top-level nodes are valid, and so are nodes that only Flitter draws.
-printf '!outer\n!windows3d\n!key\n!rect\n!window\n    !bloom\n        !canvas3d\n' >others.fl
-petri check --werror others.fl
-check "nodes without effect are not an error" status_is 0
-check "nodes without effect give only the summary" lines_are err 1
+# Every node or attribute that is ignored is reported once, with place and reason, by all commands alike.
+cat >ignored.fl <<'END'
+!osc
+!foo
+!pointer state=:p
+!rect size=frame
+!window size=8;8 vsync=true fullscreen=false
+    !video filename="sea.mp4"
+    !physics state=:x dimensions=1
+    !canvas dither=true
+        !rect size=3 foo=3
+            !bar
+    !shader fragment="% if x" vertex="""
+  <%include file='a.glsl'/>"""
+    !shader fragment="""${HEADER}
+        out vec4 color;
+        void main() { color = vec4(float(7 % 3)); }"""
+!physics state=:y
+!physics state=:z dimensions=2
+    !particle id=1
+        !foo
+    !drag
+        !particle
+    !rect
+!counter state=:c
+    !drag
+END
+cat >expected <<'END'
+1:1: warning: '!osc' is not supported; ignored [unsupported-node]
+2:1: warning: '!foo' does nothing [unknown-node]
+3:1: warning: '!pointer' does nothing at the top level; it belongs in '!window' [misplaced-node]
+4:1: warning: '!rect' does nothing at the top level; it belongs in '!canvas' [misplaced-node]
+5:18: warning: !window: attribute 'vsync' is ignored [ignored-attribute]
+6:5: warning: !window: '!video' is not supported; ignored [unsupported-node]
+7:5: warning: !window: '!physics' has no effect here; ignored; it belongs at the top level [misplaced-node]
+8:13: warning: !canvas: attribute 'dither' is ignored [ignored-attribute]
+9:22: warning: !rect: unknown attribute 'foo' [unknown-attribute]
+10:13: warning: !rect: '!bar' is not supported; ignored [unknown-node]
+11:13: warning: !shader: no template is supported except '${HEADER}' [bad-shader]
+11:31: warning: !shader: no template is supported except '${HEADER}' [bad-shader]
+16:1: warning: !physics state=:y: attribute 'dimensions' is missing or null; the system is skipped [invalid-system]
+19:9: warning: !particle id=1: '!foo' is not supported; ignored [unknown-node]
+21:9: warning: !drag: '!particle' has no effect here; ignored; it belongs in '!physics' [misplaced-node]
+22:5: warning: !rect: unknown inside !physics; the node is ignored; it belongs in '!canvas' [unknown-node]
+24:5: warning: !counter state=:c: '!drag' has no effect here; ignored; it belongs in '!physics' [misplaced-node]
+END
+for command in check "run --frames 3" "render -o out.png --frames 3"; do
+    petri $command ignored.fl
+    grep '^ignored' err | sort -t: -k2n -k3n | sed 's/^ignored.fl://' >reported
+    check "$command reports everything that is ignored, once" cmp expected reported
+done
+printf '!outer a=1\n!windows3d\n' >output.fl
+petri check --werror output.fl
+check "without a window, unknown nodes are output" status_is 0
 
 # Systems are read but not simulated. Ten million steps would take minutes.
 cat >slow.fl <<'END'
@@ -158,7 +207,7 @@ cat >order.fl <<'END'
 END
 petri check order.fl
 check "diagnostics come in the order of the text" [ "$(grep -o '^order.fl:[0-9]*' err | tr '\n' ' ')" = \
-    "order.fl:3 order.fl:4 order.fl:6 " ]
+    "order.fl:3 order.fl:4 order.fl:4 order.fl:6 " ]
 
 # Optional definitions.
 printf '!window size=RECORD or 5\n' >optional.fl

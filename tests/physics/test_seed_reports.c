@@ -85,10 +85,10 @@ static void test_names(void **state) {
     for (int i = 0; i < 2; i++)
         assert_null(strstr(world.reported[i].text, "did you mean"));
     world_close(&world);
-    // Nodes outside of systems are not reported.
+    // Nodes in the wrong place are reported.
     world_open(&world, 1, "!particle raduis=1\n!canvas size=1\n!window\n !physics\n");
     world_to(&world, 2);
-    EXPECT_REPORTED(&world, "");
+    EXPECT_REPORTED(&world, "misplaced-node misplaced-node misplaced-node");
     world_close(&world);
 }
 

@@ -81,9 +81,11 @@ static void test_unknown_attributes_are_reported(void **state) {
                            "!particle? [unknown-node]\n"},
         {"!qqqqqqqq", "warning !qqqqqqqq: unknown inside !physics; the node is ignored [unknown-node]\n"},
         {"!physics state=:t dimensions=1",
-         "warning !physics state=:t: unknown inside !physics; the node is ignored [unknown-node]\n"},
+         "warning !physics state=:t: unknown inside !physics; the node is ignored; it belongs at the top level "
+         "[unknown-node]\n"},
         {"!counter state=:c",
-         "warning !counter state=:c: unknown inside !physics; the node is ignored [unknown-node]\n"},
+         "warning !counter state=:c: unknown inside !physics; the node is ignored; it belongs at the top level "
+         "[unknown-node]\n"},
         {"!group anything=3 strength='x'", ""}, // attributes of groups are ignored
         {"!group\n        !drag x=1", "warning !drag: unknown attribute 'x' [unknown-attribute]\n"},
     };
@@ -126,7 +128,7 @@ static void test_ids(void **state) {
 static void test_skipped_systems(void **state) {
     Player *player = *state;
     static const char *const rows[][2] = {
-        {"state=:s", "state=:s: dimensions must be at least 1"},
+        {"state=:s", "state=:s: attribute 'dimensions' is missing or null; the system is skipped"},
         {"state=:s dimensions=0.9", "state=:s: dimensions must be at least 1"},
         {"state=:s dimensions=0/0", "state=:s: dimensions must be at least 1"},
         {"state=:s dimensions=1/0", "state=:s: dimensions must be at most 1000000000"},
