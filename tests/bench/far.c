@@ -141,7 +141,7 @@ int main(int argc, char **argv) {
     print_row(2000, 0.5, true);
     print_row(10000, 0.5, true);
     if (!quick) {
-        print_row(100000, 0.57, true);
+        print_row(100000, 0.6, true);
         print_row(100000, 0.9, true);
         print_row(1000000, 0.6, false);
     }
