@@ -69,6 +69,22 @@ static int check_archives(Check *check, const CommandContext *host, Counts *coun
     return status;
 }
 
+// Adds paths that could not be read to the report. Messages on standard error have already named them.
+static void report_unreadable(Check *check) {
+    const TextList *unreadable = &check->options->unreadable;
+    check->report.incomplete = unreadable->count > 0;
+    for (size_t i = 0; check->report.form != REPORT_TEXT && i < unreadable->count; i++)
+        report_add(&check->report, &(PetriDiagnostic){.level = PETRI_ERROR,
+                                                      .file = unreadable->items[i],
+                                                      .line = 1,
+                                                      .column = 1,
+                                                      .text = "cannot read this file or folder",
+                                                      .code = "cannot-read",
+                                                      .hint = "",
+                                                      .end_line = 1,
+                                                      .end_column = 1});
+}
+
 static int check_all(Check *check, const CommandContext *host) {
     const Options *options = check->options;
     Counts counts = {0};
@@ -78,21 +94,24 @@ static int check_all(Check *check, const CommandContext *host) {
     if (status != OPTIONS_READ)
         return status;
     uint64_t errors = counts.errors, warnings = counts.warnings;
-    message("%zu file%s checked: %" PRIu64 " error%s, %" PRIu64 " warning%s", options->scripts.count,
-            options->scripts.count == 1 ? "" : "s", errors, errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
-    bool clean = counts.rejected == 0 && errors == 0 && !options->unreadable && !(options->werror && warnings > 0);
+    if (options->scripts.count > 0)
+        message("%zu file%s checked: %" PRIu64 " error%s, %" PRIu64 " warning%s", options->scripts.count,
+                options->scripts.count == 1 ? "" : "s", errors, errors == 1 ? "" : "s", warnings,
+                warnings == 1 ? "" : "s");
+    report_unreadable(check);
+    bool clean =
+        counts.rejected == 0 && errors == 0 && options->unreadable.count == 0 && !(options->werror && warnings > 0);
     int result = clean ? STATUS_DONE : STATUS_FAILED;
     return check->report.form == REPORT_TEXT ? result : report_end(&check->report, result);
 }
 
 static int check_run(const CommandContext *host, Options *options) {
-    if (options->scripts.count > 0)
+    if (options->scripts.count > 0 || options->unreadable.count > 0)
         return check_all(&(Check){.options = options,
                                   .shown_last = options->verbosity != LOG_QUIET,
                                   .report = {.form = (ReportForm)options->report}},
                          host);
-    if (!options->unreadable)
-        message("no script found: no file is named *.fl");
+    message("no script found: no file is named *.fl");
     return STATUS_FAILED;
 }
 

@@ -69,7 +69,9 @@ static void frame_sarif(const Report *report, Text *out) {
         petri_version());
     for (size_t i = 0; i < report->codes.count; i++)
         text_add_format(out, "%s{\"id\": \"%s\"}", i == 0 ? "" : ", ", report->codes.items[i]);
-    text_add_c(out, "]}},\n    \"columnKind\": \"unicodeCodePoints\",\n    \"results\": [");
+    text_add_format(out, "]}},\n    \"invocations\": [{\"executionSuccessful\": %s}],\n",
+                    report->incomplete ? "false" : "true");
+    text_add_c(out, "    \"columnKind\": \"unicodeCodePoints\",\n    \"results\": [");
     text_add(out, text_str(&report->text));
     text_add_c(out, "\n    ]\n  }]\n}\n");
 }

@@ -10,7 +10,8 @@ typedef struct Report {
     ReportForm form;
     Text text;
     size_t count;
-    TextList codes; // distinct codes of the diagnostics so far; SARIF lists them as rules
+    bool incomplete; // true if a file was not checked
+    TextList codes;  // distinct codes of the diagnostics so far; SARIF lists them as rules
 } Report;
 
 void report_add(Report *report, const PetriDiagnostic *diagnostic);

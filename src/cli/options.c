@@ -237,7 +237,8 @@ static bool read_operand(const Args *args) {
     if (command->accepts_many && is_stdin) {
         scripts_add(&options->scripts, args->value);
     } else if (command->accepts_many) {
-        options->unreadable = !scripts_find(&options->scripts, args->value) || options->unreadable;
+        if (!scripts_find(&options->scripts, args->value))
+            texts_add(&options->unreadable, args->value);
     } else if (options->script && command->accepts_two && !options->second) {
         options->second = args->value;
         return true;
@@ -300,6 +301,7 @@ void options_free(Options *options) {
     texts_free(&options->metrics);
     texts_free(&options->read_folders);
     texts_free(&options->write_folders);
+    texts_free(&options->unreadable);
     scripts_free(&options->scripts);
     petri_archive_close(&options->replayed);
 }

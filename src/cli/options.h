@@ -22,10 +22,10 @@ typedef struct Options {
 #include "cli/option_list.h"
 #undef FIELD
 #undef OPTION
-    const char *script; // the last operand; NULL: none
-    const char *second; // the operand after `script`, for commands that accept two; NULL: none
-    ScriptList scripts; // scripts in the operands, for commands that accept several; sorted
-    bool unreadable;    // true if a path could not be read
+    const char *script;  // the last operand; NULL: none
+    const char *second;  // the operand after `script`, for commands that accept two; NULL: none
+    ScriptList scripts;  // scripts in the operands, for commands that accept several; sorted
+    TextList unreadable; // paths that could not be read
     const char *(*read)(void *host, const char *path, size_t *length);    // PetriOptions.read_file; NULL: none
     const char *(*unsaved)(void *host, const char *path, size_t *length); // PetriOptions.read_unsaved; NULL: none
     void *unsaved_host;                                                   // first argument of both functions

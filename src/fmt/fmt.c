@@ -71,7 +71,7 @@ static void format_script(Formatting *formatting, const char *name) {
 static int fmt_run(const CommandContext *host, Options *options) {
     Formatting formatting = {.only_checks = options->only_checks};
     if (options->scripts.count == 0) {
-        if (!options->unreadable)
+        if (options->unreadable.count == 0)
             message("no script found: no file is named *.fl");
         return STATUS_FAILED;
     }
@@ -88,7 +88,8 @@ static int fmt_run(const CommandContext *host, Options *options) {
         message("%zu file%s: %zu %s, %zu unchanged", count, count == 1 ? "" : "s", formatting.changed,
                 formatting.only_checks ? "unformatted" : "formatted", count - formatting.changed);
     }
-    bool good = formatting.failed == 0 && !options->unreadable && !(formatting.only_checks && formatting.changed > 0);
+    bool good =
+        formatting.failed == 0 && options->unreadable.count == 0 && !(formatting.only_checks && formatting.changed > 0);
     return good ? STATUS_DONE : STATUS_FAILED;
 }
 

@@ -191,7 +191,7 @@ static bool write_junit(const Suite *suite) {
 }
 
 static int run_suite(Suite *suite) {
-    if (suite->options->scripts.count == 0 && suite->options->unreadable)
+    if (suite->options->scripts.count == 0 && suite->options->unreadable.count > 0)
         return STATUS_FAILED;
     suite->cases = memory_calloc(suite->options->scripts.count * sizeof *suite->cases);
     for (size_t i = 0; i < suite->options->scripts.count; i++)
@@ -207,7 +207,7 @@ static int run_suite(Suite *suite) {
         passed += suite->cases[i].result.passed ? 1 : 0;
     output_format(&suite->output, "%zu passed, %zu failed\n", passed, suite->count - passed);
     bool reported = !suite->options->junit || write_junit(suite);
-    return passed == suite->count && reported && !suite->options->unreadable ? STATUS_DONE : STATUS_FAILED;
+    return passed == suite->count && reported && suite->options->unreadable.count == 0 ? STATUS_DONE : STATUS_FAILED;
 }
 
 static void free_suite(Suite *suite) {

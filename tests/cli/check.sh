@@ -231,11 +231,18 @@ check "JSON output gives start and end in characters" has out '{"file": "codes.f
 check "JSON output has a null hint if there is no hint" has out '"hint": null'
 petri check --format=json clean.fl
 check "JSON output is an empty array for a clean script" [ "$(cat out)" = "[]" ]
+petri check --format=json none.fl
+check "JSON output reports a file that cannot be read" has out '{"file": "none.fl", "level": "error", "code": "cannot-read"'
+check "a file that cannot be read fails with --format as well" status_is 1
+petri check --format=sarif none.fl clean.fl
+check "SARIF output reports a file that cannot be read" has out '"ruleId": "cannot-read"'
+check "SARIF output says that not all files were checked" has out '"executionSuccessful": false'
 cp codes.fl "co\"d es.fl"
 petri check --format=sarif "co\"d es.fl" clean.fl
 check "--format sarif prints a log of version 2.1.0" has out '"version": "2.1.0"'
 check "SARIF output lists the rules" has out '"rules": [{"id": "unbound-name"}, {"id": "string-arithmetic"}'
 check "SARIF output gives positions by URI" has out '{"artifactLocation": {"uri": "co%22d%20es.fl"}, "region": {"startLine": 1, "startColumn": 7, "endLine": 1, "endColumn": 10}}'
+check "SARIF output says that all files were checked" has out '"executionSuccessful": true'
 check "SARIF output with warnings exits with 0" status_is 0
 petri check --format=json --werror codes.fl
 check "--werror makes warnings fail with --format as well" status_is 1
