@@ -131,7 +131,8 @@ PETRI_API const char *petri_archive_read(void *archive, const char *name, size_t
 // Begins a replay in a session that was opened for the archive (petri_archive_read) and has no script yet. Loads the
 // nearest keyframe at or before `frame`, or the first one, and computes no frame, so that petri_tree and petri_system
 // return nothing before the next step. petri_step then computes the recorded frames with their recorded inputs and
-// times. After the last recorded frame, the run continues without recorded input. Returns PETRI_INVALID, with
+// times. After the last recorded frame, the run continues without recorded input. You can use petri_rewind during a
+// replay; values of petri_set_global are not part of snapshots. Returns PETRI_INVALID, with
 // petri_archive_problem or a diagnostic, if the archive is damaged. Call it again to go to another keyframe.
 PETRI_API PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int64_t frame);
 

@@ -88,7 +88,7 @@ struct PetriArchive {
     uint32_t keyframe_count;
     uint32_t keyframe_capacity;
     int64_t recorded_end; // last recorded frame; less than 0: none
-    int64_t replay_start; // keyframe from which the replay has started
+    bool at_keyframe;     // the session has the state of a keyframe, which was loaded since the last frame
     int64_t replay_frame; // frame that is replayed; selects versions of files
     char *strings[8];     // results of petri_archive_info and petri_archive_parameter
 };

@@ -130,12 +130,12 @@ static PetriStatus before_frame(void *user_data, FrameClock *clock, bool *has_cl
     const ArchiveKeyframe *keyframe = find_keyframe(archive, frame);
     if (archive_fails(archive))
         return PETRI_INVALID;
-    if (keyframe && keyframe->given && keyframe->frame == frame && frame != archive->replay_start) {
+    if (keyframe && keyframe->given && keyframe->frame == frame && !archive->at_keyframe) {
         PetriStatus status = restore_keyframe(archive, archive->session, frame);
         if (status != PETRI_OK)
             return status;
-        archive->replay_start = frame;
     }
+    archive->at_keyframe = false;
     archive->replay_frame = frame + 1;
     recorder_ignore_input(archive->session, false);
     if (frame >= archive->recorded_end)
@@ -145,6 +145,11 @@ static PetriStatus before_frame(void *user_data, FrameClock *clock, bool *has_cl
     PetriStatus status = apply_inputs(archive, frame + 1, clock);
     recorder_ignore_input(archive->session, true);
     return status;
+}
+
+// Another state was loaded: if a keyframe with a given state follows its frame, the next frame begins with that one.
+static void after_jump(void *user_data) {
+    ((PetriArchive *)user_data)->at_keyframe = false;
 }
 
 PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int64_t frame) {
@@ -157,9 +162,11 @@ PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int
     }
     recorder_set(session, NULL);
     archive->session = session;
-    archive->replay_start = keyframe->frame;
     PetriStatus status = restore_keyframe(archive, session, keyframe->frame);
-    recorder_set(session, &(Recorder){.user_data = archive, .before_frame = before_frame, .ignores_input = true});
+    archive->at_keyframe = true;
+    recorder_set(
+        session,
+        &(Recorder){.user_data = archive, .before_frame = before_frame, .jump = after_jump, .ignores_input = true});
     return status;
 }
 

@@ -3,6 +3,7 @@
 // callbacks are wrapped here.
 #include "cli/link_work.h"
 #include "cli/particles.h"
+#include "petri-archive.h"
 #include "petri-draw.h"
 #include "petri-edit.h"
 #include "petri-inspect.h"
@@ -36,7 +37,9 @@ static bool should_interrupt(void *user_data) {
 
 // Opens a session. `memory` and `stack` are limits in bytes, and `work` is the work limit of each call. A value of 0
 // means the default.
-EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack, bool keep_forces) {
+// If `archive` is not NULL, the session reads the files of that archive.
+EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack, bool keep_forces,
+       PetriArchive *archive) {
     PetriOptions options = petri_default_options();
     options.fps = fps > 0 ? fps : options.fps;
     options.memory_limit = memory > 0 ? (size_t)memory : options.memory_limit;
@@ -46,9 +49,51 @@ EXPORT(PetriSession *, web_open, double fps, double memory, double work, double 
     options.keep_forces = keep_forces;
     options.rollback_frames = true;
     options.on_diagnostic = on_diagnostic;
-    options.read_file = read_file;
+    options.read_file = archive ? petri_archive_read : read_file;
+    options.read_user_data = archive;
     options.should_interrupt = should_interrupt;
     return petri_open(&options);
+}
+
+// Opens the archive whose database is open in JavaScript.
+EXPORT(PetriArchive *, web_archive_open, double memory) {
+    return petri_archive_open("", (size_t)memory);
+}
+
+EXPORT(void, web_archive_close, PetriArchive *archive) {
+    petri_archive_close(&archive);
+}
+
+EXPORT(bool, web_archive_info, PetriArchive *archive) {
+    PetriArchiveInfo info;
+    if (!petri_archive_info(archive, &info, sizeof info))
+        return false;
+    host_archive(info.script, info.command, info.version, info.sha256, (double)info.first_frame,
+                 (double)info.last_frame);
+    return true;
+}
+
+// Passes each version of each file to host_archived_file, except removed files.
+EXPORT(void, web_archive_files, PetriArchive *archive) {
+    PetriArchiveFile file;
+    for (size_t i = 0; petri_archive_file(archive, i, &file, sizeof file); i++)
+        if (file.bytes)
+            host_archived_file(file.name, (double)file.frame, file.bytes, file.length);
+}
+
+EXPORT(PetriStatus, web_archive_load, PetriArchive *archive, PetriSession *session, double frame) {
+    return petri_archive_load(archive, session, (int64_t)frame);
+}
+
+// Compares the current frame of a replay with the archive. Returns 0 if the archive has no digest of it, 1 if it is the
+// same, and 2 if it differs.
+EXPORT(int, web_archive_compare, PetriArchive *archive, PetriSession *session) {
+    uint8_t recorded[16], computed[16];
+    bool has_digest = petri_archive_digest(archive, petri_frame_number(session), recorded);
+    bool differs = petri_archive_keyframe_differs(archive) ||
+                   (has_digest &&
+                    (petri_digest(session, computed) != PETRI_OK || memcmp(recorded, computed, sizeof recorded) != 0));
+    return differs ? 2 : has_digest;
 }
 
 EXPORT(void, web_close, PetriSession *session) {

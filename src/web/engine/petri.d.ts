@@ -45,6 +45,8 @@ export interface Options {
     keepForces?: boolean;
     /** Files that scripts can read and import, by name. Scripts cannot access any other files. */
     files?: Record<string, string | Uint8Array>;
+    /** The archive that the session replays: it reads its files. Call `archive.load` after opening the session, and close the session first. */
+    archive?: Archive;
     onDiagnostic?: (diagnostic: Diagnostic) => void;
     /**
      * Polled about every ten microseconds during calls that may take long. Return true to end the call with the status
@@ -64,6 +66,58 @@ export interface Engine {
      */
     onContextChange: ((lost: boolean) => void) | null;
     open(options?: Options): Session;
+    /**
+     * Opens an archive that `petri run --archive` has written. `database` is an object of sql.js: `new SQL.Database(bytes)`; close it after
+     * the archive. Throws an error if it is not an archive. `memory` limits the size of its files in bytes (default: 1 GiB).
+     */
+    openArchive(database: Database, options?: { memory?: number }): Archive;
+}
+
+/** The functions of a database of sql.js that the engine calls. */
+export interface Database {
+    exec(sql: string): { values: unknown[][] }[];
+    run(sql: string): unknown;
+    prepare(sql: string): {
+        bind(values: number[]): unknown;
+        step(): boolean;
+        get(values: null, options: { useBigInt: boolean }): unknown[];
+        reset(): unknown;
+        free(): unknown;
+    };
+}
+
+export interface ArchiveInfo {
+    /** File name of the first script. */
+    script: string;
+    /** Command line that created the archive; "": unknown. */
+    command: string;
+    /** Version of petri that created the archive. */
+    version: string;
+    /** The digest of the run. */
+    sha256: string;
+    firstFrame: number;
+    lastFrame: number;
+}
+
+/** An archive of a run, which a session replays. */
+export interface Archive {
+    readonly info: ArchiveInfo;
+    /** Versions of all files; `frame` is the first frame that used the version. */
+    readonly files: { name: string; frame: number; bytes: Uint8Array }[];
+    /** The first problem while the archive was read; null: none. */
+    readonly problem: string | null;
+    /** Reads all rows and computes the digest of the run. Returns the problem if the archive is damaged. */
+    check(): string | null;
+    /**
+     * Loads the nearest keyframe at or before a frame, by default the first one, into a session that was opened for this archive. The
+     * session's `step` then computes the recorded frames with their inputs, and later frames without.
+     */
+    load(session: Session, frame?: number): void;
+    /** Compares the current frame with the archive. Returns null if the archive has no digest of it. */
+    compare(session: Session): boolean | null;
+    /** Ends the replay: the session continues without recorded input. */
+    endReplay(): void;
+    close(): void;
 }
 
 export interface Frame {

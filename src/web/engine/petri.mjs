@@ -1,5 +1,7 @@
 // petri.mjs: petri sessions for JavaScript, which load a script, step it and read values. petri.d.ts documents types and calls; otherwise
 // the contracts of petri.h apply.
+import { Archive, Statements } from './archive.mjs';
+import { callEngine } from './call.mjs';
 import { LEVELS, SECTIONS, STATUSES, TOKENS } from './constants.mjs';
 import { drawPicture, needsEngine, pictureSize } from './drawing.mjs';
 import { pixelContext, readPixels } from './pixels.mjs';
@@ -39,7 +41,7 @@ class Engine {
         this.module = module;
         this.session = null; // the session of the current call
         this.paint = null; // draws the paint of the current filter (pixels.mjs)
-        const text = at => this.memory.text(at);
+        const text = at => this.memory.text(at), statements = new Statements();
         const now = () => this.session;
         this.memory = instantiate(module, {
             write: (at, length) => now().written.push(this.memory.text(at, length)),
@@ -80,6 +82,26 @@ class Engine {
             draw: (numbers, count, width, height, pixels) => now().drawCanvas(numbers, count, width, height, pixels),
             image: (name, width, height) => now().imagePixels(text(name), width, height),
             paint: (commands, count, pixels) => this.paint(this.memory.numbers(commands, count).slice(), pixels),
+            archive: (script, command, version, sha256, firstFrame, lastFrame) =>
+                now().taken.push({
+                    script: text(script), command: text(command), version: text(version), sha256: text(sha256), firstFrame, lastFrame,
+                }),
+            archived_file: (name, frame, at, length) =>
+                now().taken.push({ name: text(name), frame, bytes: this.memory.bytes().slice(at, at + length) }),
+            sql_prepare: sql => statements.prepare(now().database, text(sql)),
+            sql_finalize: number => statements.finalize(number),
+            sql_bind: (number, parameter, value) => statements.bind(number, parameter, value),
+            sql_step: number => statements.step(number),
+            sql_reset: number => statements.reset(number),
+            sql_type: (number, column) => statements.type(number, column),
+            sql_integer: (number, column, at) => this.memory.setLong(at, statements.integer(number, column)),
+            sql_bytes: (number, column, length) => {
+                const bytes = statements.bytes(number, column), ended = new Uint8Array(bytes.length + 1);
+                ended.set(bytes);
+                const at = this.memory.keep(ended); // which can move the memory
+                this.memory.setWord(length, bytes.length);
+                return at;
+            },
             token: (kind, start, end) => now().taken.push({ kind: TOKENS[kind], start, end }),
             help: (kind, name, parameters, defaultValue, unit, help) =>
                 now().taken.push({
@@ -101,19 +123,25 @@ class Engine {
     open(options = {}) {
         return new Session(this, options);
     }
+
+    openArchive(database, { memory = MEMORY } = {}) {
+        return new Archive(this, database, memory);
+    }
 }
 
 export class Session {
     constructor(engine,
         {
-            fps = 0, memory = MEMORY, work = CALL_WORK, keepForces = false, files = {}, image = () => null, onDiagnostic,
-            shouldInterrupt,
+            fps = 0, memory = MEMORY, work = CALL_WORK, keepForces = false, files = {}, archive = null, image = () => null,
+            onDiagnostic, shouldInterrupt,
         } = {}) {
         this.engine = engine;
         this.memory = engine.memory;
         this.onDiagnostic = onDiagnostic;
         this.shouldInterrupt = shouldInterrupt;
         this.image = image;
+        this.archive = archive;
+        this.database = archive?.database; // for the functions host_sql_...
         this.painter = null; // null: not opened yet; 0: not available
         this.context = 0; // the WebGL context of the painter (Screen.context)
         this.followed = null; // the last rendered picture, if later pictures depend on it
@@ -125,7 +153,7 @@ export class Session {
         this.told = [];
         for (const [name, content] of Object.entries(files))
             this.setFile(name, content);
-        this.handle = this.run(wasm => wasm.web_open(fps, memory, work, STACK, keepForces ? 1 : 0));
+        this.handle = this.run(wasm => wasm.web_open(fps, memory, work, STACK, keepForces ? 1 : 0, archive?.handle ?? 0));
         if (!this.handle)
             throw new RangeError('cannot open a session: out of memory or invalid options');
     }
@@ -148,32 +176,17 @@ export class Session {
             this.files.set(name, { bytes: typeof content === 'string' ? new TextEncoder().encode(content) : content, at: 0 });
     }
 
-    // Makes a call of the engine; all calls are made here. After an exception the state of the engine is undefined, so the engine is not
-    // used again. Only calls that can report an interruption may be interrupted.
     run(act, mayInterrupt = false) {
-        if (this.engine.broken)
-            throw this.engine.broken;
-        const outer = this.engine.session;
-        this.engine.session = this;
-        this.mayInterrupt = mayInterrupt;
-        this.told = [];
-        this.written = [];
-        this.taken = [];
-        try {
-            return act(this.memory.wasm);
-        } catch (error) {
-            this.engine.broken = new Error(`the engine crashed: ${error.message}`, { cause: error });
-            throw this.engine.broken;
-        } finally {
-            this.engine.session = outer;
-        }
+        return callEngine(this, act, mayInterrupt);
     }
 
     // Like run, for calls that return a status. Throws a PetriError unless the status is 'ok'.
     check(what, act) {
         const status = STATUS[this.run(act, true)];
-        if (status !== 'ok')
-            throw new PetriError(status, this.told, what);
+        if (status !== 'ok') {
+            const { told } = this, problem = status === 'invalid' ? this.archive?.problem : null;
+            throw new PetriError(status, problem ? [{ level: 'error', rendered: problem }] : told, what);
+        }
         return this;
     }
 

@@ -75,6 +75,7 @@ export function instantiate(module, host) {
         floats: (at, length) => new Float32Array(wasm.memory.buffer, at, length),
         words: (at, length) => new Int32Array(wasm.memory.buffer, at, length),
         word: at => new DataView(wasm.memory.buffer).getUint32(at, true),
+        setLong: (at, value) => new DataView(wasm.memory.buffer).setBigInt64(at, value, true),
         setWord: (at, value) => new DataView(wasm.memory.buffer).setUint32(at, value, true),
     };
     const screen = new Screen(memory);

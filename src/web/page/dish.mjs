@@ -110,6 +110,19 @@ export class Dish {
         return true;
     }
 
+    // Replays an archive, and returns its script, or null on failure.
+    async replay(bytes) {
+        this.running = false;
+        const answer = await this.attempt('archive', { bytes });
+        if (!answer)
+            return null;
+        const { text, name } = answer.script;
+        Object.assign(this, { loaded: text, name, incomplete: false });
+        this.host.loaded?.();
+        this.show(answer);
+        return answer.script;
+    }
+
     // Loads a script and goes to a frame. Returns null on failure. On success, returns an object: `digest` is the digest of the state, or
     // its hash, if the argument with the same name is not null; `same` is true if it equals the argument.
     async open(text, name, { changes = [], frame = 0, digest = null, hash = null } = {}) {

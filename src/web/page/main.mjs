@@ -38,6 +38,7 @@ const host = {
             document.title = answer.picture.title ? `${answer.picture.title} · petri` : 'petri';
         if (left.length)
             say(unsupportedText(answer, left), answer.picture.lost);
+        showVerification(answer.verification);
         document.body.dataset.frame = answer.frame;
         look();
     },
@@ -55,6 +56,15 @@ const host = {
         say('');
     },
 };
+
+// Shows if the frame of an archive is the recorded one.
+function showVerification(found) {
+    const mark = $('verified'), differs = found?.differs ?? null;
+    mark.hidden = !found;
+    mark.className = differs !== null ? 'error' : '';
+    mark.textContent = !found ? '' : differs !== null ? `✗ frame ${differs} differs from the archive`
+        : `${found.same ? '✓ this frame is the recorded one' : 'this frame was not recorded'}; ${found.verified} of ${found.of} verified`;
+}
 
 // Updates the panels, at most five times a second while the script runs.
 let looking = 0;
@@ -141,9 +151,25 @@ async function openLink() {
 
 const stem = () => name.replace(/\.fl$/, '');
 
+// Replays an archive. Its script is shown in the editor; running a changed script ends the replay.
+async function openArchive(file) {
+    const script = await dish.replay(new Uint8Array(await file.arrayBuffer()));
+    if (!script)
+        return;
+    name = script.name;
+    keeper.begin();
+    opening = true;
+    editor.text = script.text;
+    opening = false;
+    dish.run();
+}
+
 // Adds scripts and the files that they read. Opens the script that no other script refers to. If there is no such script, restarts the
 // current script if it uses the files.
 async function takeFiles(files) {
+    const archive = [...files].find(file => file.name.endsWith('.petri'));
+    if (archive)
+        return openArchive(archive);
     for (const file of files)
         await dish.addFile(file.name, new Uint8Array(await file.arrayBuffer()));
     await dish.giveFiles();

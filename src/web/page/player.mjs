@@ -16,22 +16,67 @@ export class Player {
 
     // Opens a new session for a script, before frame 0. If loading fails, throws the error and keeps the current session.
     load(text, name, changes = []) {
-        const session = this.engine.open({ ...this.options, files: this.files });
-        try {
+        this.replace({ files: this.files }, text, name, changes, session => {
             for (const [frame, parameter, value] of changes)
                 if (frame < 0)
                     session.define(`${parameter}=${value}`);
             session.load(text, name);
+        });
+    }
+
+    // Opens a new session that replays an archive, like `load`. On success, the player closes the archive and its database.
+    replay(archive, text) {
+        const { script, firstFrame, lastFrame } = archive.info;
+        this.replace({ archive }, text, script, [], session => archive.load(session));
+        Object.assign(this, { archive, first: firstFrame, frame: firstFrame - 1, lastFrame, recordedEnd: lastFrame, replays: true });
+    }
+
+    replace(options, text, name, changes, load) {
+        const session = this.engine.open({ ...this.options, ...options });
+        try {
+            load(session);
         } catch (error) {
             session.close();
             throw error;
         }
         this.forget(-2);
         this.session?.close();
+        this.archive?.close();
+        this.archive?.database.close();
         Object.assign(this, {
-            session, text, name, keyframes: [], every: EVERY, frame: -1, lastFrame: -1, torn: false, lacksHistory: false,
+            session, text, name, keyframes: [], every: EVERY, first: 0, frame: -1, lastFrame: -1, torn: false, lacksHistory: false,
+            archive: null, recordedEnd: -1, replays: false, verified: new Set(), differing: new Set(),
         });
         this.setChanges(changes);
+    }
+
+    endReplay() {
+        this.archive.endReplay();
+        this.replays = false;
+    }
+
+    // Ends the replay after the current frame, so that later frames have no recorded input and are not compared.
+    cutReplay() {
+        this.endReplay();
+        this.recordedEnd = Math.min(this.recordedEnd, this.frame);
+        for (const frames of [this.verified, this.differing])
+            frames.forEach(frame => frame > this.frame && frames.delete(frame));
+    }
+
+    // Compares the frame that was just computed with the archive.
+    verify() {
+        const same = this.frame <= this.recordedEnd ? this.archive.compare(this.session) : null;
+        if (same !== null)
+            (same ? this.verified : this.differing).add(this.frame);
+    }
+
+    // The result of the comparison: `same` is that of the current frame, null if it is not known.
+    get verification() {
+        const { frame, first, verified, differing } = this;
+        return this.archive && {
+            same: differing.has(frame) ? false : verified.has(frame) ? true : null, verified: verified.size,
+            of: this.archive.info.lastFrame - first + 1, differs: differing.size ? Math.min(...differing) : null,
+        };
     }
 
     // Stores the changes as a list and in a map from frames to changes. A link may have thousands of changes and a million frames, so
@@ -60,6 +105,10 @@ export class Player {
         this.torn = false;
         this.frame++;
         this.lastFrame = Math.max(this.lastFrame, this.frame);
+        if (this.archive)
+            this.verify();
+        if (this.replays && this.frame === this.recordedEnd && this.frame < this.archive.info.lastFrame)
+            this.endReplay();
         this.watches.see(this);
         const later = this.changesAt.get(this.frame) ?? [];
         for (const [, name, value] of later)
@@ -106,14 +155,21 @@ export class Player {
 
     // Goes to a frame. To go back, restores the last keyframe before the frame and steps from there, so that the frame's tree is computed.
     // Takes at most `most` steps, and ends after a step if `ends` returns true. Returns false if the frame is not reached yet.
-    seek(frame, most = Infinity, ends = () => false) {
+    seek(wanted, most = Infinity, ends = () => false) {
+        const frame = Math.max(wanted, this.first);
         if (frame < this.frame || (frame === this.frame && (this.torn || this.lacksHistory))) {
             // If pictures depend on earlier pictures, all of them are rendered again from the first.
-            const key = this.needsHistory ? null : this.keyframes.findLast(other => other.frame < frame);
+            // After the end of a replay, its frames need their recorded input again, which only the archive can load.
+            const usable = key => key.frame < frame && (this.replays || key.frame >= this.recordedEnd);
+            const key = this.needsHistory ? null : this.keyframes.findLast(usable);
             const end = this.lastFrame;
             if (key) {
                 this.session.rewind(key.snapshot);
                 this.frame = key.frame;
+            } else if (this.archive) {
+                this.archive.load(this.session, this.needsHistory ? -1 : Math.min(frame, this.recordedEnd) - 1);
+                this.frame = this.session.frame.number;
+                this.replays = true;
             } else {
                 const { text, name, changes, keyframes } = this;
                 this.keyframes = [];
@@ -129,6 +185,8 @@ export class Player {
 
     // Changes a parameter for the next and all later frames. Frees later keyframes.
     set(name, value) {
+        if (this.archive)
+            this.cutReplay();
         this.session.setParameter(name, value);
         const before = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));
         this.setChanges([...before, [this.frame, name, value]]);

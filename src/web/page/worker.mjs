@@ -24,7 +24,7 @@ function shown(extra = {}) {
     return {
         type: 'frame', frame: player.frame, lastFrame: player.lastFrame, time: session.frame.time, fps: session.frame.fps,
         picture: picture(player.automatic), log: player.frame >= 0 ? session.log() : '', parameters: session.parameters,
-        told: take(), ...extra,
+        verification: player.verification, told: take(), ...extra,
     };
 }
 
@@ -62,6 +62,30 @@ const acts = {
         player.step();
         // The picture in this answer does not show the particles at their positions; pictures do so from frame 2 on.
         return shown({ loaded: true });
+    },
+    // Replays an archive, whose bytes are in `bytes`.
+    async archive({ bytes }) {
+        const { openDatabase } = await import(new URL('./sqlite.js', import.meta.url));
+        const database = openDatabase(bytes);
+        let archive = null;
+        try {
+            archive = engine.openArchive(database);
+            const problem = archive.check(), { files, info } = archive;
+            if (problem)
+                throw new Error(`cannot read the archive: ${problem}`);
+            for (const file of files)
+                await addImage(images, file.name, file.bytes);
+            const script = files.find(({ name }) => name === info.script);
+            player.replay(archive, script ? new TextDecoder().decode(script.bytes) : '');
+        } catch (error) {
+            archive?.close();
+            database.close();
+            throw error;
+        }
+        watches.forget(-1);
+        player.automatic = false;
+        player.step();
+        return shown({ script: { text: player.text, name: player.name } });
     },
     step({ count }) {
         for (let i = 0; i < count; i++)

@@ -73,6 +73,59 @@ static void test_replay_goes_to_other_frames(void **state) {
     petri_archive_close(&archive);
 }
 
+static void step_to(PetriSession *session, int frame) {
+    while (petri_frame_number(session) < frame) {
+        assert_int_equal(petri_step(session), PETRI_OK);
+        check_frame(session, (int)petri_frame_number(session));
+    }
+}
+
+// The host can go back to snapshots of a replay, also to those before and at a keyframe with a given state (-1 and 43).
+// Snapshots do not have the values of globals that the host sets, such as that of frame 12.
+static void test_replay_continues_after_rewinds(void **state) {
+    (void)state;
+    const int frames[] = {-1, 12, 19, 24, 42, 43, 44, 50};
+    enum { COUNT = sizeof frames / sizeof frames[0] };
+    PetriSnapshot *snapshots[COUNT];
+    PetriArchive *archive = open_archive("run.petri");
+    PetriSession *session = run_open_replay(archive);
+    assert_int_equal(petri_archive_load(archive, session, -1), PETRI_OK);
+    for (int i = 0; i < COUNT; i++) {
+        step_to(session, frames[i]);
+        snapshots[i] = petri_snapshot(session);
+        assert_non_null(snapshots[i]);
+    }
+    for (int i = COUNT - 1; i >= 0; i--) {
+        assert_int_equal(petri_rewind(session, snapshots[i]), PETRI_OK);
+        step_to(session, RUN_FRAMES - 1);
+        petri_snapshot_free(snapshots[i]);
+    }
+    petri_reset(session);
+    step_to(session, 5);
+    petri_close(&session);
+    petri_archive_close(&archive);
+}
+
+// After the end of a replay, frames have no recorded input: in frame 8 the recording has another N.
+static void test_session_continues_after_the_end_of_a_replay(void **state) {
+    (void)state;
+    PetriArchive *archive = open_archive("run.petri");
+    PetriSession *session = run_open_replay(archive);
+    PetriParameter n;
+    for (int ends = 0; ends < 2; ends++) {
+        assert_int_equal(petri_archive_replay(archive, session, 6), PETRI_OK);
+        if (ends)
+            petri_archive_end_replay(archive);
+        for (int i = 0; i < 4; i++)
+            assert_int_equal(petri_step(session), PETRI_OK);
+        assert_true(petri_parameter(session, 0, &n, sizeof n));
+        assert_string_equal(n.value, ends ? "6" : "9");
+    }
+    petri_close(&session);
+    petri_archive_close(&archive);
+    petri_archive_end_replay(NULL);
+}
+
 static void test_replay_computes_the_requested_frame(void **state) {
     (void)state;
     PetriArchive *archive = open_archive("run.petri");
@@ -267,6 +320,8 @@ int main(void) {
         cmocka_unit_test(test_replay_computes_recorded_frames),
         cmocka_unit_test(test_replay_starts_at_any_frame),
         cmocka_unit_test(test_replay_goes_to_other_frames),
+        cmocka_unit_test(test_replay_continues_after_rewinds),
+        cmocka_unit_test(test_session_continues_after_the_end_of_a_replay),
         cmocka_unit_test(test_replay_computes_the_requested_frame),
         cmocka_unit_test(test_archive_is_intact),
         cmocka_unit_test(test_archive_has_versions_of_files),
