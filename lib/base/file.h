@@ -38,7 +38,7 @@ const char *file_replace(const char *path, Str bytes, unsigned flags);
 // returns the reason.
 const char *file_finish(Replacement *replacement, Str bytes) PRIVATE_API(file_finish);
 // Calls openat with O_CLOEXEC and O_NOCTTY, and retries if interrupted by a signal. `folder` may be AT_FDCWD.
-int file_open_at(int folder, const char *name, int flags, mode_t mode);
+int file_open_at(int folder, const char *name, int flags, mode_t mode) PRIVATE_API(file_open_at);
 // Writes all bytes to an open file. On failure returns false with errno set.
 bool file_write(int file, const char *bytes, size_t len);
 // Truncates a file to `len` bytes. On failure returns false with errno set.

@@ -37,4 +37,4 @@ _Noreturn void heap_exhausted(void);
 char *heap_strndup(const char *bytes, size_t length) PRIVATE_API(heap_strndup);
 // Ensures that the heap array *array can hold at least count + 1 elements of `size` bytes each. Updates *capacity if
 // the array grows. Returns false, with nothing changed, if out of memory.
-bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
+bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size) PRIVATE_API(heap_reserve);

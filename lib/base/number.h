@@ -11,7 +11,7 @@
 enum { NUMBER_TEXT = 40 }; // size in bytes of a buffer for any formatted number
 
 // Writes the shortest decimal that parses as the same double (spec language.md L18.1). Returns its length.
-size_t number_format(double x, char text[NUMBER_TEXT]);
+size_t number_format(double x, char text[NUMBER_TEXT]) PRIVATE_API(number_format);
 // Appends that decimal.
 void text_add_number(Text *text, double x);
 // Writes nine significant digits like C's "%.9g", but every NaN as "nan" (L6.2). Returns the length.

@@ -96,6 +96,6 @@ bool utf8_is_control(int32_t code_point);
 // Writes 1 to 4 bytes and returns how many. The code point must be at most 0x10FFFF.
 size_t utf8_encode(uint32_t code_point, char bytes[UTF8_MAX]);
 // Returns the offset of the first ill-formed byte, or text.len.
-size_t utf8_find_error(Str text);
+size_t utf8_find_error(Str text) PRIVATE_API(utf8_find_error);
 // Returns the number of code points. Each ill-formed byte counts as one.
 size_t utf8_length(Str text);

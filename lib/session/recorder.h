@@ -30,42 +30,42 @@ typedef struct Recorder {
 } Recorder;
 
 // Sets the callbacks of a session; NULL removes them. Copies the struct.
-void recorder_set(PetriSession *session, const Recorder *recorder);
+void recorder_set(PetriSession *session, const Recorder *recorder) PRIVATE_API(recorder_set);
 
 // --- for archives that are written
 
 // Sets *text to a keyframe's setup. It is valid until the next call that uses the session.
-PetriStatus recorder_write_setup(PetriSession *session, Str *text);
+PetriStatus recorder_write_setup(PetriSession *session, Str *text) PRIVATE_API(recorder_write_setup);
 // Sets *text to the configuration, which is a part of the setup. Valid like a setup.
-PetriStatus recorder_write_configuration(PetriSession *session, Str *text);
+PetriStatus recorder_write_configuration(PetriSession *session, Str *text) PRIVATE_API(recorder_write_configuration);
 // Sets *text to the state of a keyframe. Valid like a setup.
-PetriStatus recorder_write_state(PetriSession *session, Str *text);
+PetriStatus recorder_write_state(PetriSession *session, Str *text) PRIVATE_API(recorder_write_state);
 
 // Reports the text of the loaded script as a file that was read. After petri_rewind and petri_config_apply, it can
 // differ from the text that was read last.
-void recorder_report_script(PetriSession *session);
+void recorder_report_script(PetriSession *session) PRIVATE_API(recorder_report_script);
 // Returns true if a script is loaded.
-bool recorder_has_script(const PetriSession *session);
+bool recorder_has_script(const PetriSession *session) PRIVATE_API(recorder_has_script);
 // Reads all files of the loaded script again and compiles it, so that they are reported. Returns the statuses of
 // petri_reload.
-PetriStatus recorder_read_again(PetriSession *session);
+PetriStatus recorder_read_again(PetriSession *session) PRIVATE_API(recorder_read_again);
 // Reads a file that a script names, so that it is reported. If it cannot be read, that is reported.
-void recorder_read_file(PetriSession *session, Str name);
+void recorder_read_file(PetriSession *session, Str name) PRIVATE_API(recorder_read_file);
 // Returns the file name of the loaded script, without its folder. Valid until the next load.
-const char *recorder_script_name(const PetriSession *session);
+const char *recorder_script_name(const PetriSession *session) PRIVATE_API(recorder_script_name);
 
 // --- for archives that are read
 
 // Loads a keyframe into a session that has no script yet, or that has replayed earlier frames of the same recording.
 // Returns PETRI_INVALID if the texts are not valid, or after a diagnostic.
-PetriStatus recorder_restore(PetriSession *session, Str setup, Str state);
+PetriStatus recorder_restore(PetriSession *session, Str setup, Str state) PRIVATE_API(recorder_restore);
 // Gives an input to the session. Kinds are "configuration", "pointer", "key", "state" and "global". Returns
 // PETRI_INVALID for the same reasons as recorder_restore.
-PetriStatus recorder_apply_input(PetriSession *session, Str kind, Str payload);
+PetriStatus recorder_apply_input(PetriSession *session, Str kind, Str payload) PRIVATE_API(recorder_apply_input);
 // Sets Recorder.ignores_input.
-void recorder_ignore_input(PetriSession *session, bool ignores);
+void recorder_ignore_input(PetriSession *session, bool ignores) PRIVATE_API(recorder_ignore_input);
 // Returns the number of functions that the host added, which a recording cannot contain.
-uint32_t recorder_host_functions(const PetriSession *session);
+uint32_t recorder_host_functions(const PetriSession *session) PRIVATE_API(recorder_host_functions);
 
 // --- for the session, which calls them after the events
 

@@ -25,12 +25,14 @@ install "$(debs petri)"
 petri new dish
 petri run dish.fl --frames 10 --print hash --every 9
 petri render dish.fl -o dish.png --frames 1 --quiet
+petri run dish.fl --frames 10 --archive dish.petri
+petri verify dish.petri | grep -q '^verified: 10 of 10'
 head -c 8 dish.png | grep -q PNG
 petri help sin | grep -q Sine
 [ -s /usr/share/bash-completion/completions/petri ]
 echo "petri runs, draws and shows help"
 # shellcheck disable=SC2046 # file names without spaces
-install $(debs libpetri0.3) $(debs libpetri-draw0.3) $(debs libpetri-dev) gcc libc6-dev pkg-config
+install $(debs libpetri0.3) $(debs libpetri-draw0.3) $(debs libpetri-archive0.3) $(debs libpetri-dev) gcc libc6-dev pkg-config
 sed -n '/^```c where.c$/,/^```$/p' /root/petri/README.md | sed '1d;$d' >where.c
 # shellcheck disable=SC2046 # options are words
 cc where.c -o where $(pkg-config --cflags --libs petri)
@@ -45,9 +47,12 @@ import petri
 session = petri.Session("samples/petri.fl", CELLS=20)
 session.step(10)
 assert session.systems["cells"].position.shape == (21, 2)
+with session.archive("run.petri"):
+    session.step(10)
+petri.Archive("run.petri").verify()
 assert session.picture(20, 20).pixels.shape == (20, 20, 4)
 END
 echo "python3-petri works"
-apt-get -qqy purge petri libpetri0.3 libpetri-draw0.3 >install.log 2>&1
+apt-get -qqy purge petri libpetri0.3 libpetri-draw0.3 libpetri-archive0.3 >install.log 2>&1
 [ ! -e /usr/bin/petri ] && [ ! -e /usr/share/petri ]
 echo "the packages can be removed"

@@ -1,7 +1,7 @@
 """The cffi definition of petri._petri: the declarations of the public headers, and a few C functions.
 
 The environment variable PETRI_HEADERS is the folder of the headers, and PETRI_LIBRARIES contains the linker's
-arguments. Without these variables, pkg-config finds an installed libpetri-draw.
+arguments. Without these variables, pkg-config finds installed libraries.
 """
 
 import os
@@ -14,7 +14,7 @@ import cffi
 
 
 def pkg_config(option):
-    words = subprocess.run(["pkg-config", option, "petri-draw"], check=True, stdout=subprocess.PIPE, text=True)
+    words = subprocess.run(["pkg-config", option, "petri-draw", "petri-archive"], check=True, stdout=subprocess.PIPE, text=True)
     return shlex.split(words.stdout)
 
 
@@ -37,13 +37,11 @@ else:
     headers = subprocess.run(["pkg-config", "--variable=includedir", "petri-draw"], check=True, stdout=subprocess.PIPE,
                              text=True).stdout.strip()
 
-# libpetri-archive is not installed, so only a build of the whole project has it.
-archives = ["petri-archive.h"] if "PETRI_ARCHIVES" in os.environ else []
 here = Path(__file__).parent
 ffi = cffi.FFI()
 ffi.cdef("".join(declarations(Path(headers) / name)
                  for name in ("petri.h", "petri-edit.h", "petri-inspect.h", "petri-live.h", "petri-ranks.h",
-                              "petri-draw.h", *archives)))
+                              "petri-draw.h", "petri-archive.h")))
 helpers = (here / "helpers.h").read_text(encoding="utf-8")
 ffi.cdef(re.sub(r"^#.*\n", "", helpers, flags=re.M))
 ffi.cdef("""
@@ -55,7 +53,7 @@ ffi.cdef("""
 ffi.set_source(
     "petri._petri",
     helpers + (here / "helpers.c").read_text(encoding="utf-8"),
-    extra_compile_args=compile_args + ["-DPETRI_ARCHIVES"] * len(archives) + ["-std=c17", "-D_XOPEN_SOURCE=700", "-fvisibility=hidden"],
+    extra_compile_args=compile_args + ["-std=c17", "-D_XOPEN_SOURCE=700", "-fvisibility=hidden"],
     extra_link_args=link_args,
 )
 

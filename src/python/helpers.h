@@ -1,9 +1,7 @@
 // helpers.h: functions for the Python module that combine several calls of libpetri. They run without the GIL.
 #pragma once
 
-#ifdef PETRI_ARCHIVES
 #include "petri-archive.h"
-#endif
 #include "petri-draw.h"
 #include "petri-edit.h"
 #include "petri-inspect.h"

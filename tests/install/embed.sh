@@ -80,6 +80,61 @@ cc draws.c -o draws_static $(pkg-config --cflags --static --libs petri-draw |
     sed -e 's/-lpetri-draw/-l:libpetri-draw.a/' -e 's/-lpetri /-l:libpetri.a /') >out 2>&1
 check "a program with the static libpetri-draw and libpetri links" [ $? -eq 0 ]
 check "a program with the static libraries draws like petri" as_rendered ./draws_static "$2"
+# Records ten frames, then replays them. Exits with 2 if this build has no SQLite.
+cat >archives.c <<'EOF'
+#include <petri-archive.h>
+#include <petri-inspect.h>
+#include <stdio.h>
+#include <string.h>
+int main(int argc, char **argv) {
+    uint8_t recorded[16] = {1}, computed[16] = {0};
+    PetriOptions options = petri_default_options();
+    PetriSession *session = petri_open(&options);
+    PetriArchive *archive = argc == 3 ? petri_archive_create(session, argv[2], NULL) : NULL;
+    if (petri_archive_problem(archive))
+        return puts(petri_archive_problem(archive)), 2;
+    if (!archive || petri_load(session, argv[1]) != PETRI_OK)
+        return 1;
+    for (int frame = 0; frame < 10; frame++)
+        if (petri_step(session) != PETRI_OK)
+            return 1;
+    if (petri_archive_complete(archive) != PETRI_OK)
+        return 1;
+    petri_archive_close(&archive);
+    petri_close(&session);
+    archive = petri_archive_open(argv[2], 0);
+    options.read_file = petri_archive_read;
+    options.read_user_data = archive;
+    session = petri_open(&options);
+    if (petri_archive_check(archive) != PETRI_OK || petri_archive_replay(archive, session, 9) != PETRI_OK)
+        return 1;
+    bool same = petri_archive_digest(archive, 9, recorded) && petri_digest(session, computed) == PETRI_OK &&
+                memcmp(recorded, computed, sizeof recorded) == 0;
+    petri_close(&session);
+    petri_archive_close(&archive);
+    return !same;
+}
+EOF
+# archives PROGRAM: succeeds if PROGRAM replays its archive and petri verifies it, or if this build has no SQLite.
+archives() {
+    rm -f own.petri
+    "$1" "$dish" own.petri >out 2>&1
+    status=$?
+    if [ $status -eq 2 ]; then has out "built without SQLite"; else
+        [ $status -eq 0 ] && "$prefix/bin/petri" verify own.petri | grep -q '^verified: 10 of 10 frames'
+    fi
+}
+# shellcheck disable=SC2046 # options are words
+cc archives.c -o archives $(pkg-config --cflags --libs petri-archive) >out 2>&1
+check "a program with libpetri-archive links" [ $? -eq 0 ]
+check "a program with libpetri-archive records and replays" archives ./archives
+LC_ALL=C readelf -d archives | grep -o '\[lib\(petri\|sqlite\).*' | sort | xargs >out
+check "a program with libpetri-archive uses both shared libraries" [ "$(cat out)" = "[libpetri-archive.so.0.3] [libpetri.so.0.3]" ]
+# shellcheck disable=SC2046 # options are words
+cc archives.c -o archives_static $(pkg-config --cflags --static --libs petri-archive |
+    sed -e 's/-lpetri-archive/-l:libpetri-archive.a/' -e 's/-lpetri /-l:libpetri.a /') >out 2>&1
+check "a program with the static libpetri-archive and libpetri links" [ $? -eq 0 ]
+check "a program with the static libraries records and replays" archives ./archives_static
 if command -v cmake >/dev/null; then
     cat >CMakeLists.txt <<'EOF'
 cmake_minimum_required(VERSION 3.16)
@@ -89,11 +144,14 @@ add_executable(app app.c)
 target_link_libraries(app petri::petri)
 add_executable(draws draws.c)
 target_link_libraries(draws petri::draw)
+add_executable(archives archives.c)
+target_link_libraries(archives petri::archive)
 EOF
     { cmake -S . -B cmake -DCMAKE_PREFIX_PATH="$prefix" && cmake --build cmake; } >out 2>&1
     check "CMake builds programs with libpetri and libpetri-draw" [ $? -eq 0 ]
     check "the program that CMake built runs" [ "$(env -u LD_LIBRARY_PATH cmake/app)" = "$version" ]
     check "the program that CMake built draws like petri" as_rendered ./cmake/draws "$2"
+    check "the program that CMake built records and replays" archives ./cmake/archives
     sed -i 's/petri 0.3/petri 0.2/' CMakeLists.txt
     cmake -S . -B cmake >out 2>&1
     check "CMake rejects another minor version" has out 'requested version "0.2"'

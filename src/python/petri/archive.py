@@ -37,12 +37,6 @@ def _text(pointer: Any) -> str:
     return ffi.string(pointer).decode("utf-8", "replace")
 
 
-def _function(name: str) -> Any:
-    if not hasattr(lib, name):
-        raise ArchiveError("this module was built without archives; use the module that ./dev package --wheel builds")
-    return getattr(lib, name)
-
-
 def _take(pointer: Any, session: Any = None) -> Any:
     """Returns the handle of an archive, which is closed before `session`."""
     if not pointer:
@@ -60,7 +54,7 @@ class Recording:
     """An archive that is being written: the result of Session.archive. Use it in a `with` block, or call close."""
 
     def __init__(self, session: Any, path: Union[str, os.PathLike], keyframe_every: int, digest_every: int):
-        create = _function("petri_archive_create")
+        create = lib.petri_archive_create
         options = ffi.new("PetriArchiveOptions *")
         lib.petri_archive_options_init(options, ffi.sizeof(options[0]))
         options.keyframe_every = keyframe_every
@@ -90,7 +84,7 @@ class Archive:
     """An archive of a run: `petri.Archive("run.petri").session(100)` is a session in frame 100 of it."""
 
     def __init__(self, path: Union[str, os.PathLike], memory_limit: int = 0):
-        self._c = _take(_function("petri_archive_open")(os.fsencode(path), memory_limit))
+        self._c = _take(lib.petri_archive_open(os.fsencode(path), memory_limit))
         _check(self._c)
 
     @property
