@@ -33,7 +33,8 @@ const tried = spawnSync(petri, ['repl', 'live.fl'], {
     cwd: scratch, encoding: 'utf8',
     input: '.archive live.petri\n.step 30\n.set N 7\nlet k=2\n!counter state=:q rate=k\n.step 20\n.tempo 90\n.step 9\n.back 12\n.step 16\n',
 });
-const missing = tried.error || !existsSync(live) ? 'petri writes no archives' : !existsSync(join(folder, 'sql-wasm.wasm')) ? 'no sql.js' : false;
+const missing = tried.error || !existsSync(live) ? 'petri writes no archives'
+    : !existsSync(join(folder, 'sql-wasm.wasm')) ? 'no sql.js' : false;
 const node = { skip: missing }, browser = { ...options, skip: options.skip || missing };
 const { loadEngine } = missing ? {} : await import(pathToFileURL(join(folder, 'petri/petri.mjs')));
 const SQL = missing ? null : await createRequire(join(root, 'src/web/page/build.mjs'))('sql.js')();

@@ -45,7 +45,7 @@ export interface Options {
     keepForces?: boolean;
     /** Files that scripts can read and import, by name. Scripts cannot access any other files. */
     files?: Record<string, string | Uint8Array>;
-    /** The archive that the session replays: it reads its files. Call `archive.load` after opening the session, and close the session first. */
+    /** The archive whose files the session reads, to replay it with `archive.load`. Close the session before the archive. */
     archive?: Archive;
     onDiagnostic?: (diagnostic: Diagnostic) => void;
     /**
