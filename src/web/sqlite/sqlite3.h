@@ -22,7 +22,7 @@ enum { SQLITE_INTEGER = 1, SQLITE_FLOAT, SQLITE_TEXT, SQLITE_BLOB, SQLITE_NULL }
 enum { SQLITE_UTF8 = 1, SQLITE_PREPARE_PERSISTENT = 1 };
 #define SQLITE_STATIC NULL
 
-// Names of options, which have no effect here: sql.js opens a copy of the database in its own memory.
+// Names of options, which have no effect here: sql.js works on a copy of the database, in memory.
 enum {
     SQLITE_OPEN_READONLY = 1,
     SQLITE_OPEN_READWRITE = 2,
