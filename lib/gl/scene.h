@@ -31,7 +31,8 @@ typedef struct SceneLight {
 
 // The properties that determine the triangles of a model.
 typedef struct SceneModel {
-    uint64_t source; // for a `!model`: hash of its file's name and version, or of its vectors; for other kinds: 0
+    uint64_t source; // for a `!model`: hash of its file's name and version, or of its vectors;
+                     // for a solid: hash of its members; for other kinds: 0
     double snap;
     uint32_t segments;
     uint8_t kind; // NodeKind
@@ -39,6 +40,7 @@ typedef struct SceneModel {
     uint8_t remap;
     bool flat;
     bool invert;
+    bool repair;
     bool disc;            // for a sphere: drawn as a disc that faces the camera (sphere_impostor.h)
     const DrawNode *node; // one of the nodes that have this model
 } SceneModel;
@@ -134,6 +136,11 @@ struct Mesh;
 bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, struct Mesh *mesh);
 // Returns a hash of the data from which the triangles of a `!model` are created. The hash is never 0.
 uint64_t scene_model_hash(const Scene *scene, const DrawNode *node);
+// Returns the properties that a node gives its model. Reports a number of segments that is too large.
+SceneModel scene_model(const Scene *scene, const DrawNode *node);
+// Creates the triangles of a model other than a solid, as they are before `flat` and the following attributes change
+// them.
+bool scene_triangles(const Scene *scene, const SceneModel *model, Arena *arena, struct Mesh *mesh);
 bool scene_same_model(const SceneModel *a, const SceneModel *b);
 // Copies the lights of a group and its parents to `lights`, and returns the number of copied lights, which is at most
 // `max`.

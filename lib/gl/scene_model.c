@@ -3,7 +3,7 @@
 #include "base/source.h"
 #include "gl/effect.h"
 #include "gl/scene.h"
-#include "gl/scene_mesh.h"
+#include "gl/scene_solid.h"
 
 static uint64_t hash_list(uint64_t seed, const DrawNode *node, AttrName name) {
     const AttrValue *attr = draw_attr(node, name);
@@ -26,8 +26,8 @@ uint64_t scene_model_hash(const Scene *scene, const DrawNode *node) {
 
 bool scene_same_model(const SceneModel *a, const SceneModel *b) {
     return a->kind == b->kind && a->segments == b->segments && a->source == b->source && a->flat == b->flat &&
-           a->invert == b->invert && a->disc == b->disc && a->remap == b->remap && a->uv_map == b->uv_map &&
-           a->snap == b->snap;
+           a->invert == b->invert && a->repair == b->repair && a->disc == b->disc && a->remap == b->remap &&
+           a->uv_map == b->uv_map && a->snap == b->snap;
 }
 
 static bool read_file(const Scene *scene, const DrawNode *node, Str name, Arena *arena, Mesh *mesh) {
@@ -65,7 +65,7 @@ static bool read_triangles(const Scene *scene, const DrawNode *node, Arena *aren
     return false;
 }
 
-bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, Mesh *mesh) {
+bool scene_triangles(const Scene *scene, const SceneModel *model, Arena *arena, Mesh *mesh) {
     *mesh = (Mesh){.vertices = NULL};
     if (model->kind == KIND_MODEL && !read_triangles(scene, model->node, arena, mesh))
         return false;
@@ -75,11 +75,18 @@ bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, Mesh 
                 : model->kind == KIND_SPHERE   ? mesh_sphere(arena, model->segments)
                 : model->kind == KIND_CYLINDER ? mesh_cylinder(arena, model->segments)
                                                : mesh_cone(arena, model->segments);
-    if (mesh->index_count == 0)
+    return mesh->index_count > 0;
+}
+
+bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, Mesh *mesh) {
+    bool solid = scene_is_solid((NodeKind)model->kind);
+    if (!(solid ? scene_solid_mesh(scene, model->node, arena, mesh) : scene_triangles(scene, model, arena, mesh)))
         return false;
+    if (model->repair)
+        scene_repair_mesh(arena, mesh);
     if (model->flat || model->snap == 0)
         mesh_flat(arena, mesh);
-    else if (model->snap < 0.5)
+    else if (model->snap < 0.5 || solid || model->repair)
         mesh_snap(arena, mesh, model->snap);
     if (model->invert)
         mesh_invert(mesh);

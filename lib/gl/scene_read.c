@@ -2,7 +2,7 @@
 #include "base/source.h"
 #include "gl/effect.h"
 #include "gl/scene.h"
-#include "gl/scene_mesh.h"
+#include "gl/scene_solid.h"
 #include "maths/maths.h"
 
 #include <math.h>
@@ -241,8 +241,7 @@ static void read_camera(Scene *scene, const InheritedState *place, const DrawNod
     }
 }
 
-// Returns the index of a node's model in the scene. If there are too many models, reports this and returns UINT32_MAX.
-static uint32_t number_model(Scene *scene, const DrawNode *node) {
+SceneModel scene_model(const Scene *scene, const DrawNode *node) {
     NodeKind kind = (NodeKind)node->kind;
     SceneModel model = {.kind = node->kind,
                         .node = node,
@@ -252,14 +251,23 @@ static uint32_t number_model(Scene *scene, const DrawNode *node) {
                         .remap = (uint8_t)draw_word(node, ATTR_UV_REMAP)};
     if (kind == KIND_BOX) {
         model.uv_map = (uint8_t)draw_word(node, ATTR_UV_MAP);
+    } else if (scene_is_solid(kind)) {
+        model.source = scene_solid_hash(scene, node);
     } else if (kind == KIND_MODEL) {
         model.source = scene_model_hash(scene, node);
+        model.repair = draw_flag(node, ATTR_REPAIR);
     } else {
         double segments = draw_number(node, ATTR_SEGMENTS);
         if (segments > MESH_MAX_SEGMENTS)
             scene_report(scene, "too-many-segments", node, "the number of segments is limited to 1024");
         model.segments = (uint32_t)clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MAX_SEGMENTS);
     }
+    return model;
+}
+
+// Returns the index of a node's model in the scene. If there are too many models, reports this and returns UINT32_MAX.
+static uint32_t number_model(Scene *scene, const DrawNode *node) {
+    SceneModel model = scene_model(scene, node);
     for (uint32_t i = scene->model_count; i-- > 0;)
         if (scene_same_model(&scene->models[i], &model))
             return i;

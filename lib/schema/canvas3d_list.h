@@ -61,20 +61,26 @@
     ATTR(kind, FOG_CURVE, AMOUNT, TO_GRAPHICS3D(fog_curve), IS(1), "", "the fraction of fog is raised to the power 1/fog_curve") \
     ATTR(kind, MONOCHROME, FLAG, TO_GRAPHICS3D(monochrome), IS(false), "", "render in grey") \
     ATTR(kind, TINT, TRIPLE, TO_GRAPHICS3D(tint), IS(1), "", "factor for all colours")
-#define SURFACE_ROWS(kind) \
+#define SURFACE_ROWS(kind, snap, snap_text) \
     ATTR(kind, FLAT, FLAG, NOWHERE, IS(false), "", "flat shading: each triangle has its own normal") \
-    ATTR(kind, SNAP_EDGES, AMOUNT, NOWHERE, DESCRIBED(0.5, "0.5"), "turns", "edges stay sharp where the normals of their faces differ by more than this; with 0.5, no edge is sharp") \
+    ATTR(kind, SNAP_EDGES, AMOUNT, NOWHERE, DESCRIBED(snap, snap_text), "turns", "edges stay sharp where the normals of their faces differ by more than this; with 0.5, no edge is sharp") \
     ATTR(kind, INVERT, FLAG, NOWHERE, IS(false), "", "turn the model inside out, so that its inside is visible") \
     ATTR(kind, UV_REMAP, UV_REMAP, NOWHERE, DESCRIBED(REMAP_NONE, "no remapping"), "", "how textures are mapped onto the model")
-#define MODEL_ROWS(kind) \
+#define PLACED_ROWS(kind, snap, snap_text) \
     ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "centre of the model") \
     ATTR(kind, ROTATION, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "turns", "rotation about z, then y, then x") \
     ATTR(kind, SIZE, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "scale along x, y and z") \
     ATTR(kind, START, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "start of the axis; ignored unless end is set") \
     ATTR(kind, END, TRIPLE, NOWHERE, NONE, "", "end of the axis; replaces position, rotation and size") \
     ATTR(kind, RADIUS, AMOUNT, NOWHERE, IS(1), "", "radius around the axis; ignored unless end is set") \
-    SURFACE_ROWS(kind) \
+    SURFACE_ROWS(kind, snap, snap_text) \
     MATERIAL_ROWS(kind)
+#define MODEL_ROWS(kind) PLACED_ROWS(kind, 0.5, "0.5")
+#define SOLID_ROWS(kind) PLACED_ROWS(kind, 0.05, "0.05")
+#define TRIM_ROWS(kind) \
+    ATTR(kind, ORIGIN, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "a point of the plane") \
+    ATTR(kind, NORMAL, TRIPLE, NOWHERE, NONE, "", "direction from the plane to the part that is cut away") \
+    SOLID_ROWS(kind)
 
 NODE(CANVAS3D, "canvas3d", PICTURE, SCENE3D, "a 3-D scene and its default camera: y up, z towards the camera")
 SOURCE_ROWS(CANVAS3D)
@@ -134,11 +140,30 @@ ATTR(MODEL, FILENAME, TEXT, NOWHERE, NONE, "", "")
 ATTR(MODEL, VERTICES, LIST, NOWHERE, NONE, "", "x;y;z;x;y;z…")
 ATTR(MODEL, FACES, LIST, NOWHERE, NONE, "", "indices of vertices, three per triangle, counter-clockwise (default: the convex hull)")
 ATTR(MODEL, UV, LIST, NOWHERE, NONE, "", "u;v for each vertex")
+ATTR(MODEL, REPAIR, FLAG, NOWHERE, IS(false), "", "join equal vertices, turn all triangles outwards and fill holes")
 MODEL_ROWS(MODEL)
+
+NODE(UNION, "union", SCENE3D, SCENE3D, "a solid: all models inside, joined")
+SOLID_ROWS(UNION)
+
+NODE(INTERSECT, "intersect", SCENE3D, SCENE3D, "a solid: what all models inside have in common")
+SOLID_ROWS(INTERSECT)
+
+NODE(DIFFERENCE, "difference", SCENE3D, SCENE3D, "a solid: the first model inside without the others")
+SOLID_ROWS(DIFFERENCE)
+
+NODE(TRIM, "trim", SCENE3D, SCENE3D, "a solid: the models inside, joined and cut off at a plane")
+TRIM_ROWS(TRIM)
+
+NODE(SLICE, "slice", SCENE3D, SCENE3D, "another name for trim")
+TRIM_ROWS(SLICE)
 
 #undef TRANSFORM3D_ROWS
 #undef MATERIAL_ROWS
 #undef GROUP3D_ROWS
 #undef CAMERA_ROWS
 #undef SURFACE_ROWS
+#undef PLACED_ROWS
 #undef MODEL_ROWS
+#undef SOLID_ROWS
+#undef TRIM_ROWS

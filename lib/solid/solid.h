@@ -37,10 +37,13 @@ SolidGrid solid_grid(const double low[3], const double high[3]);
 // must lie between the corners of the grid.
 bool solid_from_mesh(Arena *arena, const SolidGrid *grid, const double (*points)[3], uint32_t point_count,
                      const uint32_t *indices, uint32_t index_count, Solid *solid);
-// Closes the holes of a mesh: adds a triangle fan for each loop of edges that only one triangle has. Returns false if
-// the edges do not form loops.
-bool solid_fill_holes(Arena *arena, Solid *solid);
+// Turns the triangles of a mesh the same way round, outwards where they enclose a volume. Removes duplicate triangles,
+// and closes each hole whose edges form a loop with a fan of triangles. Returns whether the mesh is then closed.
+bool solid_repair(Arena *arena, Solid *solid);
+// Turns a solid that is inside out, so that its volume is positive.
+void solid_turn_outwards(Solid *solid);
 bool solid_is_closed(Arena *arena, const Solid *solid);
+// Computes the coordinates of a point in the mesh.
 void solid_coordinates(const SolidGrid *grid, const int32_t point[3], double out[3]);
 
 typedef enum SolidOperation { SOLID_UNION, SOLID_INTERSECTION, SOLID_DIFFERENCE } SolidOperation;

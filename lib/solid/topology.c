@@ -1,13 +1,9 @@
 // topology.c: see topology.h.
 #include "solid/topology.h"
 
-#include "solid/entries.h"
-
 #include <string.h>
 
-// The sides of all triangles, sorted by their ends. The bucket is the lower point. The key has the higher point and,
-// in the last bit, the direction: 0 from the lower to the higher point.
-static Entry *sorted_sides(Arena *arena, const Solid *solid) {
+Entry *sorted_sides(Arena *arena, const Solid *solid) {
     Entry *sides = arena_alloc_array(arena, 3 * (size_t)solid->face_count, sizeof *sides);
     for (uint32_t i = 0; i < solid->face_count; i++)
         for (uint32_t k = 0; k < 3; k++) {
@@ -76,12 +72,8 @@ static uint32_t *find_first(Arena *arena, const Solid *solid) {
     return first;
 }
 
-// Removes pairs of triangles with the same corners in opposite directions. Moves the remaining ones together.
-static void remove_opposites(Arena *arena, Solid *solid) {
-    ArenaMark mark = arena_mark(arena);
+Entry *sorted_faces(Arena *arena, const Solid *solid) {
     Entry *entries = arena_alloc_array(arena, solid->face_count, sizeof *entries);
-    bool *dead = arena_alloc_array(arena, solid->face_count, sizeof *dead);
-    memset(dead, 0, solid->face_count * sizeof *dead);
     for (uint32_t i = 0; i < solid->face_count; i++) {
         const uint32_t *face = solid->faces[i];
         uint32_t low = face[1] < face[0] ? 1 : 0;
@@ -93,6 +85,15 @@ static void remove_opposites(Arena *arena, Solid *solid) {
                              .value = i << 1 | odd};
     }
     entries_sort(arena, entries, solid->face_count, solid->point_count);
+    return entries;
+}
+
+// Removes pairs of triangles with the same corners in opposite directions. Moves the remaining ones together.
+static void remove_opposites(Arena *arena, Solid *solid) {
+    ArenaMark mark = arena_mark(arena);
+    const Entry *entries = sorted_faces(arena, solid);
+    bool *dead = arena_alloc_array(arena, solid->face_count, sizeof *dead);
+    memset(dead, 0, solid->face_count * sizeof *dead);
     for (uint32_t i = 0, end; i < solid->face_count; i = end) {
         uint32_t even = i;
         for (end = i;
@@ -143,58 +144,4 @@ Solid solid_weld(Arena *arena, const Solid *solid) {
         }
     arena_rewind(arena, mark);
     return welded;
-}
-
-// Returns the loops of open sides as a list: next[point] is the point after `point`, or UINT32_MAX. Returns NULL if a
-// point begins or ends several open sides.
-static uint32_t *open_sides(Arena *arena, const Solid *solid, uint32_t *count) {
-    uint32_t *next = arena_alloc_array(arena, solid->point_count, sizeof *next);
-    uint32_t *before = arena_alloc_array(arena, solid->point_count, sizeof *before);
-    memset(next, 0xff, solid->point_count * sizeof *next);
-    memset(before, 0xff, solid->point_count * sizeof *before);
-    const Entry *sides = sorted_sides(arena, solid);
-    *count = 0;
-    for (uint32_t i = 0, end; i < 3 * solid->face_count; i = end) {
-        int64_t sum = 0;
-        for (end = i; end < 3 * solid->face_count && sides[end].bucket == sides[i].bucket &&
-                      sides[end].key >> 1 == sides[i].key >> 1;
-             end++)
-            sum += sides[end].key & 1 ? -1 : 1;
-        // The missing triangle runs along the side in the opposite direction.
-        uint32_t low = sides[i].bucket, high = (uint32_t)(sides[i].key >> 1);
-        uint32_t from = sum > 0 ? high : low, to = sum > 0 ? low : high;
-        if (sum == 0)
-            continue;
-        if (sum > 1 || sum < -1 || next[from] != UINT32_MAX || before[to] != UINT32_MAX)
-            return NULL;
-        next[from] = to;
-        before[to] = from;
-        ++*count;
-    }
-    return next;
-}
-
-bool solid_fill_holes(Arena *arena, Solid *solid) {
-    uint32_t missing, made = solid->face_count;
-    uint32_t *next = open_sides(arena, solid, &missing);
-    if (!next)
-        return false;
-    uint32_t(*faces)[3] = arena_alloc_array(arena, (size_t)solid->face_count + missing, sizeof *faces);
-    memcpy(faces, solid->faces, solid->face_count * sizeof *faces);
-    for (uint32_t first = 0; first < solid->point_count; first++) {
-        if (next[first] == UINT32_MAX)
-            continue;
-        uint32_t at = next[first];
-        next[first] = UINT32_MAX;
-        while (at != first && next[at] != UINT32_MAX) {
-            uint32_t after = next[at];
-            next[at] = UINT32_MAX;
-            if (after != first)
-                memcpy(faces[made++], (uint32_t[3]){first, at, after}, sizeof *faces);
-            at = after;
-        }
-    }
-    solid->faces = faces;
-    solid->face_count = made;
-    return solid_is_closed(arena, solid);
 }

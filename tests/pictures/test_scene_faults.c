@@ -40,6 +40,26 @@ static const Row rows[] = {
      "6 [bad-model] !model: a model without faces can have at most 2000 vertices, which must not all lie in one plane\n"
      "7 [bad-model] !model: 'vertices' needs three numbers per vertex, 'faces' three per face and 'uv' two per "
      "vertex\n"},
+    {"solids of models that are not closed",
+     "        !union color=0;1;0 position=-1.5;0;0\n            !model vertices=0;0;0;1;0;0;0;1;0 faces=0;1;2\n"
+     "            !box size=0.5\n            !light color=1\n            !material\n                !box\n"
+     "        !model vertices=0;0;0;1;0;0;0;1;0;0;0;1 faces=0;2;1;0;1;3;0;3;2 repair=true color=0;1;0 "
+     "position=1.5;0;0\n",
+     "8 [misplaced-node] !light: has no effect inside a solid; ignored\n"
+     "9 [misplaced-node] !material: has no effect inside a solid; ignored\n"
+     "6 [open-model] !model: the model has holes, so it is drawn unchanged; 'repair=true' fills the holes\n"},
+    {"solids of which nothing is left",
+     "        !difference color=0;1;0 position=-1.5;0;0\n            !box\n            !box size=2\n"
+     "        !union\n        !trim color=0;1;0 position=1.5;0;0\n            !box\n"
+     "        !intersect\n            !box size=0/1\n            !sphere position=1e30\n"
+     "        !union\n            !model filename='none.obj' repair=true\n            !transform scale=1e300\n"
+     "                !box size=1e300\n",
+     "5 [empty-solid] !difference: nothing is left of the models inside\n"
+     "8 [empty-solid] !union: nothing is left of the models inside\n"
+     "9 [missing-attribute] !trim: 'normal' is missing; nothing is cut away\n"
+     "11 [empty-solid] !intersect: nothing is left of the models inside\n"
+     "15 [cannot-read] !model: cannot read 'none.obj': No such file or directory\n"
+     "14 [empty-solid] !union: nothing is left of the models inside\n"},
     {"missing textures", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
     {"textures that refer to each other",
      "        !camera id=:a secondary=true size=32;32\n        !camera id=:b secondary=true size=32;32\n"

@@ -126,7 +126,7 @@ static void test_open_mesh_is_not_closed(void **state) {
     assert_false(solid_from_mesh(arena, shape_grid(), (const double(*)[3])shape.points, shape.point_count,
                                  shape.indices, count, &solid));
     assert_int_equal(solid.face_count, count / 3);
-    assert_true(solid_fill_holes(arena, &solid));
+    assert_true(solid_repair(arena, &solid));
     assert_true(solid_is_closed(arena, &solid));
     int64_t parts;
     assert_int_equal(solid_euler(arena, &solid, &parts), 2);

@@ -1,0 +1,17 @@
+// scene_solid.h: solids, which are boolean operations on models (spec canvas3d.md 9).
+#pragma once
+
+#include "gl/scene.h"
+#include "gl/scene_mesh.h"
+
+static inline bool scene_is_solid(NodeKind kind) {
+    return kind == KIND_UNION || kind == KIND_INTERSECT || kind == KIND_DIFFERENCE || kind == KIND_TRIM ||
+           kind == KIND_SLICE;
+}
+
+// Returns a hash of everything that determines the triangles of a solid node. The hash is never 0.
+uint64_t scene_solid_hash(const Scene *scene, const DrawNode *node);
+// Creates the triangles of a solid node, without normals. Returns false, after a report, if there are none.
+bool scene_solid_mesh(const Scene *scene, const DrawNode *node, Arena *arena, Mesh *mesh);
+// Repairs the triangles of a `!model`. Its normals and texture coordinates are lost.
+void scene_repair_mesh(Arena *arena, Mesh *mesh);
