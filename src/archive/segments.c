@@ -175,7 +175,7 @@ static void *run_worker(void *context) {
         verification->failed = verification->failed || worker->failed;
         bool more = !verification->failed && verification->next < verification->chosen;
         size_t number = verification->next;
-        verification->next += more;
+        verification->next += more ? verification->stride : 0;
         verification->running -= !more;
         pthread_mutex_unlock(&verification->mutex);
         if (!more)
@@ -190,7 +190,7 @@ static void *run_worker(void *context) {
 
 static int64_t count_frames(const Verification *verification) {
     int64_t count = 0;
-    for (size_t i = 0; i < verification->chosen; i++)
+    for (size_t i = verification->next; i < verification->chosen; i += verification->stride)
         count += verification->segments[i].end - verification->segments[i].frame;
     return count;
 }
@@ -221,9 +221,10 @@ static bool start_worker(Worker *worker, size_t stack_bytes) {
     return worker->started;
 }
 
-bool segments_verify(Verification *verification) {
+void segments_verify(Verification *verification) {
     const size_t reserve = (size_t)1 << 20; // of the stack, for functions that are not limited by the script's limit
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    // mpirun starts one process per processor.
+    long processors = verification->context->channel ? 1 : sysconf(_SC_NPROCESSORS_ONLN);
     int64_t wanted = verification->options->threads > 0 ? verification->options->threads : processors;
     size_t count = wanted < 1 ? 1 : wanted > MAX_THREADS ? MAX_THREADS : (size_t)wanted;
     size_t per_segment = verification->chosen > 0 && count > verification->chosen ? count / verification->chosen : 1;
@@ -250,7 +251,6 @@ bool segments_verify(Verification *verification) {
             pthread_join(workers[i].thread, NULL);
     free(workers);
     pthread_mutex_destroy(&verification->mutex);
-    return !verification->failed;
 }
 
 void segments_free(Verification *verification) {

@@ -26,9 +26,10 @@ typedef struct Verification {
     size_t count;                   // number of segments in the archive
     size_t chosen;                  // number of segments that are verified
     size_t given;                   // number of keyframes that were given
+    size_t stride;                  // number of ranks, which verify every `stride`-th segment
     // Results, which `mutex` protects
     pthread_mutex_t mutex;
-    size_t next;          // number of the next segment
+    size_t next;          // number of the next segment of this rank
     size_t running;       // number of threads that have not ended
     int64_t frames;       // number of verified frames
     bool failed;          // true if a segment could not be computed
@@ -40,6 +41,6 @@ typedef struct Verification {
 
 // Chooses the segments: all, or `sample` random ones if it is positive.
 void segments_choose(Verification *verification, PetriArchive *archive, int64_t sample);
-// Verifies the segments. Returns false after a message if that is not possible.
-bool segments_verify(Verification *verification);
+// Verifies the segments of this rank. Sets verification->failed after a message if that is not possible.
+void segments_verify(Verification *verification);
 void segments_free(Verification *verification);

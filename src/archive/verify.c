@@ -1,5 +1,6 @@
 // verify.c: `petri verify`, which computes a run again and compares it with its archive.
 #include "archive/open.h"
+#include "archive/ranks.h"
 #include "archive/segments.h"
 #include "cli/output.h"
 #include "cli/script.h"
@@ -43,9 +44,14 @@ static int verify_archive(const CommandContext *context, const Options *options,
         message("cannot verify '%s': it has no frames", options->script);
         return STATUS_DAMAGED;
     }
-    Verification verification = {.context = context, .options = options, .file = options->script};
+    CommandContext alone = *context; // each rank computes its segments itself
+    alone.ranks = NULL;
+    Verification verification = {.context = &alone, .options = options, .file = options->script, .stride = 1};
     segments_choose(&verification, archive, options->sample_segments);
-    bool done = segments_verify(&verification);
+    ranks_divide(&verification);
+    segments_verify(&verification);
+    ranks_combine(&verification);
+    bool done = !verification.failed;
     int status = STATUS_DAMAGED;
     if (done && verification.differs)
         print_difference(&verification, output);
@@ -74,11 +80,13 @@ const Command VERIFY_COMMAND = {
     .summary = "compute an archived run again and compare every frame",
     .details =
         "Checks that an archive is not damaged, computes its run again and compares all recorded digests and states.\n"
-        "The frames between two keyframes are a segment; segments are verified in parallel. Exits with 0 if the run\n"
-        "is verified, 1 if a frame differs, and 2 if the archive is damaged or was made by a newer version of petri.",
+        "The frames between two keyframes are a segment; segments are verified in parallel. Under\n"
+        "mpirun, the processes share them. Exits with 0 if the run is verified, 1 if a frame differs, and 2 if the\n"
+        "archive is damaged or was made by a newer version of petri.",
     .examples = "  petri run dish.fl --archive run.petri    write an archive\n"
                 "  petri verify run.petri                   verify all frames\n"
-                "  petri verify run.petri --sample 5        verify five random segments\n",
+                "  petri verify run.petri --sample 5        verify five random segments\n"
+                "  mpirun -n 16 petri verify run.petri      divide the segments among 16 processes\n",
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",
     .second_operand_error = "too many arguments: '%s'; petri verify takes one archive",

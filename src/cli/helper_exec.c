@@ -21,6 +21,10 @@ enum { HAS_ALL = false };
 #endif
 
 bool helper_exec_is_pictures_command(const char *first) {
+#ifdef PETRI_RANKS
+    if (strcmp(first, "verify") == 0)
+        return false;
+#endif
     static const char *const words[] = {"view", "render",   "repl", "link",   "open", "verify",
                                         "info", "complete", "help", "--help", "-h"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)

@@ -10,7 +10,10 @@ const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND,   &RENDER_COMMA
                                    &CITE_COMMAND, &UNPACK_COMMAND, &NEW_COMMAND,    &HELP_COMMAND,   NULL};
 #elif defined PETRI_LSP
 const Command *const COMMANDS[] = {&LSP_COMMAND, NULL};
-#else // petri and petri-ranks: commands that never draw
+#elif defined PETRI_RANKS
+const Command *const COMMANDS[] = {&RUN_COMMAND, &SWEEP_COMMAND, &TEST_COMMAND, &DIFF_COMMAND,   &CHECK_COMMAND,
+                                   &FMT_COMMAND, &SEND_COMMAND,  &NEW_COMMAND,  &VERIFY_COMMAND, NULL};
+#else // petri: commands that never draw and read no archives
 const Command *const COMMANDS[] = {&RUN_COMMAND, &SWEEP_COMMAND, &TEST_COMMAND, &DIFF_COMMAND, &CHECK_COMMAND,
                                    &FMT_COMMAND, &SEND_COMMAND,  &NEW_COMMAND,  NULL};
 #endif

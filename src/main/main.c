@@ -59,6 +59,11 @@ static int dispatch(const CommandContext *host, int argc, char **argv) {
         return STATUS_USAGE;
     }
     const char *first = argv[1];
+#ifndef PETRI_RANKS
+    int verified = strcmp(first, "verify") == 0 ? helper_exec_ranks(argv, false) : -1;
+    if (verified >= 0)
+        return verified;
+#endif
     if (helper_exec_is_pictures_command(first))
         return helper_exec_pictures(argv);
     int served = strcmp(first, "lsp") == 0 ? helper_exec_lsp(argv) : -1;

@@ -135,4 +135,32 @@ END
 ranks 3 sweep limit.fl -D 'A=1;2;1000;4' --work 5M --frames 2 --metric a=A -o limit.csv
 check "a failed run is a row on any rank" [ "$(cut -d, -f1-4 limit.csv | tail -n 3 | tr '\n' ' ')" = "2,2,1,2 3,1000,0, 4,4,1,4 " ]
 
+# Archives: the ranks share the segments.
+if "$petri" run dish.fl --frames 60 --keyframe-every 10 --archive run.petri 2>err; then
+    for count in 1 3 8; do
+        ranks $count verify run.petri --quiet
+        check "$count ranks verify an archive together" eval 'status_is 0 && has out "verified: 60 of 60 frames, 6 of 6 segments"'
+        check "$count ranks print the result once" count_is out "digest " 1
+    done
+    ranks 2 verify run.petri --sample 3
+    check "ranks verify the same sample" eval 'status_is 0 && has out "3 of 6 segments"'
+    # Digests that no run has, as in an archive of another build, in the fifth segment, which rank 1 of 3 verifies.
+    python3 - <<'END'
+import sqlite3
+database = sqlite3.connect("run.petri")
+database.execute("DELETE FROM keyframe WHERE frame > 39")
+database.execute("UPDATE digest SET digest = zeroblob(16) WHERE frame IN (44, 57)")
+database.commit()
+END
+    "$petri" verify run.petri >one 2>err
+    ranks 3 verify run.petri
+    check "ranks find the first frame that differs" eval 'status_is 1 && has out "frame 44 differs"'
+    check "ranks print the report of one process" same one out
+    head -c 3000 run.petri >cut.petri
+    ranks 2 verify cut.petri
+    check "ranks report a damaged archive once" eval 'status_is 2 && count_is err "archive is damaged" 1'
+else
+    check "a build without SQLite says what is missing" has err "built without SQLite"
+fi
+
 finish
