@@ -45,6 +45,13 @@ typedef struct PetriForce {
 PETRI_API bool petri_system_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force,
                                   size_t size);
 
+// Computes the potential energy of force applier or barrier `force` of a system, in its state after the last frame, as
+// lib/spec/physics.md section 4.5 defines it. Sets *energy to NaN if the force has no potential, as `!drag` and
+// `!random`. The unit is that of mass * (length / time)^2. For forces of unlimited range, time grows with the square of
+// the number of particles. Returns PETRI_INVALID if there is no such system or force, and PETRI_LIMIT_EXCEEDED if the
+// work limit was reached; *energy is then NaN.
+PETRI_API PetriStatus petri_potential_energy(PetriSession *session, size_t system, uint32_t force, double *energy);
+
 #define PETRI_OWN_FORCE UINT32_MAX   // in PetriExplanation.force: the particle's attribute `force`
 #define PETRI_NO_PARTICLE UINT32_MAX // in PetriExplanation.partner: no other particle, or a force with `theta`
 

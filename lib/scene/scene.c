@@ -203,6 +203,11 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     return steps;
 }
 
+static double number_in(const State *state, StateSlot slot) {
+    Value value = state_slot_get(state, slot);
+    return value.kind == VALUE_NUMBERS && value.len == 1 ? value_numbers(&value)[0] : 0;
+}
+
 bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view) {
     // Starts from the system that was found last if possible, because hosts usually ask for systems in order.
     bool further = scene->viewed && number >= scene->viewed_number;
@@ -218,6 +223,7 @@ bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view
                             .dimensions = system->dimensions,
                             .particle_count = count < listed ? count : listed,
                             .steps = system->steps,
+                            .clock = number_in(state, system->clock),
                             .had_simulated = system->had_simulated,
                             .slots = system->mirror.slots,
                             .system = system};

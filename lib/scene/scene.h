@@ -56,6 +56,7 @@ typedef struct SceneView {
     uint32_t dimensions;
     uint32_t particle_count;
     uint64_t steps;         // steps taken in the last update
+    double clock;           // simulation clock after the last update
     bool had_simulated;     // true if the clock of the system was above 0 before the last update
     const StateSlot *slots; // by handle: a pair of position and velocity
     PhysicsSystem *system;

@@ -1,4 +1,5 @@
 // systems.c: public access to the particle systems of the last frame.
+#include "physics/energy.h"
 #include "session/session.h"
 #include "value/format.h"
 
@@ -190,18 +191,38 @@ bool petri_system_force(PetriSession *session, size_t number, uint32_t index, Pe
            host_struct_write(out, size, &found, sizeof found);
 }
 
-// Explains a step, whose number is *request->out. The result is in session->explanation.
-static PetriStatus explain_force(PetriSession *session, const Request *request, const SceneView *view) {
-    uint64_t step = *(const uint64_t *)request->out;
+// Aborts the protected call if the engine was stopped or has run out of memory.
+static void check_physics(PetriSession *session, PhysStatus status) {
     Arena *arena = &session->view_arena;
-    if (request->number >= view->particle_count || step >= phys_explained_steps(view->engine))
-        return PETRI_INVALID;
-    PhysStatus status = phys_explain(view->engine, request->number, step, &session->explanation);
     if (status == PHYS_STOPPED)
         arena_check(arena, budget_check(&session->budget));
     if (status == PHYS_NO_MEMORY)
         arena_escape(arena, session->budget.memory_refused ? ARENA_MEMORY_LIMIT : ARENA_OUT_OF_MEMORY);
+}
+
+// Explains a step, whose number is *request->out. The result is in session->explanation.
+static PetriStatus explain_force(PetriSession *session, const Request *request, const SceneView *view) {
+    uint64_t step = *(const uint64_t *)request->out;
+    if (request->number >= view->particle_count || step >= phys_explained_steps(view->engine))
+        return PETRI_INVALID;
+    check_physics(session, phys_explain(view->engine, request->number, step, &session->explanation));
     return PETRI_OK;
+}
+
+static PetriStatus find_energy(PetriSession *session, const Request *request, const SceneView *view) {
+    if (request->number >= phys_force_count(view->engine))
+        return PETRI_INVALID;
+    check_physics(session, phys_potential_energy(view->engine, request->number, view->clock, request->out));
+    return PETRI_OK;
+}
+
+PetriStatus petri_potential_energy(PetriSession *session, size_t system, uint32_t force, double *energy) {
+    if (!session || !energy)
+        return PETRI_INVALID;
+    *energy = NAN;
+    arena_reset(&session->view_arena);
+    Request request = {find_energy, system, force, energy};
+    return session_run(session, find_in_view, &request, "the potential energy");
 }
 
 PetriStatus petri_explain_force(PetriSession *session, size_t system, uint32_t particle, uint64_t step,

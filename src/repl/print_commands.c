@@ -211,26 +211,22 @@ static bool run_particles(Repl *repl, const char *rest) {
     return good;
 }
 
+static void add_motion_row(void *user_data, const char *name, const char *value) {
+    SCOPED_TEXT indented = {0};
+    text_add_format(&indented, "  %s", name);
+    text_table_add(user_data, indented.bytes);
+    text_table_add(user_data, value);
+}
+
 static void print_energy(Repl *repl, size_t number, const PetriSystem *system, const SystemRequest *request) {
+    enum { DIGITS = 6 };
     (void)request;
-    Motion motion = motion_measure(system);
-    output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, motion.moving,
-                  motion.moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
-    if (motion.moving > 0) {
-        SCOPED_TEXT fastest = {0};
-        SCOPED_TEXT_TABLE table = text_table_new(2);
-        text_table_add(&table, "  kinetic energy");
-        add_number(&table, motion.kinetic_energy);
-        text_table_add(&table, "  momentum");
-        add_vector(&table, motion.momentum, system->dimensions);
-        text_table_add(&table, "  fastest");
-        const char *id =
-            petri_format_value(repl->session, petri_particle_id(repl->session, number, motion.fastest_particle));
-        text_add_format(&fastest, "%s at %.6g", !id ? "" : id, motion.fastest);
-        text_table_add(&table, fastest.bytes);
-        text_table_write(&table, &repl->output);
-    }
-    motion_free(&motion);
+    SCOPED_TEXT_TABLE table = text_table_new(2);
+    uint32_t moving = motion_count(system);
+    output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, moving,
+                  moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
+    motion_rows(repl->session, number, system, DIGITS, UINT32_MAX, add_motion_row, &table);
+    text_table_write(&table, &repl->output);
 }
 
 static bool run_energy(Repl *repl, const char *wanted) {
@@ -271,7 +267,7 @@ const ReplCommand PRINT_COMMANDS[] = {
      COMPLETE_KINDS},
     {".particles", "[SYSTEM] [N|all]", NULL, "print particles as a table: id, position, velocity, speed, force",
      run_particles, COMPLETE_SYSTEMS},
-    {".energy", "[SYSTEM]", NULL, "print kinetic energy, momentum and the fastest particle of each system", run_energy,
+    {".energy", "[SYSTEM]", NULL, "print energies, momenta and the fastest particle of each system", run_energy,
      COMPLETE_SYSTEMS},
     {".watch", "[EXPR]", NULL, "print EXPR after each step; without EXPR, list the watched expressions", run_watch,
      COMPLETE_LANGUAGE},

@@ -49,24 +49,20 @@ static void print_traffic(PetriSession *session, size_t number, const PetriRanks
     fprintf(stderr, "      reductions      %.3g per step\n", max[REDUCTIONS]);
 }
 
+static void print_row(void *user_data, const char *name, const char *value) {
+    (void)user_data;
+    fprintf(stderr, "    %-16s  %s\n", name, value);
+}
+
 static void print_system(PetriSession *session, size_t number, const PetriSystem *system) {
-    enum { MAX_COMPONENTS = 4 };
-    fprintf(stderr, "  system %s, %" PRIu32 "-dimensional", system->name, system->dimensions);
-    Motion motion = motion_measure(system);
-    fprintf(stderr, ": %" PRIu32 " particle%s", motion.moving, motion.moving == 1 ? "" : "s");
-    if (system->particle_count > motion.moving) {
-        fprintf(stderr, ", %" PRIu32 " anchor%s", system->particle_count - motion.moving,
-                system->particle_count - motion.moving == 1 ? "" : "s");
-    }
-    fprintf(stderr, "\n    kinetic energy    %.9g\n    momentum          ", motion.kinetic_energy);
-    for (uint32_t k = 0; k < system->dimensions && k < MAX_COMPONENTS; k++)
-        fprintf(stderr, "%s%.9g", k == 0 ? "" : ";", motion.momentum[k]);
-    fputs(system->dimensions > MAX_COMPONENTS ? ";…\n" : "\n", stderr);
-    if (motion.moving > 0) {
-        const char *id = petri_format_value(session, petri_particle_id(session, number, motion.fastest_particle));
-        fprintf(stderr, "    fastest particle  %s at %.9g\n", !id ? "" : id, motion.fastest);
-    }
-    motion_free(&motion);
+    enum { MAX_COMPONENTS = 4, DIGITS = 9 };
+    uint32_t moving = motion_count(system), anchors = system->particle_count - moving;
+    fprintf(stderr, "  system %s, %" PRIu32 "-dimensional: %" PRIu32 " particle%s", system->name, system->dimensions,
+            moving, moving == 1 ? "" : "s");
+    if (anchors > 0)
+        fprintf(stderr, ", %" PRIu32 " anchor%s", anchors, anchors == 1 ? "" : "s");
+    fputs("\n", stderr);
+    motion_rows(session, number, system, DIGITS, MAX_COMPONENTS, print_row, NULL);
 }
 
 static void print_time(const char *what, double seconds, int64_t frames) {

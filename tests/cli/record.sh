@@ -45,5 +45,7 @@ check "--stats prints the number of steps" has err "  simulation steps  20"
 check "--stats prints the particles of each system" has err "  system :w, 2-dimensional: 2 particles, 1 anchor"
 check "--stats prints the kinetic energy" has err "    kinetic energy    75"
 check "--stats prints the momentum" has err "    momentum          10;-10"
+check "--stats prints the angular momentum" has err "    angular momentum  "
+check "--stats prints no potential energy without forces that have one" [ "$(grep -c potential err)" = 0 ]
 check "--stats prints the fastest particle" has err "    fastest particle  8 at 10"
 check "--stats prints nothing on standard output" empty out

@@ -83,6 +83,21 @@ class Views(unittest.TestCase):
         with self.assertRaises(IndexError):
             self.dish.explain(0)
 
+    def test_energies(self):
+        script = ("!physics state=:e dimensions=2 resolution=1/240\n"
+                  "    !particle id=0 position=0;0 velocity=0;1 mass=2 radius=0\n"
+                  "    !particle id=1 position=4;0 velocity=0;-1 mass=3 radius=0\n"
+                  "    !gravity strength=5\n    !drag strength=0\n")
+        session = petri.Session(script)
+        session.step(1)
+        system = session.systems["e"]
+        self.assertEqual(system.kinetic_energy, (2 + 3) / 2)
+        self.assertEqual(system.potential_energies[0], -5 * 2 * 3 / 4)
+        self.assertTrue(numpy.isnan(system.potential_energies[1]))
+        self.assertEqual(system.potential_energy, -7.5)
+        session.step(60)
+        self.assertAlmostEqual(session.systems["e"].kinetic_energy + session.systems["e"].potential_energy, -5, delta=0.01)
+
     def test_are_read_only_views(self):
         self.assertTrue(numpy.shares_memory(self.dish.position, self.dish.position))
         self.assertFalse(self.dish.position.flags.owndata)

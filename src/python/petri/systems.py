@@ -165,6 +165,31 @@ class System:
                 raise KeyError(id)
         return found[0]
 
+    @property
+    def kinetic_energy(self) -> float:
+        """Sum of mass * speed² / 2 over all particles except anchors."""
+        moving = ~self.anchor
+        return float(numpy.sum(self.mass[moving, None] * self.velocity[moving] ** 2) / 2)
+
+    @property
+    def potential_energies(self) -> List[float]:
+        """Potential energy of each force applier and barrier, in the order of the script; NaN: the force has none.
+
+        Its definition is in lib/spec/physics.md, section 4.5. For forces of unlimited range, time grows with N².
+        """
+        energy = ffi.new("double *")
+        found = []
+        for force in range(self._fetch().force_count):
+            with self._owner._lock:
+                self._owner._call(lib.petri_potential_energy, self._number, force, energy)
+            found.append(energy[0])
+        return found
+
+    @property
+    def potential_energy(self) -> float:
+        """Sum of `potential_energies`, without forces that have none."""
+        return float(numpy.nansum(self.potential_energies))
+
     def explain(self, id: Any, step: int = -1) -> Explanation:
         """Returns the contributions of all forces to the force on the particle with this id, in the order of summation.
 

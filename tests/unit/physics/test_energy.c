@@ -1,0 +1,207 @@
+// test_energy.c: each force is the negative gradient of its potential energy, and total energy is conserved.
+#include "physics/energy.h"
+#include "support.h"
+
+enum { BODIES = 8, N = 3 };
+
+typedef struct Setup {
+    const char *row;
+    PhysForce force;
+    bool in_group; // the force is declared in a sub-group, with the last four particles
+} Setup;
+
+static const double places[BODIES][N] = {{0, 0, 0},       {1.1, 0.3, -0.2},  {-0.7, 0.9, 0.4},  {0.2, -1.3, 0.8},
+                                         {1.7, 1.2, 0.5}, {-1.1, -0.6, 1.4}, {0.9, -0.8, -1.2}, {2.6, 0.1, 0.3}};
+
+// Particle `moved` is displaced by `offset` in dimension k.
+static PhysSystem *make_system(const Setup *setup, uint32_t moved, size_t k, double offset) {
+    PhysSystem *system = phys_new();
+    phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_detected.level, .keep_forces = true});
+    phys_begin(system, N);
+    uint32_t group = phys_add_group(system, 0);
+    for (uint32_t i = 0; i < BODIES; i++) {
+        double position[N];
+        memcpy(position, places[i], sizeof position);
+        position[k] += i == moved ? offset : 0;
+        phys_add_particle(system, i < BODIES / 2 ? 0 : group,
+                          &(PhysParticle){.position = position,
+                                          .radius = i == 6 ? 0 : 0.5 + 0.1 * i,
+                                          .mass = 1 + 0.3 * i,
+                                          .charge = i % 2 ? 0.7 : -1.2,
+                                          .anchor = i == 2 || i == 5});
+    }
+    phys_add_force(system, setup->in_group ? group : 0, &setup->force);
+    return system;
+}
+
+static double energy_of(const Setup *setup, uint32_t moved, size_t k, double offset, double clock) {
+    double energy;
+    PhysSystem *system = make_system(setup, moved, k, offset);
+    assert_int_equal(phys_potential_energy(system, 0, clock, &energy), PHYS_OK);
+    phys_free(system);
+    return energy;
+}
+
+static void check_gradient(const Setup *setup) {
+    const double h = 1e-5, clock = 0.25;
+    PhysSystem *system = make_system(setup, BODIES, 0, 0);
+    PhysTime time = {.now = 1e-3, .clock = clock, .resolution = 1, .lockstep = true};
+    assert_int_equal(phys_simulate(system, &time).status, PHYS_OK);
+    double largest = 0;
+    for (uint32_t i = 0; i < BODIES; i++)
+        for (size_t k = 0; k < N; k++) {
+            if (phys_is_anchor(system, i))
+                continue;
+            double force = phys_at_particle(phys_columns(system).force, i)[k];
+            double slope = (energy_of(setup, i, k, h, clock) - energy_of(setup, i, k, -h, clock)) / (2 * h);
+            if (fabs(force + slope) > 1e-6 * (1 + fabs(force)))
+                print_error("%s, particle %u, component %d: force %g, slope %g\n", setup->row, i, (int)k, force, slope);
+            assert_true(fabs(force + slope) <= 1e-6 * (1 + fabs(force)));
+            largest = fmax(largest, fabs(force));
+        }
+    if (largest <= 0.01)
+        print_error("%s has no effect\n", setup->row);
+    assert_true(largest > 0.01);
+    phys_free(system);
+}
+
+static void test_forces_are_gradients(void **state) {
+    (void)state;
+    static const double vector[N] = {0.4, -0.7, 0.3}, other[N] = {-0.2, 0.1, 0.9}, normal[N] = {0.6, 0.8, 0};
+    const Setup setups[] = {
+        {"gravity", {.kind = PHYS_GRAVITY, .strength = 2}, false},
+        {"gravity that grows", {.kind = PHYS_GRAVITY, .strength = 2, .ease = 1}, false},
+        {"gravity with a maximum distance", {.kind = PHYS_GRAVITY, .strength = 2, .max_distance = 1.9}, false},
+        {"gravity in a group", {.kind = PHYS_GRAVITY, .strength = 2}, true},
+        {"electrostatic", {.kind = PHYS_ELECTROSTATIC, .strength = 3}, false},
+        {"collision", {.kind = PHYS_COLLISION, .strength = 3, .power = 1}, false},
+        {"collision with an exponent", {.kind = PHYS_COLLISION, .strength = 3, .power = 1.7}, false},
+        {"collision with a maximum distance",
+         {.kind = PHYS_COLLISION, .strength = 3, .power = 1, .max_distance = 1.6},
+         false},
+        {"adhesion", {.kind = PHYS_ADHESION, .strength = 2, .overlap = 0.3}, false},
+        {"distance, too near",
+         {.kind = PHYS_DISTANCE, .strength = 2, .power = 1, .has_minimum = true, .minimum = 4, .from = 0, .to = 4},
+         false},
+        {"distance, too far",
+         {.kind = PHYS_DISTANCE, .strength = 2, .power = 2, .has_maximum = true, .maximum = 1, .from = 7, .to = 1},
+         false},
+        {"constant", {.kind = PHYS_CONSTANT, .strength = 2, .vector = vector, .vector2 = other}, true},
+        {"field", {.kind = PHYS_FIELD, .strength = 2, .vector = vector}, false},
+        {"buoyancy", {.kind = PHYS_BUOYANCY, .strength = 2, .vector = vector, .density = 0.8}, false},
+        {"barrier, too near",
+         {.kind = PHYS_BARRIER,
+          .strength = 2,
+          .power = 1,
+          .has_minimum = true,
+          .minimum = 1,
+          .vector = other,
+          .vector2 = normal},
+         false},
+        {"barrier, too far",
+         {.kind = PHYS_BARRIER, .strength = 2, .power = 3, .has_maximum = true, .maximum = 0.1, .vector2 = normal},
+         false},
+    };
+    for (size_t i = 0; i < sizeof setups / sizeof *setups; i++)
+        check_gradient(&setups[i]);
+}
+
+static void test_forces_without_potential(void **state) {
+    (void)state;
+    assert_true(isnan(energy_of(&(Setup){"drag", {.kind = PHYS_DRAG, .strength = 1}, false}, BODIES, 0, 0, 0)));
+    assert_true(isnan(energy_of(&(Setup){"random", {.kind = PHYS_RANDOM, .strength = 1}, false}, BODIES, 0, 0, 0)));
+}
+
+// --- conservation
+
+static double total_energy(const PhysSystem *system, double clock) {
+    double total = 0, energy;
+    for (uint32_t f = 0; f < phys_force_count(system); f++) {
+        assert_int_equal(phys_potential_energy(system, f, clock, &energy), PHYS_OK);
+        total += energy;
+    }
+    for (uint32_t i = 0; i < phys_particle_count(system); i++)
+        for (size_t k = 0; k < N; k++) {
+            double v = phys_velocity(system, i)[k];
+            total += phys_is_anchor(system, i) ? 0 : *phys_at_particle(phys_columns(system).mass, i) * v * v / 2;
+        }
+    return total;
+}
+
+// The integrator is symplectic, so that the error of the energy stays within a band whose width is proportional to the
+// step.
+static void check_conserved(const char *row, const PhysForce *forces, uint32_t count) {
+    enum { FRAMES = 400 };
+    const double step = 1e-4;
+    PhysSystem *system = phys_new();
+    phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_detected.level});
+    phys_begin(system, N);
+    for (uint32_t i = 0; i < BODIES; i++)
+        phys_add_particle(system, 0,
+                          &(PhysParticle){.position = places[i],
+                                          .velocity = places[(i + 3) % BODIES],
+                                          .radius = 0.5,
+                                          .mass = 1 + 0.1 * i,
+                                          .charge = 1,
+                                          .anchor = i == 2});
+    for (uint32_t f = 0; f < count; f++)
+        phys_add_force(system, 0, &forces[f]);
+    double start = total_energy(system, 0), largest = 0, potential = 0;
+    for (int frame = 0; frame < FRAMES; frame++) {
+        PhysTime time = {.last = 50 * step * frame, .now = 50 * step * (frame + 1), .clock = 50 * step * frame};
+        time.resolution = step;
+        time.lockstep = true;
+        assert_int_equal(phys_simulate(system, &time).status, PHYS_OK);
+        largest = fmax(largest, fabs(total_energy(system, time.now) - start));
+        double energy;
+        assert_int_equal(phys_potential_energy(system, 0, time.now, &energy), PHYS_OK);
+        potential = fmax(potential, fabs(energy));
+    }
+    if (largest > 1e-3 * fmax(fabs(start), potential) || potential < 0.01 * fabs(start))
+        print_error("%s: energy %g, largest error %g, potential energy up to %g\n", row, start, largest, potential);
+    assert_true(largest <= 1e-3 * fmax(fabs(start), potential));
+    assert_true(potential >= 0.01 * fabs(start));
+    phys_free(system);
+}
+
+static void test_energy_is_conserved(void **state) {
+    (void)state;
+    static const double down[N] = {0, 0, -1}, up[N] = {0, 0, 1};
+    const PhysForce spring = {.kind = PHYS_DISTANCE,
+                              .strength = 20,
+                              .power = 1,
+                              .has_minimum = true,
+                              .has_maximum = true,
+                              .minimum = 1,
+                              .maximum = 1.2};
+    PhysForce springs[BODIES];
+    for (uint32_t i = 0; i < BODIES; i++) {
+        springs[i] = spring;
+        springs[i].from = i;
+        springs[i].to = (i + 1) % BODIES;
+    }
+    check_conserved("gravity", &(PhysForce){.kind = PHYS_GRAVITY, .strength = 3}, 1);
+    check_conserved("springs", springs, BODIES);
+    check_conserved(
+        "collisions",
+        (PhysForce[]){{.kind = PHYS_COLLISION, .strength = 500, .power = 1}, {.kind = PHYS_GRAVITY, .strength = 3}}, 2);
+    check_conserved("bouncing on a barrier",
+                    (PhysForce[]){{.kind = PHYS_CONSTANT, .strength = 5, .vector2 = down},
+                                  {.kind = PHYS_BARRIER,
+                                   .strength = 300,
+                                   .power = 1,
+                                   .has_minimum = true,
+                                   .minimum = 1,
+                                   .vector = (const double[N]){0, 0, -4},
+                                   .vector2 = up}},
+                    2);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_forces_are_gradients),
+        cmocka_unit_test(test_forces_without_potential),
+        cmocka_unit_test(test_energy_is_conserved),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
