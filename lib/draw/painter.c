@@ -145,7 +145,7 @@ typedef struct RecordQuery {
 
 static const char *word_of(const DrawNode *node, AttrName name) {
     const AttrValue *attr = draw_attr(node, name);
-    return attr ? attr->as.text.bytes : "";
+    return attr ? schema_word((AttrType)schema_rows[attr->row].type, attr->as.word) : "";
 }
 
 static void fill_record(void *context) {
@@ -165,6 +165,9 @@ static void fill_record(void *context) {
         .codec = word_of(node, ATTR_CODEC),
         .pixfmt = word_of(node, ATTR_PIXFMT),
         .max_seconds = draw_number(node, ATTR_LIMIT),
+        .crf = draw_number(node, ATTR_CRF),
+        .preset = word_of(node, ATTR_PRESET),
+        .profile = word_of(node, ATTR_PROFILE),
     };
 }
 

@@ -138,6 +138,9 @@ typedef struct PetriRecord {
     const char *codec;      // codec of a video; "": not specified
     const char *pixfmt;     // pixel format of a video; "": not specified
     double max_seconds;     // maximum duration of a video in seconds; NaN: unlimited
+    double crf;             // constant rate factor of a video; NaN: not specified
+    const char *preset;     // preset of a video's encoder; "": not specified
+    const char *profile;    // profile of a video's encoder; "": not specified
 } PetriRecord;
 
 // Stores the data of record number `index` in *record. `picture` must be the picture that the painter rendered last

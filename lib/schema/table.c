@@ -59,6 +59,13 @@ const WordRow schema_words[WORD_COUNT] = {
 #include "schema/mix_list.h"
 };
 
+const char *schema_word(AttrType type, int value) {
+    for (int i = 0; i < WORD_COUNT; i++)
+        if (schema_words[i].type == type && schema_words[i].value == value)
+            return schema_words[i].text.bytes;
+    return "";
+}
+
 const SchemaRow *schema_row(NodeKind kind, AttrName name) {
     static const uint16_t numbers[KIND_COUNT][ATTR_COUNT] = {
 #define ATTR(kind, name, type, field, fallback, unit, help) [KIND_##kind][ATTR_##name] = ROW_##kind##_##name + 1,

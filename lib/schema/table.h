@@ -157,6 +157,8 @@ extern const TypeRow schema_types[TYPE_COUNT] PRIVATE_API(schema_types);
 extern const SchemaRow schema_rows[ROW_COUNT] PRIVATE_API(schema_rows);
 extern const WordRow schema_words[WORD_COUNT];
 
+// Returns the preferred word with a value, or "" if there is none.
+const char *schema_word(AttrType type, int value) PRIVATE_API(schema_word);
 // Returns the row of an attribute, or NULL if the kind has no such attribute.
 const SchemaRow *schema_row(NodeKind kind, AttrName name) PRIVATE_API(schema_row);
 // Returns the force that nodes of a kind describe, or PHYS_FORCE_KINDS if the kind is not a force.

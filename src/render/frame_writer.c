@@ -32,6 +32,7 @@
 #include "run/frames.h"
 
 #include <errno.h>
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
@@ -142,7 +143,7 @@ static bool add_to_film(FrameWriter *writer, PetriPicture *picture, PetriPainter
             set_error_text(writer, "out of memory");
             return false;
         }
-        if (!video_open(video, writer->film, width, height, writer->fps)) {
+        if (!video_open(video, writer->film, &(VideoOptions){.crf = NAN}, width, height, writer->fps)) {
             set_error_text(writer, video->error_text);
             return false;
         }

@@ -46,7 +46,13 @@ static bool add_frame(Recording *recording, RecordedFile *file, const PetriRecor
     bool over = record->max_seconds > 0 && (double)file->frames >= record->max_seconds * recording->fps;
     if (over)
         return close_film(recording, file);
-    bool good = file->frames > 0 || video_open(&file->video, file->name, record->width, record->height, recording->fps);
+    const VideoOptions options = {.codec = record->codec,
+                                  .pixfmt = record->pixfmt,
+                                  .preset = record->preset,
+                                  .profile = record->profile,
+                                  .crf = record->crf};
+    bool good = file->frames > 0 ||
+                video_open(&file->video, file->name, &options, record->width, record->height, recording->fps);
     // All frames of a video have the same size. Frames of another size are skipped.
     if (good && record->width == file->video.width && record->height == file->video.height) {
         good = video_add(&file->video, record->pixels);

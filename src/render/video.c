@@ -17,48 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { MAX_WORDS = 64, PIPE_BYTES = 1 << 20 };
-
-// Arguments for ffmpeg, for each file suffix. Screen colours are those of BT.709.
-#define COLOURS "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
-// Many players need an even width and height.
-#define EVEN "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"
-#define H264 "-vf", EVEN, COLOURS, "-c:v", "libx264", "-preset", "veryfast", "-crf", "17"
-
-static const struct {
-    const char *suffix;
-    const char *words[24];
-} formats[] = {
-    {".mp4", {H264, "-movflags", "+faststart", "-f", "mp4", NULL}},
-    {".m4v", {H264, "-movflags", "+faststart", "-f", "mp4", NULL}},
-    {".mov", {H264, "-movflags", "+faststart", "-f", "mov", NULL}},
-    {".mkv", {H264, "-f", "matroska", NULL}},
-    {".webm",
-     {"-vf", EVEN, COLOURS, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6",
-      "-row-mt", "1", "-f", "webm", NULL}},
-    {".ogg", {"-vf", EVEN, COLOURS, "-c:v", "libtheora", "-q:v", "9", "-f", "ogg", NULL}},
-    // Delays in a GIF are whole hundredths of a second, and viewers show a hundredth as a tenth, so that faster films
-    // get 50 frames per second. Each frame has its own palette, because a common palette would require all frames in
-    // memory.
-    {".gif",
-     {"-filter_complex",
-      "fps='min(source_fps,50)',split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer",
-      "-f", "gif", NULL}},
-};
-
-static int find_format(const char *file) {
-    size_t length = strlen(file);
-    for (int i = 0; i < (int)(sizeof formats / sizeof formats[0]); i++) {
-        size_t suffix = strlen(formats[i].suffix);
-        if (length > suffix && strcmp(file + length - suffix, formats[i].suffix) == 0)
-            return i;
-    }
-    return -1;
-}
-
-bool video_has_suffix(const char *file) {
-    return find_format(file) >= 0;
-}
+enum { PIPE_BYTES = 1 << 20 };
 
 // Returns ffmpeg's name of the pixel format. Pixels are 32-bit integers, but ffmpeg's names give the order of bytes.
 static const char *pixel_format(void) {
@@ -68,20 +27,19 @@ static const char *pixel_format(void) {
     return first == 1 ? "bgra" : "argb";
 }
 
-static pid_t spawn_ffmpeg(Video *video, int input, double fps) {
+static pid_t spawn_ffmpeg(Video *video, const VideoArguments *arguments, int input, double fps) {
     char size[32], rate[32];
     snprintf(size, sizeof size, "%dx%d", video->width, video->height);
     snprintf(rate, sizeof rate, "%.9g", fps);
-    const char *words[MAX_WORDS] = {
+    const char *words[64] = {
         "ffmpeg",   "-hide_banner", "-nostdin",      "-loglevel",   "error",   "-xerror",    "-y",       "-f",
         "rawvideo", "-pix_fmt",     pixel_format(),  "-video_size", size,      "-framerate", rate,       "-i",
         "pipe:0",   "-an",          "-map_metadata", "-1",          "-fflags", "+bitexact",  "-flags:v", "+bitexact"};
     size_t count = 0;
     while (words[count])
         count++;
-    const char *const *format = formats[find_format(video->file)].words;
-    for (size_t i = 0; format[i]; i++)
-        words[count++] = format[i];
+    for (size_t i = 0; i < arguments->count; i++)
+        words[count++] = arguments->words[i];
     words[count] = "file:/dev/fd/3"; // the video is still an unnamed file, open as descriptor 3
 
     const int files[] = {input, -1, video->errors, video->film.file};
@@ -117,9 +75,16 @@ static void abort_on_signal(void *context) {
     replace_abort(&video->film);
 }
 
-bool video_open(Video *video, const char *file, int width, int height, double fps) {
+bool video_open(Video *video, const char *file, const VideoOptions *options, int width, int height, double fps) {
     int ends[2] = {-1, -1};
+    VideoArguments arguments;
     *video = (Video){.file = file, .open = true, .width = width, .height = height, .frames = -1};
+    if (!video_arguments(&arguments, file, options)) {
+        set_error_text(video, "cannot write '%s': %s", file, arguments.problem);
+        video->open = false;
+        video->errors = video->cleanup_id = -1;
+        return false;
+    }
     video->errors = subprocess_temporary_file();
     if (!replace_begin(&video->film, file, 0)) {
         set_error_text(video, "cannot write '%s': %s", file, strerror(errno));
@@ -139,7 +104,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
     fcntl(ends[1], F_SETPIPE_SZ, PIPE_BYTES);
 #endif
     video->frames = ends[1];
-    pid_t pid = spawn_ffmpeg(video, ends[0], fps);
+    pid_t pid = spawn_ffmpeg(video, &arguments, ends[0], fps);
     int error = errno;
     video->pid = pid < 0 ? 0 : pid;
     close(ends[0]);

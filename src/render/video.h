@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/replace.h"
+#include "render/video_arguments.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -23,10 +24,8 @@ typedef struct Video {
     char error_text[512]; // reason of the last failure
 } Video;
 
-// Returns true if the file name ends in .mp4, .m4v, .mov, .mkv, .webm, .ogg or .gif.
-bool video_has_suffix(const char *file);
 // Starts ffmpeg. Returns false and sets error_text on failure.
-bool video_open(Video *video, const char *file, int width, int height, double fps);
+bool video_open(Video *video, const char *file, const VideoOptions *options, int width, int height, double fps);
 // Adds a frame of width x height pixels, in rows without gaps. If ffmpeg has failed, discards the video, sets
 // error_text and returns false.
 bool video_add(Video *video, const uint32_t *pixels);

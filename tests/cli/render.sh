@@ -410,6 +410,37 @@ END
         check "a video of !record ends at its limit" [ "$(frame_count part.gif)" = 5 ] # 0.1 s
         check "a video of !record leaves out frames of another size" [ "$(frame_count growing.mp4)" = 3 ]
         rm -rf films part.gif growing.mp4
+        # Options of the encoder: those of the list arrive, others are refused.
+        # encode FILE ATTRIBUTES: records three frames.
+        encode() {
+            printf '!window size=33;31\n    !record filename="%s" %s\n        !canvas color=frame\n' "$1" "$2" >record.fl
+            petri render record.fl -o last.png --frames 3
+        }
+        # stream ENTRY FILE: prints a property of a video.
+        stream() { ffprobe -v error -show_entries "stream=$1" -of csv=p=0 "$2"; }
+        encode options.mp4 'crf=40 preset=:slow profile=:high422 pixfmt=:yuv422p'
+        check "!record passes options to the encoder" status_is 0
+        check "a video has the profile and pixel format of !record" \
+            [ "$(stream profile,pix_fmt options.mp4)" = "High 4:2:2,yuv422p" ]
+        encode options.mkv "codec='libvpx-vp9'"
+        check "a video has the codec of !record" [ "$(stream codec_name options.mkv)" = vp9 ]
+        encode none.webm codec=:h264
+        check "a codec that the container cannot contain is an error" \
+            has err "cannot write 'none.webm': .webm files cannot contain the codec 'h264', only vp9 vp8 av1"
+        check "an impossible codec exits with 1 and writes nothing" eval 'status_is 1 && [ ! -e none.webm ]'
+        encode none.ogg crf=3
+        check "an option that the codec lacks is an error" has err "the codec 'theora' has no option 'crf'"
+        encode none.mp4 crf=60
+        check "a crf that the codec lacks is an error" has err "for the codec 'h264', crf must be at most 51"
+        encode none.mp4 profile=:hq
+        check "a profile that the codec lacks is an error" has err "the codec 'h264' has no profile 'hq'"
+        encode none.webm 'codec=:vp8 pixfmt=:yuv444p'
+        check "a pixel format that the codec lacks is an error" has err "the codec 'vp8' has no pixel format 'yuv444p'"
+        encode none.webm preset=:slow
+        check "a preset that the codec lacks is an error" has err "the codec 'vp9' has no option 'preset'"
+        encode listed.mp4 "codec='-y' preset='x -f null' crf=64"
+        check "options outside the list are reported" count_is err "[bad-attribute]" 3
+        check "options outside the list do not reach the encoder" [ "$(stream codec_name listed.mp4)" = h264 ]
         printf '!window size=40;40\n    !record filename="absent.mp4/x.mp4"\n        !canvas\n' >record.fl
         : >absent.mp4
         petri render record.fl -o last.png --frames 2
