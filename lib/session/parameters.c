@@ -127,7 +127,7 @@ static bool check_truth(const Check *check, const Parameter *parameter) {
     if (parameter->is_static && !value_true(parameter->value))
         return false;
     Str printed = format_text(arena, &check->session->symbols, check->define->value);
-    report_definition(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
+    report_definition(check, DIAG_WARNING, "false-definition", origin_of(parameter),
                       str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so `or` uses the default %.*s",
                                  STR_ARGS(parameter->name->name), STR_ARGS(printed), STR_ARGS(printed),
                                  STR_ARGS(parameter->default_text)),

@@ -78,6 +78,13 @@ static bool add_item(Axis *axis, const char *item, bool alone) {
             message("-D %s: not a range: '%s'; write 1..10, or 1..10|0.5 with a positive step", axis->name, item);
             return false;
         }
+        const char *minus = length > 0 ? strchr(item + 1, '-') : NULL;
+        if (minus && read_number(item, (size_t)(minus - item), &min) &&
+            read_number(minus + 1, strlen(minus + 1), &min)) {
+            message("-D %s: not a number: '%s'; write a range as %.*s..%s", axis->name, item, (int)(minus - item), item,
+                    minus + 1);
+            return false;
+        }
         texts_add(&axis->values, item);
         return true;
     }

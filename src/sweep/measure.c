@@ -14,7 +14,10 @@
 
 static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
     Measure *measure = user_data;
-    if (diagnostic->level == PETRI_ERROR) {
+    // A run with the script's default must not be listed with another value.
+    bool false_definition = diagnostic->code && strcmp(diagnostic->code, "false-definition") == 0;
+    measure->false_definition = measure->false_definition || false_definition;
+    if (diagnostic->level == PETRI_ERROR || false_definition) {
         text_free(&measure->error);
         if (diagnostic->file) {
             text_add_format(&measure->error, "%s:%" PRIu32 ":%" PRIu32 ": ", diagnostic->file, diagnostic->line,
@@ -93,6 +96,7 @@ static PetriStatus begin_run(Measure *measure, size_t run) {
     petri_config_apply(measure->session, measure->base);
     petri_reset(measure->session);
     text_free(&measure->error);
+    measure->false_definition = false;
     PetriStatus status = PETRI_OK;
     for (size_t i = 0; status == PETRI_OK && i < design->axis_count; i++) {
         SCOPED_TEXT definition = {0};
@@ -103,8 +107,9 @@ static PetriStatus begin_run(Measure *measure, size_t run) {
     }
     if (status != PETRI_OK)
         return status;
-    return petri_source_file(measure->session, 0) ? petri_reload(measure->session, NULL)
-                                                  : script_load(measure->session, measure->sweep->options->script);
+    status = petri_source_file(measure->session, 0) ? petri_reload(measure->session, NULL)
+                                                    : script_load(measure->session, measure->sweep->options->script);
+    return measure->false_definition ? PETRI_INVALID : status;
 }
 
 // Appends a cell. Replaces control characters, because tabs and line feeds separate cells and rows.
@@ -264,7 +269,7 @@ static bool try_expression(Measure *measure, const char *option, const char *exp
 int measure_dry_run(Measure *measure) {
     const Sweep *sweep = measure->sweep;
     if (begin_run(measure, 0) != PETRI_OK)
-        return measure->invalid_definition ? STATUS_USAGE : STATUS_FAILED;
+        return measure->invalid_definition || measure->false_definition ? STATUS_USAGE : STATUS_FAILED;
     if (petri_step(measure->session) != PETRI_OK)
         return STATUS_DONE; // a failed run becomes a row of the table
     bool good = !sweep->options->until || try_expression(measure, "until", sweep->options->until);

@@ -98,7 +98,7 @@ void summary_make(const Sweep *sweep, Text *out) {
         csv_write(str_from(design->axes[i].name), text_collect, out);
         text_add_format(out, ",");
     }
-    text_add_format(out, "%smetric,runs,mean,deviation,least,quartile1,median,quartile3,most\n",
+    text_add_format(out, "%smetric,runs,mean,std,min,q1,median,q3,max\n",
                     sweep->options->row_every > 0 ? "frame," : "");
     for (size_t run = 0, end = 0; run < design->run_count; run = end) {
         while (end < design->run_count && differ_in_seed_alone(design, run, end))

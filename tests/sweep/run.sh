@@ -108,7 +108,7 @@ check "a different seed gives a different sample" [ "$(cmp -s out first; echo $?
 # --- summary and plots
 
 sweep sum.fl -D A=1..2 --seeds 4 --frames 1 --metric x=A*SEED*SEED --summary means.csv -o t.csv
-check "--summary writes mean, deviation and quartiles" [ "$(cat means.csv)" = 'A,metric,runs,mean,deviation,least,quartile1,median,quartile3,most
+check "--summary writes mean, deviation and quartiles" [ "$(cat means.csv)" = 'A,metric,runs,mean,std,min,q1,median,q3,max
 1,x,4,7.5,6.5574385243,1,3.25,6.5,10.75,16
 2,x,4,15,13.1148770486,2,6.5,13,21.5,32' ]
 sweep sum.fl -D A=1..2 --frames 9 --until 'frame == A' --summary means.csv -o t.csv
@@ -334,7 +334,12 @@ fi
 refused "a missing script is rejected" 'no script given'
 refused "a sweep without metrics is rejected" 'nothing to measure' sum.fl
 refused "an empty range is rejected" 'empty range 3..1' sum.fl -D A=3..1 --metric a=A
+printf 'let A=A or 7 -- 1..9\n' >defaults.fl
+sweep defaults.fl -D 'A=2;0' --frames 1 --metric a=A
+check "a run whose value has no effect is a failed run" [ "$(sed -n 3p out | cut -d, -f2,4)" = 0, ]
 refused "a range with step 0 is rejected" "not a range: '1..9|0'" sum.fl -D 'A=1..9|0' --metric a=A
+refused "a range is not written with a minus" "write a range as 1..9" sum.fl -D A=1-9 --metric a=A
+refused "a value that the script replaces by its default is rejected" "A=0 has no effect" defaults.fl -D A=0..2 --metric a=A
 refused "a range without an end is rejected" "not a range: '1..'" sum.fl -D A=1.. --metric a=A
 refused "NetCDF is rejected" 'ends in .csv or .h5' sum.fl -D A=1..3 --metric a=A -o table.nc
 refused "an empty value is rejected" 'empty value' sum.fl -D 'A=1;;2' --metric a=A
