@@ -80,7 +80,9 @@ bool scene_triangles(const Scene *scene, const SceneModel *model, Arena *arena, 
 
 bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, Mesh *mesh) {
     bool solid = scene_is_solid((NodeKind)model->kind);
-    if (!(solid ? scene_solid_mesh(scene, model->node, arena, mesh) : scene_triangles(scene, model, arena, mesh)))
+    if (!(model->kind == KIND_SDF ? scene_field_mesh(scene, model->node, arena, mesh)
+          : solid                 ? scene_solid_mesh(scene, model->node, arena, mesh)
+                                  : scene_triangles(scene, model, arena, mesh)))
         return false;
     if (model->repair)
         scene_repair_mesh(arena, mesh);

@@ -321,6 +321,9 @@ static void read_children(Scene *scene, const InheritedState *outside, const Dra
                 place.group = add_group(scene, outside->group, &place.look);
             read_children(scene, &place, child);
             break;
+        case KIND_MIX:
+            scene_report(scene, "misplaced-node", child, "has no effect outside a distance field; ignored");
+            break;
         default:
             read_model(scene, outside, child);
         }

@@ -33,29 +33,43 @@ typedef struct SolidBuild {
 } SolidBuild;
 
 static bool is_operation(NodeKind kind) {
-    return scene_is_solid(kind) || kind == KIND_TRANSFORM3D;
+    return (scene_is_solid(kind) && kind != KIND_SDF) || kind == KIND_TRANSFORM3D;
 }
 
 static bool is_model(NodeKind kind) {
-    return kind == KIND_BOX || kind == KIND_SPHERE || kind == KIND_CYLINDER || kind == KIND_CONE || kind == KIND_MODEL;
+    return kind == KIND_BOX || kind == KIND_SPHERE || kind == KIND_CYLINDER || kind == KIND_CONE ||
+           kind == KIND_MODEL || kind == KIND_SDF;
 }
 
-static Matrix member_matrix(const Matrix *outside, const DrawNode *node) {
-    return node->kind == KIND_TRANSFORM3D ? matrix_transformed(*outside, node) : matrix_placed(*outside, node);
+Matrix scene_member_matrix(const Matrix *outside, const DrawNode *node) {
+    return node->kind == KIND_MIX           ? *outside
+           : node->kind == KIND_TRANSFORM3D ? matrix_transformed(*outside, node)
+                                            : matrix_placed(*outside, node);
 }
 
-static uint64_t hash_triple(uint64_t seed, const DrawNode *node, AttrName name) {
-    const AttrValue *attr = draw_attr(node, name);
-    return attr ? hash_bytes(seed, attr->as.numbers, 3 * sizeof *attr->as.numbers) : seed + 1;
+// Adds the attributes that determine the shape, other than those of the placement.
+static uint64_t hash_attributes(const DrawNode *node, uint64_t seed) {
+    static const AttrName names[] = {ATTR_ORIGIN,     ATTR_NORMAL, ATTR_MINIMUM, ATTR_MIN,     ATTR_MAXIMUM, ATTR_MAX,
+                                     ATTR_RESOLUTION, ATTR_SMOOTH, ATTR_FILLET,  ATTR_CHAMFER, ATTR_WEIGHTS};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const AttrValue *attr = schema_row((NodeKind)node->kind, names[i]) ? draw_attr(node, names[i]) : NULL;
+        if (!attr)
+            seed++;
+        else if (names[i] == ATTR_WEIGHTS)
+            seed = hash_bytes(seed, attr->as.list, attr->count * sizeof *attr->as.list);
+        else
+            seed = hash_bytes(seed, attr->as.numbers, (i < 6 ? 3 : 1) * sizeof *attr->as.numbers);
+    }
+    return seed;
 }
 
 static uint64_t hash_children(const Scene *scene, const DrawNode *node, uint64_t seed);
 
 static uint64_t hash_member(const Scene *scene, const DrawNode *node, uint64_t seed) {
     NodeKind kind = (NodeKind)node->kind;
-    Matrix matrix = member_matrix(&matrix_identity, node);
+    Matrix matrix = scene_member_matrix(&matrix_identity, node);
     seed = hash_bytes(seed, matrix.m, sizeof matrix.m);
-    if (is_operation(kind))
+    if (is_operation(kind) || kind == KIND_SDF || kind == KIND_MIX)
         return hash_children(scene, node, seed);
     if (!is_model(kind))
         return seed;
@@ -69,8 +83,7 @@ static uint64_t hash_children(const Scene *scene, const DrawNode *node, uint64_t
     arena_charge(scene->arena, 20 + (uint64_t)node->child_count * 20);
     uint64_t facts[] = {node->kind, node->child_count};
     seed = hash_bytes(seed, facts, sizeof facts);
-    if (node->kind == KIND_TRIM || node->kind == KIND_SLICE)
-        seed = hash_triple(hash_triple(seed, node, ATTR_ORIGIN), node, ATTR_NORMAL);
+    seed = hash_attributes(node, seed);
     for (uint32_t i = 0; i < node->child_count; i++)
         seed = hash_member(scene, node->children[i], seed);
     return seed;
@@ -96,7 +109,10 @@ static bool is_mirrored(const Matrix *matrix) {
 static void read_leaf(SolidBuild *build, Part *part, const Matrix *matrix) {
     SceneModel model = scene_model(build->scene, part->node);
     Mesh mesh;
-    if (!matrix_is_finite(matrix) || !scene_triangles(build->scene, &model, build->arena, &mesh))
+    if (!matrix_is_finite(matrix))
+        return;
+    if (!(model.kind == KIND_SDF ? scene_field_mesh(build->scene, part->node, build->arena, &mesh)
+                                 : scene_triangles(build->scene, &model, build->arena, &mesh)))
         return;
     part->points = arena_alloc_array(build->arena, mesh.vertex_count, sizeof *part->points);
     part->indices = mesh.indices;
@@ -151,7 +167,7 @@ static Part *read_part(SolidBuild *build, const DrawNode *node, const Matrix *ma
             scene_report(build->scene, "misplaced-node", child, "has no effect inside a solid; ignored");
             continue;
         }
-        Matrix placed = member_matrix(matrix, child);
+        Matrix placed = scene_member_matrix(matrix, child);
         part->children[part->child_count++] = read_part(build, child, &placed);
     }
     return part;

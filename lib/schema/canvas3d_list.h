@@ -77,9 +77,14 @@
     MATERIAL_ROWS(kind)
 #define MODEL_ROWS(kind) PLACED_ROWS(kind, 0.5, "0.5")
 #define SOLID_ROWS(kind) PLACED_ROWS(kind, 0.05, "0.05")
+#define BLEND_ROWS(kind) \
+    ATTR(kind, SMOOTH, AMOUNT, NOWHERE, IS(0), "", "in distance fields: width of the smooth transition between members") \
+    ATTR(kind, FILLET, AMOUNT, NOWHERE, IS(0), "", "in distance fields: radius of rounded edges between members; ignored if smooth is set") \
+    ATTR(kind, CHAMFER, AMOUNT, NOWHERE, IS(0), "", "in distance fields: size of bevelled edges between members; ignored if smooth or fillet is set")
 #define TRIM_ROWS(kind) \
     ATTR(kind, ORIGIN, TRIPLE, NOWHERE, DESCRIBED(0, "0"), "", "a point of the plane") \
     ATTR(kind, NORMAL, TRIPLE, NOWHERE, NONE, "", "direction from the plane to the part that is cut away") \
+    BLEND_ROWS(kind) \
     SOLID_ROWS(kind)
 
 NODE(CANVAS3D, "canvas3d", PICTURE, SCENE3D, "a 3-D scene and its default camera: y up, z towards the camera")
@@ -144,12 +149,15 @@ ATTR(MODEL, REPAIR, FLAG, NOWHERE, IS(false), "", "join equal vertices, turn all
 MODEL_ROWS(MODEL)
 
 NODE(UNION, "union", SCENE3D, SCENE3D, "a solid: all models inside, joined")
+BLEND_ROWS(UNION)
 SOLID_ROWS(UNION)
 
 NODE(INTERSECT, "intersect", SCENE3D, SCENE3D, "a solid: what all models inside have in common")
+BLEND_ROWS(INTERSECT)
 SOLID_ROWS(INTERSECT)
 
 NODE(DIFFERENCE, "difference", SCENE3D, SCENE3D, "a solid: the first model inside without the others")
+BLEND_ROWS(DIFFERENCE)
 SOLID_ROWS(DIFFERENCE)
 
 NODE(TRIM, "trim", SCENE3D, SCENE3D, "a solid: the models inside, joined and cut off at a plane")
@@ -157,6 +165,18 @@ TRIM_ROWS(TRIM)
 
 NODE(SLICE, "slice", SCENE3D, SCENE3D, "another name for trim")
 TRIM_ROWS(SLICE)
+
+NODE(SDF, "sdf", SCENE3D, SCENE3D, "the surface of a distance field, which the members determine")
+ATTR(SDF, MINIMUM, TRIPLE, NOWHERE, DESCRIBED(-1, "-1"), "", "lower corner of the box that contains the surface")
+ALIAS(SDF, MIN, MINIMUM, "minimum", TRIPLE, NOWHERE, "")
+ATTR(SDF, MAXIMUM, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "upper corner of the box that contains the surface")
+ALIAS(SDF, MAX, MAXIMUM, "maximum", TRIPLE, NOWHERE, "")
+ATTR(SDF, RESOLUTION, AMOUNT, NOWHERE, DESCRIBED(0, "1/64 of the box's longest side"), "", "distance between samples of the field")
+BLEND_ROWS(SDF)
+SOLID_ROWS(SDF)
+
+NODE(MIX, "mix", SCENE3D, SCENE3D, "in distance fields: a shape between those of the members")
+ATTR(MIX, WEIGHTS, LIST, NOWHERE, DESCRIBED(1, "1"), "", "weights of the members, repeated if there are more members")
 
 #undef TRANSFORM3D_ROWS
 #undef MATERIAL_ROWS
@@ -167,3 +187,4 @@ TRIM_ROWS(SLICE)
 #undef MODEL_ROWS
 #undef SOLID_ROWS
 #undef TRIM_ROWS
+#undef BLEND_ROWS

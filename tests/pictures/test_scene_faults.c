@@ -60,6 +60,20 @@ static const Row rows[] = {
      "11 [empty-solid] !intersect: nothing is left of the models inside\n"
      "15 [cannot-read] !model: cannot read 'none.obj': No such file or directory\n"
      "14 [empty-solid] !union: nothing is left of the models inside\n"},
+    {"distance fields without a surface",
+     "        !sdf color=0;1;0 resolution=1e-9\n            !sphere\n"
+     "        !sdf color=0;1;0 min=2\n            !sphere\n"
+     "        !sdf color=0;1;0 max=-2\n            !sphere\n"
+     "        !mix\n            !sphere\n"
+     "        !sdf color=0;1;0 position=1.5;0;0 max=9\n            !light color=1\n            !box size=0\n"
+     "            !mix weights=1;-1\n                !sphere\n                !box\n",
+     "11 [misplaced-node] !mix: has no effect outside a distance field; ignored\n"
+     "5 [bad-resolution] !sdf: 'resolution' is too small: at most 1024 samples along an axis and 4 million points are "
+     "possible\n"
+     "7 [empty-solid] !sdf: the distance field has no surface in its box\n"
+     "9 [empty-solid] !sdf: the distance field has no surface in its box\n"
+     "14 [misplaced-node] !light: has no effect inside a distance field; ignored\n"
+     "13 [empty-solid] !sdf: the distance field has no surface in its box\n"},
     {"missing textures", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
     {"textures that refer to each other",
      "        !camera id=:a secondary=true size=32;32\n        !camera id=:b secondary=true size=32;32\n"
