@@ -138,7 +138,8 @@ bool archive_create_database(PetriArchive *archive, const char *file) {
     char identity[100];
     snprintf(identity, sizeof identity, "PRAGMA application_id = %d; PRAGMA user_version = %d", ARCHIVE_APPLICATION_ID,
              ARCHIVE_FORMAT);
-    bool good = archive_execute(archive, identity) && archive_execute(archive, "BEGIN IMMEDIATE");
+    // In one transaction, so that a process that is killed leaves no archive without tables.
+    bool good = archive_execute(archive, "BEGIN IMMEDIATE") && archive_execute(archive, identity);
     for (int i = 0; i < SCHEMA_COUNT && good; i++)
         good = archive_execute(archive, schema[i].sql);
     return good && archive_execute(archive, "COMMIT; BEGIN IMMEDIATE");

@@ -404,6 +404,7 @@ static PetriStatus step_session(PetriSession *session, const ClockBase *at) {
     Clock clock = session->clock;
     session_clear_frame(session);
     advance_clock(session, at, replays ? &recorded : NULL);
+    session->frame_realtime = session->clock.realtime;
     status = evaluate_frame(session, replays ? &recorded : NULL);
     bool counts = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
     if (status == PETRI_OK) {

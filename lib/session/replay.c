@@ -153,7 +153,7 @@ static PetriStatus load_script(PetriSession *session, const Setup *setup, const 
         return PETRI_INVALID;
     find_numbers(setup, "run_time", &run_time, 1);
     session->options.run_time = run_time;
-    session->clock.realtime = realtime != 0;
+    session->clock.realtime = session->frame_realtime = realtime != 0;
     PetriStatus status = session->config.program ? petri_reload(session, script) : petri_load(session, script);
     session->clock.realtime = follows_clock;
     return status;

@@ -145,6 +145,7 @@ PetriSession *petri_open(const PetriOptions *options) {
     frame->errors = diag_sink_new(&frame->arena, MAX_LINES);
     session->symbols = symbol_table_new(&session->arena);
     session->clock = (Clock){.realtime = options->realtime, .number = -1};
+    session->frame_realtime = options->realtime;
     vm_init(&session->vm, &frame->arena, &session->symbols, (VmHost){session, report_vm, log_vm, session_module},
             options->stack_limit, false);
     vm_init(&session->static_vm, &frame->arena, &session->symbols,

@@ -110,6 +110,7 @@ struct PetriSession {
     bool recompiling;           // true while the loaded text is compiled again because definitions changed
     Loader loader;
     Clock clock;
+    bool frame_realtime; // value of `realtime` in the last frame, or in the first one; in a replay, as it was recorded
     SessionFrame frame;
     Prompt prompt;
     Diagnostics diagnostics;

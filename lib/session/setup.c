@@ -47,7 +47,7 @@ static void add_configuration(SetupWriter *writer) {
     const ClockBase *base = &session->clock.base;
     double run_time = session->options.run_time;
     add_numbers(writer, "run_time", &run_time, !isnan(run_time));
-    add_numbers(writer, "realtime", (double[]){session->clock.realtime}, 1);
+    add_numbers(writer, "realtime", (double[]){session->frame_realtime}, 1);
     add_text_line(writer, "script", str_from(recorder_script_name(session)));
     add_numbers(writer, "host_names", (double[]){config->program->program->param_count}, 1);
     for (uint32_t i = 0; i < config->define_count; i++)

@@ -207,7 +207,9 @@ static void test_recording_in_real_time_is_replayed(void **state) {
     options.realtime = true;
     options.fps = 500;
     PetriSession *session = petri_open(&options);
-    PetriArchive *archive = petri_archive_create(session, "live.petri", NULL);
+    PetriArchiveOptions often = petri_archive_default_options();
+    often.keyframe_every = 4;
+    PetriArchive *archive = petri_archive_create(session, "live.petri", &often);
     assert_int_equal(petri_load_text(session, "live.fl", script, PETRI_NUL_TERMINATED), PETRI_OK);
     for (int i = 0; i < FRAMES; i++) {
         assert_int_equal(petri_step(session), PETRI_OK);
@@ -221,6 +223,7 @@ static void test_recording_in_real_time_is_replayed(void **state) {
     for (int i = 0; i < FRAMES; i++) {
         assert_int_equal(petri_step(session), PETRI_OK);
         check_frame(session, i);
+        assert_false(petri_archive_keyframe_differs(archive));
     }
     assert_int_equal(petri_archive_check(archive), PETRI_OK);
     petri_close(&session);
