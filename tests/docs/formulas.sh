@@ -3,7 +3,7 @@
 # node `!fact` of facts.fl has holds=1.
 #
 # ```formula NAME ARGUMENTS    belongs to ROOT/tests/docs/figures/NAME.fl, which measures a force and compares it with
-#                              its `func formula(ARGUMENTS)`, in a node `!compared values=N difference=FRACTION`
+#                              its `func formula(ARGUMENTS)`, in a line `> N;DIFFERENCE` of the log
 # The script is run unchanged, and again with a formula made from the block: lines `NAME = EXPR` are intermediate
 # results, lines `F = EXPR if CONDITION` the cases of the result. The last case may have no `if`. Scripts without a block
 # are only run unchanged.
@@ -51,10 +51,10 @@ sed -e '/^```formula/,/^```$/{
 
 passed=0
 failed=0
-# judge NAME WHICH: runs a script and checks the differences that its nodes contain.
+# judge NAME WHICH: runs a script and checks the difference in its log.
 judge() {
-    got=$("$petri" run --frames 3 --every 2 --print tree "$work/$1.fl" 2>&1 | grep -E '^!compared|warning:|error:' | tail -n 1)
-    if echo "$got" | awk '{ sub(/.*values=/, ""); split($0, part, " difference=")
+    got=$("$petri" run --frames 3 --every 2 --print log "$work/$1.fl" 2>&1 | grep -E '^> |warning:|error:' | tail -n 1)
+    if echo "$got" | awk '{ sub(/^> /, ""); split($0, part, ";")
                             exit !(part[1] >= 5 && part[2] != "" && part[2] <= 1e-12) }'; then
         passed=$((passed + 1))
     else

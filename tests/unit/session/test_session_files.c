@@ -232,7 +232,8 @@ static void test_check_reports_in_order(void **state) {
     Notebook *reported = &desk->player.diagnostics;
     static const char script[] = "!window size=40;40\n    !canvas size=40;40\n        !rect siz=1\n"
                                  "!physics state=:s dimensions=1 colour=1\n!a v=unknown\n";
-    static const char *const wanted[] = {"!rect: unknown attribute 'siz'", "unknown attribute 'colour'", "t.fl:5:6 "};
+    static const char *const wanted[] = {"!rect: unknown attribute 'siz'", "unknown attribute 'colour'",
+                                         "'!a' does nothing", "t.fl:5:6 "};
     assert_int_equal(petri_check_text(desk->player.session, "t.fl", script, PETRI_NUL_TERMINATED), PETRI_OK);
     const char *at = reported->text;
     for (size_t i = 0; i < COUNT_OF(wanted); i++) {
