@@ -33,5 +33,8 @@ static bool has_source(const Schema *schema, const Node *node, int depth, uint32
 
 bool canvas_window_has_picture(const Schema *schema, const Node *window) {
     uint32_t remaining = CANVAS_MAX_CHECKED;
+    if (node_get(window, schema->slots[ROW_WINDOW_VERTEX].name).len > 0 ||
+        node_get(window, schema->slots[ROW_WINDOW_FRAGMENT].name).len > 0)
+        return true; // the program of the window draws it
     return has_source(schema, window, 0, &remaining);
 }

@@ -124,6 +124,17 @@ static bool has_shape(const SchemaRow *row, Value v) {
     return value_is_numeric(v) && v.len > 0 && (shape == SHAPE_POINTS || v.len <= (shape == SHAPE_PAIR ? 2u : 1u));
 }
 
+// Returns true if the node runs a shader program that the script writes.
+static bool has_program(const Reader *reader) {
+    static const AttrName names[] = {ATTR_VERTEX, ATTR_FRAGMENT};
+    for (int i = 0; i < 2; i++) {
+        const SchemaRow *row = schema_row(reader->kind, names[i]);
+        if (row && node_get(reader->node, reader->schema->slots[row - schema_rows].name).len > 0)
+            return true;
+    }
+    return false;
+}
+
 bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
     const Node *node = reader->node;
     const SchemaSlot *slots = reader->schema->slots;
@@ -137,9 +148,9 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
         AttrValue *attr = &attrs[*count];
         if (slot == end) {
             *attr = (AttrValue){.name = ATTR_NONE};
-            if (reader->kind != KIND_SHADER)
+            if (reader->kind != KIND_SHADER && !has_program(reader))
                 reader_report_unknown(reader, node->attrs[i].name);
-            else if (read_numbers(reader, v, false, attr)) { // shaders can have uniforms of any name
+            else if (read_numbers(reader, v, false, attr)) { // programs can have uniforms of any name
                 attr->custom_name = str_to_c(reader->arena, node->attrs[i].name->name);
                 ++*count;
             }

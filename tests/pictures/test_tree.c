@@ -154,6 +154,26 @@ static void test_uniforms_have_values(void **state) {
     drawn_close(&drawn);
 }
 
+// The picture of a window or !offscreen with a program and without children is that of the program, also if there are
+// particles. Its attributes are uniforms.
+static void test_programs_of_windows(void **state) {
+    (void)state;
+    static const char program[] =
+        "fragment=\"\"\"${HEADER}\nout vec4 color;\nuniform vec3 tint;\nuniform float level;\n"
+        "void main() { color = vec4(tint * level, 1.0); }\n\"\"\"\n";
+    static const char *const starts[] = {"!window size=4;4", "!offscreen size=4;4", "!window size=4;4\n    !shader",
+                                         "!window size=4;4\n    !record",
+                                         "!physics state=:s dimensions=2\n    !particle id=1 position=0;0\n"
+                                         "!window size=4;4"};
+    for (size_t i = 0; i < COUNT_OF(starts); i++) {
+        char script[600];
+        snprintf(script, sizeof script, "%s tint=1;0.2;0 level=0.2+frame*0 %s", starts[i], program);
+        check_color(starts[i], script, 2, 124, 56, 0);
+    }
+    check_reported("without a program, other attributes are unknown", "!window size=4;4 tint=1\n    " RED,
+                   "1 [unknown-attribute] !window: unknown attribute 'tint'\n", 255, 0, 0);
+}
+
 static void test_shader_errors_are_at_their_lines(void **state) {
     (void)state;
     check_color("#version 330",
@@ -317,10 +337,15 @@ static void test_memory_limit_is_reported_once(void **state) {
 int main(int argc, char **argv) {
     (void)argv;
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ids_refer_to_pictures),         cmocka_unit_test(test_memory_limit_is_reported_once),
-        cmocka_unit_test(test_nodes_continue_between_frames), cmocka_unit_test(test_passes_see_first_and_last),
-        cmocka_unit_test(test_uniforms_have_values),          cmocka_unit_test(test_shader_errors_are_at_their_lines),
-        cmocka_unit_test(test_pictures_outlive_scripts),      cmocka_unit_test(test_bad_input_is_reported_once),
+        cmocka_unit_test(test_ids_refer_to_pictures),
+        cmocka_unit_test(test_memory_limit_is_reported_once),
+        cmocka_unit_test(test_nodes_continue_between_frames),
+        cmocka_unit_test(test_passes_see_first_and_last),
+        cmocka_unit_test(test_uniforms_have_values),
+        cmocka_unit_test(test_programs_of_windows),
+        cmocka_unit_test(test_shader_errors_are_at_their_lines),
+        cmocka_unit_test(test_pictures_outlive_scripts),
+        cmocka_unit_test(test_bad_input_is_reported_once),
     };
     static const struct CMUnitTest without[] = {cmocka_unit_test(test_without_gpu_children_are_drawn)};
     enum { SKIP = 77 };
