@@ -248,6 +248,7 @@ PETRI_API PetriStatus petri_step(PetriSession *session);
 
 // A parameter of the loaded script, declared at its top level by `let NAME=NAME or DEFAULT -- RANGE DESCRIPTION`. Its
 // value is the one set with petri_define or petri_set_parameter if that value is true as a condition, else the default.
+// `let X=NAME or NUMBERS` declares the parameter NAME if the script uses NAME only there.
 // RANGE is optional: `1..500`, `0..1|0.05` with a step, or `0..` with one end. The range is a recommendation: a value
 // outside it causes a warning.
 typedef struct PetriParameter {

@@ -336,6 +336,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_c
     if (!include.ast)
         return compile_constant(compiler, ast, VALUE_NULL);
     const Source *outer = compiler->source;
+    compile_add_uses(compiler, include.ast);
     compiler->source = include.source;
     compiler->depth--; // the included statements have the depth of the directive
     const Expr *expr = compile_suite(compiler, include.ast, in_children);

@@ -67,11 +67,11 @@ struct Compiler {
     uint32_t parameter_capacity;
     Str *imports;
     uint32_t import_count;
-    const Ast *root;          // the whole file
-    const NameUses *uses;     // uses of names in `root`; NULL: not collected yet (optional.c)
-    const Ast *subject;       // latest expression to which attributes or children are added; used for a hint
-    const Ast *key;           // key of the latest state lookup; used for a hint
-    const Ast *parameter_use; // second NAME of the last parameter `let NAME=NAME or DEFAULT`; not reported if unbound
+    const Ast *root;              // the whole file
+    NameUses *uses;               // uses of names in `root` and in included files; NULL: not collected yet (optional.c)
+    const Ast *subject;           // latest expression to which attributes or children are added; used for a hint
+    const Ast *key;               // key of the latest state lookup; used for a hint
+    const Ast *parameter_use;     // NAME of the last parameter `let X=NAME or DEFAULT`; not reported if unbound
     const Ast *parameter_default; // DEFAULT of the last parameter; NULL: the right side has several `or`
     Include *includes;            // in order of the %include directives
     uint32_t include_count;
@@ -107,6 +107,13 @@ const Expr *compile_name(Compiler *compiler, const Ast *ast);
 // Returns true if the script works without this unbound name: each of its uses is the left side of `or` or `and`, the
 // operand of `not`, or a test of `if`.
 bool compile_is_optional(Compiler *compiler, const Symbol *name);
+// Returns true if the name occurs only once.
+bool compile_is_used_once(Compiler *compiler, const Symbol *name);
+// Returns true if there is a hint about the probable cause of an unbound name in the value of the name `bound`, such as
+// a similar name.
+bool compile_has_hint(Compiler *compiler, const Ast *use, const Symbol *bound);
+// Adds the uses of names in an included file.
+void compile_add_uses(Compiler *compiler, const Ast *ast);
 void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
 // Ends a function and continues with the enclosing function.
 void compile_function_close(Compiler *compiler, FunctionScope *function);

@@ -9,12 +9,13 @@ typedef struct NameUse {
     bool tested; // true if it does not matter whether the name is bound
 } NameUse;
 
-// The uses of a file, sorted by name.
+// The uses in the script and in the files that it has included so far.
 struct NameUses {
     Arena *arena;
     NameUse *items;
     uint32_t count;
     uint32_t capacity;
+    bool sorted; // true if `items` is sorted by name
 };
 
 static void add_use(NameUses *uses, const Symbol *name, bool tested) {
@@ -52,28 +53,52 @@ static int by_name(const void *a, const void *b) {
     return first < second ? -1 : first > second;
 }
 
-static NameUses *find_uses(Arena *arena, const Ast *ast) {
-    NameUses *uses = arena_alloc(arena, sizeof *uses);
-    *uses = (NameUses){.arena = arena};
+void compile_add_uses(Compiler *compiler, const Ast *ast) {
+    NameUses *uses = compiler->uses;
+    if (!uses) {
+        compiler->uses = uses = arena_alloc(compiler->scratch, sizeof *uses);
+        *uses = (NameUses){.arena = compiler->scratch};
+        collect_uses(uses, compiler->root, false);
+    }
     collect_uses(uses, ast, false);
-    if (uses->count > 0)
+    uses->sorted = false;
+}
+
+// Returns the first use of a name and sets *count to the number of its uses.
+static const NameUse *find_uses(Compiler *compiler, const Symbol *name, uint32_t *count) {
+    *count = 0;
+    if (!compiler->uses)
+        compile_add_uses(compiler, &(Ast){.kind = AST_SUITE});
+    NameUses *uses = compiler->uses;
+    if (uses->count == 0)
+        return NULL;
+    if (!uses->sorted) {
+        arena_charge(uses->arena, uses->count);
         qsort(uses->items, uses->count, sizeof *uses->items, by_name);
-    return uses;
+        uses->sorted = true;
+    }
+    const NameUse key = {.name = name}, *end = uses->items + uses->count;
+    const NameUse *first = bsearch(&key, uses->items, uses->count, sizeof key, by_name);
+    if (!first)
+        return NULL;
+    while (first > uses->items && first[-1].name == name)
+        first--;
+    while (first + *count < end && first[*count].name == name)
+        ++*count;
+    return first;
 }
 
 bool compile_is_optional(Compiler *compiler, const Symbol *name) {
-    if (!compiler->uses)
-        compiler->uses = find_uses(compiler->scratch, compiler->root);
-    const NameUses *uses = compiler->uses;
-    const NameUse key = {.name = name}, *first = NULL;
-    if (uses->count > 0)
-        first = bsearch(&key, uses->items, uses->count, sizeof key, by_name);
-    if (!first)
-        return false; // the name is used in an included file only
-    while (first > uses->items && first[-1].name == name)
-        first--;
-    for (; first < uses->items + uses->count && first->name == name; first++)
-        if (!first->tested)
+    uint32_t count;
+    const NameUse *uses = find_uses(compiler, name, &count);
+    for (uint32_t i = 0; i < count; i++)
+        if (!uses[i].tested)
             return false;
-    return true;
+    return count > 0;
+}
+
+bool compile_is_used_once(Compiler *compiler, const Symbol *name) {
+    uint32_t count;
+    find_uses(compiler, name, &count);
+    return count == 1;
 }

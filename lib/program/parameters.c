@@ -1,4 +1,4 @@
-// parameters.c: parameters of scripts, `let NAME=NAME or DEFAULT`; see program.h.
+// parameters.c: parameters of scripts, `let NAME=NAME or DEFAULT` or `let X=NAME or NUMBER`; see program.h.
 //
 // The language needs no special rule: an undefined name is null, which is false, so `or` selects the default. This file
 // suppresses the warning about the undefined name and collects the parameters for listings. The comments that describe
@@ -108,11 +108,30 @@ static void lint_default(Compiler *compiler, const Parameter *parameter) {
                        (Str){0});
 }
 
+// Returns true for a number or a vector of numbers.
+static bool is_plain_number(const Ast *ast) {
+    bool plain =
+        ast->kind == AST_LITERAL ? ast->value.kind == VALUE_NUMBERS : ast->kind == AST_NEG || ast->kind == AST_COMPOSE;
+    for (uint32_t i = 0; plain && i < ast->count; i++)
+        plain = is_plain_number(ast->children[i]);
+    return plain;
+}
+
+// Returns true if `let X=NAME or DEFAULT` defines the parameter NAME. If NAME is not X, it must occur only here, and
+// the default must be numbers. A name that is similar to another one is probably misspelled.
+static bool is_parameter(Compiler *compiler, const Ast *use, const Ast *name, const Ast *value) {
+    if (!use || !compile_is_free(compiler, use->name))
+        return false;
+    if (use->name == name->name)
+        return true;
+    return !compiler->options->module && value->children[0] == use && is_plain_number(value->children[1]) &&
+           compile_is_used_once(compiler, use->name) && !compile_has_hint(compiler, use, name->name);
+}
+
 void compile_note_parameter(Compiler *compiler, const Ast *binding) {
     const Ast *names = binding->children[0], *value = binding->children[1], *use = first_operand(value);
     compiler->parameter_use = compiler->parameter_default = NULL;
-    if (compiler->depth != 1 || names->count != 1 || !use || use->name != names->children[0]->name ||
-        !compile_is_free(compiler, use->name))
+    if (compiler->depth != 1 || names->count != 1 || !is_parameter(compiler, use, names->children[0], value))
         return;
     Parameter parameter = {.name = use->name,
                            .source = compiler->source,

@@ -222,6 +222,12 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with '--'") : (Str){0};
 }
 
+bool compile_has_hint(Compiler *compiler, const Ast *use, const Symbol *bound) {
+    StrNearest nearest = str_nearest(use->name->name);
+    str_try_nearest(&nearest, bound->name);
+    return nearest.found.len > 0 || unbound_hint(compiler, use).len > 0;
+}
+
 static const Expr *compile_unbound(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     if (ast == compiler->parameter_use)

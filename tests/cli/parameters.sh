@@ -25,6 +25,31 @@ check "-D sets parameters" out_is "@0 time=0 beat=0
 !n c=5 s=1.5 t='b c' f=7 b=6"
 check "setting parameters gives no message" empty err
 
+# Optional definitions with a plain default are parameters. Files that are included count, too.
+cat >optional_part.fl <<'END'
+let WIDTH=RECORD or (7;8)
+!n a=WIDTH b=(1 if FAST else 2) c=WRONG+1 d=(1 if BOTH)
+END
+cat >optional.fl <<'END'
+%include "optional_part.fl"
+let GAP=DISTANCE or -5 -- -9..9 pixels
+    SIZE=FILM or 9 FRAMES=(60 if FILM)
+    CELLS=CELSL or 3
+    OTHER=SOME or time
+!n g=GAP s=SIZE f=FRAMES c=CELLS o=OTHER b=BOTH
+END
+petri run --parameters optional.fl
+check "an optional definition is a parameter if it occurs once and has a plain default" out_is "RECORD    (7;8)
+DISTANCE  -5     -9..9  pixels"
+petri run --frames 1 --print tree optional.fl
+check "only names that are used without a test are unbound" \
+    [ "$(grep -o "unbound name '[A-Z]*'" err | sort -u | tr '\n' ' ')" = "unbound name 'BOTH' unbound name 'WRONG' " ]
+petri run --frames 1 --print tree -D DISTANCE=4 -D RECORD=1 optional.fl
+check "-D sets an optional definition" has out "!n g=4"
+petri check optional.fl
+check "check lists optional definitions of included files" has err "optional_part.fl:2:20: note: 'FAST' is optional"
+check "a similar name is not a parameter" has err "'CELSL' is optional"
+
 echo 'let N=N or 900 -- 1..500
 !n v=N' >outside.fl
 petri check outside.fl

@@ -36,7 +36,11 @@ static void test_parameters_are_found(void **state) {
         {"let n=n or frame\n", "n=frame"},   // the default varies from frame to frame
         {"let n=n or 1-1\n", "n=1-1"},       // the test's evaluator cannot evaluate differences
         {"let n=n or 1 or 2\n", "n=1 or 2"}, // the syntax tree has no node for the whole default
-        {"let n=m or 1\nlet sin=sin or 1\nlet n=5\nlet n=n or 1\n", ""},
+        {"let n=m or 1\n", "m=1:1"},
+        {"let n=m or -1\nlet k=m or 1\n", ""}, // the name occurs twice
+        {"let n=m or frame\n", ""},            // the default is not plain
+        {"let size=siz or 1\n", ""},           // probably misspelled
+        {"let sin=sin or 1\nlet n=5\nlet n=n or 1\n", ""},
         {"if 1\n    let n=n or 1\n", ""}, // parameters exist only at the top level
     };
     Desk *desk = *state;
