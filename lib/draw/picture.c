@@ -56,6 +56,53 @@ static Value attr_value(const Schema *schema, const Node *node, AttrRow row) {
     return node_get(node, schema->slots[row].name);
 }
 
+// The search of petri_find_window.
+typedef struct WindowSearch {
+    const char *id;
+    int found; // -1: none
+    Arena arena;
+} WindowSearch;
+
+static PetriStatus find_protected(PetriSession *session, void *context) {
+    WindowSearch *search = context;
+    DrawAccess access = session_draw_access(session);
+    const Node *window;
+    int number = 0;
+    for (uint32_t at = 0; (window = canvas_next_window(access.schema, access.tree, &at)); number++) {
+        Str id = value_text(&search->arena, access.schema->symbols, attr_value(access.schema, window, ROW_WINDOW_ID));
+        if (search->found < 0 && str_equal(id, str_from(search->id)))
+            search->found = number;
+    }
+    return PETRI_OK;
+}
+
+int petri_find_window(PetriSession *session, const char *id) {
+    if (!session || !id || !id[0])
+        return -1;
+    DrawAccess access = session_draw_access(session);
+    WindowSearch search = {.id = id, .found = -1};
+    arena_init(&search.arena, "picture", access.memory_limit);
+    search.arena.budget = access.budget;
+    session_protect(session, &search.arena, find_protected, &search);
+    arena_free(&search.arena);
+    return search.found;
+}
+
+// Reports the second `!window` if only the first is drawn.
+static void report_other_windows(const Request *request) {
+    const CanvasPicture *picture = &request->picture->picture;
+    const SchemaSink *sink = &request->shown.schema->sink;
+    for (uint32_t i = 0; i < picture->top_count; i++) {
+        const DrawNode *window = picture->tops[i];
+        if (window == picture->window || window->kind != KIND_WINDOW)
+            continue;
+        Str text = str_format(&request->picture->arena,
+                              "only one window is drawn; to draw this one, use petri render --window %u", i);
+        sink->report(sink->user_data, DIAG_WARNING, "other-window", &window->origin, STR("!window"), STR(""), text);
+        return;
+    }
+}
+
 static bool has_word(Str text, Str word) {
     for (size_t i = 0; i + word.len <= text.len; i++)
         if (str_equal((Str){text.bytes + i, word.len}, word))
@@ -248,7 +295,7 @@ static bool make_picture(Request *request) {
         return false;
     }
     if (!window && (!automatic || options->window >= 0)) {
-        request->problem = options->window > 0 ? "nothing to draw: the frame has no window with this number"
+        request->problem = options->window > 0 ? "nothing to draw: the frame has no window with this number or id"
                                                : "nothing to draw: the frame has neither a !window with a "
                                                  "!canvas nor !physics";
         return false;
@@ -279,7 +326,11 @@ static PetriStatus make_protected(PetriSession *session, void *context) {
     CanvasPicture *picture = &request->picture->picture;
     picture->name_count =
         session_frame_numbers(session, &request->picture->arena, picture->names, picture->numbers, PICTURE_NAMES);
-    return make_picture(request) ? PETRI_OK : PETRI_INVALID;
+    if (!make_picture(request))
+        return PETRI_INVALID;
+    if (request->options->window < 0 && picture->window)
+        report_other_windows(request);
+    return PETRI_OK;
 }
 
 PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **out) {

@@ -61,6 +61,10 @@ enum { PETRI_MAX_PICTURE_SIDE = 16384 };
 // which this returns true, at the latest in frame 2.
 PETRI_API bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options);
 
+// Returns the number of the first window or `!offscreen` of the last frame whose attribute `id` is this text or symbol.
+// Returns -1 if there is none.
+PETRI_API int petri_find_window(PetriSession *session, const char *id);
+
 // Returns true if pictures of the last frame depend on those of earlier frames, or are saved by a `!record` node. The
 // host must then render the pictures of all frames with one painter, in order, even of frames that it does not show
 // (petri_picture_render).

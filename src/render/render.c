@@ -9,6 +9,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,6 +99,18 @@ static bool check_folder(const char *file) {
     if (!good)
         message("cannot write '%s': %s", file, strerror(errno));
     return good;
+}
+
+// Finds the window of --window in the last frame, because a script can create other windows in each frame.
+static void choose_window(Render *render) {
+    const char *wanted = render->frames.options->window;
+    if (!wanted)
+        return;
+    char *end;
+    int found = petri_find_window(render->frames.session, wanted);
+    long number = strtol(wanted, &end, 10);
+    bool is_number = *end == '\0' && end > wanted && number >= 0 && number < INT_MAX;
+    render->picture.window = found >= 0 ? found : is_number ? (int)number : INT_MAX;
 }
 
 // Draws the last computed frame. Adds it to the video if `for_film` is true, writes it to `file` if that is not NULL,
@@ -224,6 +237,7 @@ static int render_frames(Render *render) {
         going = frames_step(frames) || frames->abandoned;
         if (frames->abandoned)
             break;
+        choose_window(render);
         petri_picture_follow(frames->session, &render->picture);
         if (going && is_before_first_picture(render))
             frames->before_first_picture++;

@@ -114,6 +114,31 @@ END
     petri render disc.fl -o none.png --frames 1 --auto
     check "--auto without physics is an error" one_error
 
+    # several windows
+    cat >windows.fl <<'END'
+!window size=4;4 id="first"
+    !canvas
+        !rect size=9 fill=true color=1;0;0
+!offscreen size=5;4 id=:spare
+    !canvas
+        !rect size=9 fill=true color=0;0;1
+!window size=6;4 id="second"
+    !canvas
+        !rect size=9 fill=true color=0;1;0
+END
+    petri render windows.fl -o windows.png --frames 2
+    check "render draws the first window" [ "$(width windows.png)" = 4 ]
+    check "render reports once that another window is not drawn" \
+        count_is err "windows.fl:7:1: warning: !window: only one window is drawn; to draw this one, use petri render --window 2" 1
+    for window in second:6 2:6 spare:5 first:4; do
+        petri render windows.fl -o windows.png --frames 2 --window "${window%:*}"
+        check "--window ${window%:*} draws this window" [ "$(width windows.png)" = "${window#*:}" ]
+        check "--window ${window%:*} reports nothing" empty err
+    done
+    petri render windows.fl -o windows.png --window third
+    check "a window that does not exist is an error" has err "the frame has no window with this number or id"
+    check "a window that does not exist exits with 1" status_is 1
+
     # record
     cat >record.fl <<'END'
 !window size=20;20
