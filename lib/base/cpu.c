@@ -1,24 +1,39 @@
 // cpu.c: see cpu.h.
-#define _GNU_SOURCE // sched_getaffinity
 #include "base/cpu.h"
 
-#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __APPLE__
+#include <sys/sysctl.h>
+#endif
 
 static const char *const names[CPU_LEVELS] = {"scalar", "avx2", "avx512"};
 
 Cpu cpu_detected;
 
+#if defined(__x86_64__) && defined(__APPLE__)
+// Asks the system, because it enables AVX-512 only when a program uses it.
+static bool is_supported(const char *name) {
+    int value = 0;
+    size_t size = sizeof value;
+    return sysctlbyname(name, &value, &size, NULL, 0) == 0 && value != 0;
+}
+#define SUPPORTS(name, apple_name) is_supported("hw.optional." apple_name)
+#elif defined(__x86_64__)
+#define SUPPORTS(name, apple_name) __builtin_cpu_supports(name)
+#endif
+
 // Runs before main, so that cpu_detected is constant afterwards.
 __attribute__((constructor)) static void detect_cpu(void) {
 #if defined(__x86_64__)
+#ifndef __APPLE__
     __builtin_cpu_init();
-    bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
-    cpu_detected.level = !__builtin_cpu_supports("avx2") ? CPU_SCALAR : wide ? CPU_AVX512 : CPU_AVX2;
+#endif
+    bool wide = SUPPORTS("avx512f", "avx512f") && SUPPORTS("avx512dq", "avx512dq") &&
+                SUPPORTS("avx512vl", "avx512vl") && SUPPORTS("avx512bw", "avx512bw");
+    cpu_detected.level = !SUPPORTS("avx2", "avx2_0") ? CPU_SCALAR : wide ? CPU_AVX512 : CPU_AVX2;
     cpu_choose(getenv("PETRI_CPU"), &cpu_detected.level);
-    cpu_detected.fma = cpu_detected.level > CPU_SCALAR && __builtin_cpu_supports("fma");
+    cpu_detected.fma = cpu_detected.level > CPU_SCALAR && SUPPORTS("fma", "fma");
 #endif
 }
 
@@ -38,12 +53,4 @@ bool cpu_choose(const char *requested, CpuLevel *level) {
 
 const char *cpu_name(CpuLevel level) {
     return names[level];
-}
-
-int cpu_count(void) {
-    cpu_set_t set;
-    if (sched_getaffinity(0, sizeof set, &set))
-        return 1;
-    int count = CPU_COUNT(&set);
-    return count > 0 ? count : 1;
 }

@@ -1,4 +1,4 @@
-// cpu.h: detection of vector instructions and of the number of processors.
+// cpu.h: detection of vector instructions.
 #pragma once
 
 #include <stdbool.h>
@@ -18,6 +18,3 @@ extern Cpu cpu_detected;
 // `requested` is NULL, empty or unknown, sets *level to cpu_detected.level. Returns false only if it is unknown.
 bool cpu_choose(const char *requested, CpuLevel *level);
 const char *cpu_name(CpuLevel level);
-
-// Returns the number of processors that this process may run on, at least 1.
-int cpu_count(void);

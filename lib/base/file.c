@@ -1,6 +1,7 @@
 // file.c: see file.h.
 #include "base/file.h"
 
+#include "base/os.h"
 #include "base/replace.h"
 
 #include <errno.h>
@@ -13,7 +14,8 @@
 #include <unistd.h>
 
 static Str version_of(Arena *arena, const struct stat *info) {
-    return str_format(arena, "%lld.%ld %lld %llu", (long long)info->st_mtim.tv_sec, (long)info->st_mtim.tv_nsec,
+    struct timespec modified = os_time_modified(info);
+    return str_format(arena, "%lld.%ld %lld %llu", (long long)modified.tv_sec, (long)modified.tv_nsec,
                       (long long)info->st_size, (unsigned long long)info->st_ino);
 }
 

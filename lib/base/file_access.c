@@ -1,8 +1,8 @@
 // file_access.c: see file_access.h.
-#define _GNU_SOURCE // openat2, O_PATH
 #include "base/file_access.h"
 
 #include "base/file.h"
+#include "base/os.h"
 #include "base/source.h"
 
 #include <errno.h>
@@ -11,15 +11,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#if defined __linux__ && defined __has_include
-#if __has_include(<linux/openat2.h>)
-#include <linux/openat2.h>
-#include <sys/syscall.h>
-#endif
-#endif
-#ifndef O_PATH
-#define O_PATH O_RDONLY
-#endif
 
 void file_access_add(Arena *arena, FileAccess *file_access, FileAccessKind kind, const char *const *names) {
     char resolved[PATH_MAX];
@@ -151,7 +142,7 @@ int file_open_below(int folder, char *rest, int flags, mode_t mode, bool make_fo
         *slash = '\0';
         if (make_folders)
             mkdirat(folder, rest, 0777); // fails if it exists
-        int next = file_open_at(folder, rest, O_PATH | O_DIRECTORY | O_NOFOLLOW, 0);
+        int next = file_open_at(folder, rest, OS_SEARCH | O_DIRECTORY | O_NOFOLLOW, 0);
         close_folder(folder);
         if (next < 0)
             return -1;
@@ -164,26 +155,16 @@ int file_open_below(int folder, char *rest, int flags, mode_t mode, bool make_fo
 
 // Opens a canonical path below a folder without following links. Modifies `path`.
 static int open_below(const Str *folder, char *path, int flags) {
-    int start = file_open_at(AT_FDCWD, folder->bytes, O_PATH | O_DIRECTORY, 0);
+    int start = file_open_at(AT_FDCWD, folder->bytes, OS_SEARCH | O_DIRECTORY, 0);
     char *rest = path + folder->len;
     rest += rest[0] == '/';
     if (start < 0)
         return -1;
-#ifdef RESOLVE_BENEATH
-    struct open_how how = {.flags = (unsigned)(flags | O_CLOEXEC | O_NOCTTY),
-                           .resolve = RESOLVE_BENEATH | RESOLVE_NO_SYMLINKS | RESOLVE_NO_MAGICLINKS};
-    long file;
-    do
-        file = syscall(SYS_openat2, start, rest[0] ? rest : ".", &how, sizeof how);
-    while (file < 0 && (errno == EINTR || errno == EAGAIN));
-    if (file >= 0 || (errno != ENOSYS && errno != EPERM)) { // ENOSYS, EPERM: openat2 is missing or blocked by a sandbox
-        int error = errno;
-        close(start);
-        errno = error;
-        return (int)file;
-    }
-#endif
-    return file_open_below(start, rest, flags, 0, false); // for systems without openat2
+    int file = os_open_below(start, rest[0] ? rest : ".", flags);
+    if (file < 0 && errno == ENOSYS)
+        return file_open_below(start, rest, flags, 0, false);
+    close_folder(start);
+    return file;
 }
 
 int file_access_open(const FileAccess *file_access, const char *path, int flags) {

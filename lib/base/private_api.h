@@ -4,4 +4,7 @@
 // Marks an internal function or table that these libraries use. Its symbol is `_petri_NAME`, which cannot collide with
 // a name of a host. Its symbol version is that of one release (petri.map), so all libraries must be of the same
 // release.
-#define PRIVATE_API(name) __asm__("_petri_" #name) __attribute__((visibility("default")))
+#define PRIVATE_API(name)                                                                                              \
+    __asm__(PRIVATE_API_TEXT(__USER_LABEL_PREFIX__) "_petri_" #name) __attribute__((visibility("default")))
+#define PRIVATE_API_TEXT(prefix) PRIVATE_API_QUOTE(prefix) // prefix of all C names: "_" on macOS, else ""
+#define PRIVATE_API_QUOTE(prefix) #prefix

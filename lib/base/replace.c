@@ -1,8 +1,8 @@
 // replace.c: see replace.h.
-#define _GNU_SOURCE // O_TMPFILE
 #include "base/replace.h"
 
 #include "base/file.h"
+#include "base/os.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -10,14 +10,9 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/file.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#ifndef O_PATH
-#define O_PATH O_RDONLY
-#endif
 // Temporary names consist of a prefix, 16 hexadecimal digits and a suffix.
 #define PREFIX ".petri-"
 #define SUFFIX ".tmp"
@@ -26,7 +21,7 @@ enum { PREFIX_LENGTH = sizeof PREFIX - 1, DIGITS = 16, MAX_TRIES = 100, MAX_SCAN
 // Writes a random temporary name. Avoids snprintf, because this function may be called from a signal handler.
 static bool make_name(char name[NAME_MAX + 1]) {
     uint64_t number = 0;
-    if (getentropy(&number, sizeof number) != 0)
+    if (!os_random(&number, sizeof number))
         return false;
     memcpy(name, PREFIX, PREFIX_LENGTH);
     for (int i = 0; i < DIGITS; i++, number >>= 4)
@@ -50,7 +45,7 @@ static void remove_stale_files(int folder) {
         int file = is_temporary_name(entry->d_name)
                        ? file_open_at(folder, entry->d_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK, 0)
                        : -1;
-        if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)
+        if (file >= 0 && os_lock(file))
             unlinkat(folder, entry->d_name, 0);
         if (file >= 0)
             close(file);
@@ -64,39 +59,18 @@ static void remove_stale_files(int folder) {
 // Locks a temporary file, so that other processes do not remove it. Also returns true if the file system has no locks,
 // because remove_stale_files removes nothing there.
 static bool lock_file(int file) {
-    return flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    return os_lock(file) || errno != EWOULDBLOCK;
 }
 
-// Gives the unnamed file a name in its folder. If the name is NULL, only returns whether this is possible.
-static bool link_file(const Replacement *r, const char *name) {
-    char path[64] = "/proc/self/fd/", digits[16];
-    char *end = path + strlen(path);
-    int count = 0;
-    for (int file = r->file; count == 0 || file > 0; file /= 10)
-        digits[count++] = (char)('0' + file % 10);
-    while (count > 0)
-        *end++ = digits[--count];
-    *end = '\0';
-    if (!name)
-        return access(path, F_OK) == 0;
-    int result;
-    do
-        result = linkat(AT_FDCWD, path, r->folder, name, AT_SYMLINK_FOLLOW);
-    while (result != 0 && errno == EINTR);
-    return result == 0;
-}
-
-// Opens an unnamed file. Returns false if that is not supported, or if the file could not be named later.
+// Opens an unnamed file. Returns false if that is not supported.
 static bool open_unnamed(Replacement *r) {
-#ifdef O_TMPFILE
-    r->file = file_open_at(r->folder, ".", O_TMPFILE | O_WRONLY, 0666);
+    r->file = os_open_unnamed(r->folder);
     if (r->file < 0)
         return false;
-    if (lock_file(r->file) && link_file(r, NULL))
+    if (lock_file(r->file))
         return true;
     close(r->file);
     r->file = -1;
-#endif
     return false;
 }
 
@@ -173,7 +147,7 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
     name[0] = '\0';
     int folder = file_open_at(AT_FDCWD, target, O_RDONLY | O_DIRECTORY, 0);
     if (folder < 0 && errno == EACCES)
-        folder = file_open_at(AT_FDCWD, target, O_PATH | O_DIRECTORY, 0);
+        folder = file_open_at(AT_FDCWD, target, OS_SEARCH | O_DIRECTORY, 0);
     name[0] = first;
     if (folder < 0)
         return false;
@@ -181,13 +155,13 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
 }
 
 // The errors EINVAL and EBADF count as success, because they mean that the file system, or a descriptor opened with
-// O_PATH, does not support fsync.
+// OS_SEARCH, does not support fsync.
 bool replace_sync(int file) {
-    int result;
+    bool done;
     do
-        result = fsync(file);
-    while (result != 0 && errno == EINTR);
-    return result == 0 || errno == EINVAL || errno == EBADF;
+        done = os_sync(file);
+    while (!done && errno == EINTR);
+    return done || errno == EINVAL || errno == EBADF;
 }
 
 // Gives the new file the target's name. If the file is unnamed and the target does not exist, linkat does this.
@@ -196,13 +170,13 @@ bool replace_sync(int file) {
 static bool link_or_rename(Replacement *r, bool exists) {
     bool named = r->temporary_name[0] != '\0';
     if (!named && (r->only_new || !exists)) {
-        if (link_file(r, r->name))
+        if (os_link_unnamed(r->file, r->folder, r->name))
             return true;
         if (errno != EEXIST || r->only_new)
             return false;
     }
     for (int i = 0; !named && i < MAX_TRIES && make_name(r->temporary_name); i++) {
-        named = link_file(r, r->temporary_name);
+        named = os_link_unnamed(r->file, r->folder, r->temporary_name);
         if (!named && errno != EEXIST)
             break;
     }

@@ -19,6 +19,14 @@ int str_compare(Str a, Str b) {
     return (a.len > b.len) - (a.len < b.len);
 }
 
+char *str_split(char **rest, char separator) {
+    char *part = *rest, *end = part ? strchr(part, separator) : NULL;
+    if (end)
+        *end = '\0';
+    *rest = end ? end + 1 : NULL;
+    return part;
+}
+
 Str str_copy(Arena *arena, Str text) {
     return (Str){str_to_c(arena, text), text.len};
 }

@@ -32,6 +32,9 @@ bool str_ends_with(Str text, Str suffix) PRIVATE_API(str_ends_with);
 Str str_truncate(Str text, size_t max_bytes);
 // Returns the index of a word in a space-separated list, or -1 if the list does not contain it.
 int str_word_number(Str word, const char *list);
+// Ends the text *rest at the first separator. Returns the part before it, and sets *rest to the part after it, or to
+// NULL if there is no separator. Returns NULL if *rest is NULL.
+char *str_split(char **rest, char separator);
 // Returns the text without white space (space, tab, CR, LF, VT, FF) at both ends.
 Str str_trim(Str text) PRIVATE_API(str_trim);
 

@@ -2,6 +2,7 @@
 #include "builtin/files.h"
 
 #include "base/hash_index.h"
+#include "base/os.h"
 #include "base/source.h"
 #include "builtin/family.h"
 
@@ -86,7 +87,7 @@ static Stamp read_stamp(const FileAccess *file_access, const char *path) {
                    : (Stamp){.error = errno};
     if (stat(path, &info) != 0)
         return (Stamp){.error = errno};
-    return (Stamp){0, info.st_dev, info.st_ino, info.st_size, info.st_mtim, info.st_ctim};
+    return (Stamp){0, info.st_dev, info.st_ino, info.st_size, os_time_modified(&info), os_time_changed(&info)};
 }
 
 static bool same_time(struct timespec a, struct timespec b) {

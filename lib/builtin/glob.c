@@ -1,4 +1,5 @@
 // glob.c: the paths that match a pattern (spec builtins.md B13.2).
+#include "base/os.h"
 #include "base/source.h"
 #include "builtin/family.h"
 

@@ -1,4 +1,5 @@
 // system.c: the description of a system (system.h).
+#include "base/os.h"
 #include "physics/division.h"
 #include "physics/far_force.h"
 #include "physics/neighbour_list.h"
@@ -70,7 +71,7 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
         phys_threads_free(system->threads);
     system->options = *options;
     if (options->threads <= 0)
-        system->options.threads = cpu_count();
+        system->options.threads = os_processor_count();
     if (system->options.threads > PHYS_MAX_THREADS)
         system->options.threads = PHYS_MAX_THREADS;
     if (options->cpu > best)

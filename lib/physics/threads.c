@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/heap.h"
+#include "base/os.h"
 #include "physics/backoff.h"
 #include "physics/internal.h"
 
@@ -143,7 +144,7 @@ PhysThreads *phys_threads_new(int count) {
     if (!block)
         return NULL;
     PhysThreads *threads = (PhysThreads *)(block + LINE_BYTES - (uintptr_t)block % LINE_BYTES);
-    *threads = (PhysThreads){.block = block, .process = getpid(), .wanted = count <= 0 ? cpu_count() : count};
+    *threads = (PhysThreads){.block = block, .process = getpid(), .wanted = count <= 0 ? os_processor_count() : count};
     if (threads->wanted > PHYS_MAX_THREADS)
         threads->wanted = PHYS_MAX_THREADS;
     pthread_mutex_init(&threads->mutex, NULL);

@@ -4,6 +4,7 @@
 #include "archive/details.h"
 #include "archive/open.h"
 #include "base/clock.h"
+#include "base/os.h"
 #include "cli/progress.h"
 #include "petri-inspect.h"
 
@@ -21,7 +22,7 @@ enum { DIGEST_SIZE = 16, MAX_THREADS = 256 };
 // Returns a random number below n. A check by samples must not be predictable.
 static size_t random_below(size_t n) {
     uint64_t bits = 0;
-    if (getentropy(&bits, sizeof bits) != 0)
+    if (!os_random(&bits, sizeof bits))
         bits = (uint64_t)clock_read(CLOCK_REALTIME);
     return (size_t)(bits % n);
 }
@@ -224,7 +225,7 @@ static bool start_worker(Worker *worker, size_t stack_bytes) {
 void segments_verify(Verification *verification) {
     const size_t reserve = (size_t)1 << 20; // of the stack, for functions that are not limited by the script's limit
     // mpirun starts one process per processor.
-    long processors = verification->context->channel ? 1 : sysconf(_SC_NPROCESSORS_ONLN);
+    long processors = verification->context->channel ? 1 : os_processor_count();
     int64_t wanted = verification->options->threads > 0 ? verification->options->threads : processors;
     size_t count = wanted < 1 ? 1 : wanted > MAX_THREADS ? MAX_THREADS : (size_t)wanted;
     size_t per_segment = verification->chosen > 0 && count > verification->chosen ? count / verification->chosen : 1;

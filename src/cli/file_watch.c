@@ -5,6 +5,7 @@
 #include "cli/file_watch.h"
 
 #include "base/clock.h"
+#include "base/os.h"
 #include "base/source.h"
 #include "cli/memory.h"
 
@@ -14,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#ifdef __linux__
+#if defined __linux__ && !defined PETRI_PLAIN_POSIX
 #include <sys/epoll.h>
 #include <sys/inotify.h>
 #include <sys/timerfd.h>
@@ -66,12 +67,13 @@ static Stamp stamp_of(const char *path) {
     // A pipe counts as missing, because reading it again could block.
     if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
         return (Stamp){0};
+    struct timespec modified = os_time_modified(&info);
     return (Stamp){true,
                    (int64_t)info.st_dev,
                    (int64_t)info.st_ino,
                    (int64_t)info.st_size,
-                   (int64_t)info.st_mtim.tv_sec,
-                   (int64_t)info.st_mtim.tv_nsec};
+                   (int64_t)modified.tv_sec,
+                   (int64_t)modified.tv_nsec};
 }
 
 static bool is_same_stamp(const Stamp *a, const Stamp *b) {

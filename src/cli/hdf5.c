@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/os.h"
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
 #include "cli/memory.h"
@@ -15,7 +16,6 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -92,7 +92,7 @@ static void exec_writer(int stream, char **words) {
     static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
     for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
         signal(ignored[i], SIG_IGN);
-    prctl(PR_SET_PDEATHSIG, SIGCONT); // if it is stopped, petri-hdf5 finishes the file once petri has ended
+    os_signal_after_parent(SIGCONT); // if it is stopped, petri-hdf5 finishes the file once petri has ended
     // petri-hdf5 must not inherit standard output. Otherwise a program that reads petri's output would wait for
     // petri-hdf5.
     int cause = errno, nothing = open("/dev/null", O_WRONLY);
@@ -113,7 +113,7 @@ static bool wait_for_ready(Hdf5 *writer, double patience) {
 
 static bool fork_writer(Hdf5 *writer, char **words) {
     int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    if (!os_socket_pair(ends))
         return false;
     writer->stream = ends[0];
     writer->process = fork();

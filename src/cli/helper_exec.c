@@ -3,6 +3,7 @@
 // Helper programs are in the folder of this program (in a build) or in ../libexec (if installed).
 #include "cli/helper_exec.h"
 
+#include "base/os.h"
 #include "cli/cli.h"
 #include "cli/mpirun.h"
 #include "petri-archive.h"
@@ -59,10 +60,7 @@ static char *find_base_name(char *path) {
 // Executes a helper program. On failure, returns the value of errno and sets `path` to the folder of this program.
 static int exec_helper(const char *name, char **argv, char path[PATH_MAX + 64]) {
     static const char *const folders[] = {"", "../libexec/"};
-    ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
-    if (length > 0)
-        path[length] = '\0';
-    else if (!realpath(argv[0], path))
+    if (!os_program_path(path) && !realpath(argv[0], path))
         path[0] = '\0';
     char *base_name = find_base_name(path);
     int cause = 0;

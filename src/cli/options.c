@@ -138,7 +138,7 @@ static bool read_sections(const Args *args, void *field) {
     SCOPED_STRING list = memory_strdup(args->value);
     *sections = 0;
     for (char *rest = list; rest;) {
-        int section = find_word(args->option->words, strsep(&rest, ","));
+        int section = find_word(args->option->words, str_split(&rest, ','));
         if (section < 0)
             return report_invalid_value(args,
                                         "one or more of tree, state, log, error, hash and digest, separated by commas");

@@ -2,11 +2,11 @@
 #include "cli/progress.h"
 
 #include "base/clock.h"
+#include "base/os.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 enum { BAR_WIDTH = 30, DEFAULT_COLUMNS = 80, MAX_SECONDS = 999 * 60 };
@@ -24,10 +24,10 @@ void progress_start(Progress *progress, bool enabled, int64_t total) {
 }
 
 void terminal_extent(int fd, int *columns, int *rows) {
-    struct winsize size;
-    if (ioctl(fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
-        *columns = size.ws_col;
-        *rows = size.ws_row;
+    OsTerminalSize size;
+    if (os_terminal_size(fd, &size) && size.columns > 0 && size.rows > 0) {
+        *columns = size.columns;
+        *rows = size.rows;
     }
 }
 

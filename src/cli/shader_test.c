@@ -2,11 +2,11 @@
 //
 // The tested process gets two texts on standard input, each with a terminating NUL, and writes the driver's message to
 // standard output. Its exit status tells the result (SHADER_GOOD ...).
-#define _GNU_SOURCE // pipe2
 #include "cli/shader_test.h"
 
 #include "base/arena.h"
 #include "base/file.h"
+#include "base/os.h"
 #include "cli/cli.h"
 #include "cli/memory.h"
 #include "cli/subprocess.h"
@@ -18,7 +18,6 @@
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -80,15 +79,18 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
     int input[2], output[2];
     snprintf(problem->text, sizeof problem->text, "cannot start a process that compiles the shader");
     problem->failed = true;
-    if (pipe2(input, O_CLOEXEC) != 0)
+    if (!os_pipe(input))
         return false;
-    if (pipe2(output, O_CLOEXEC) != 0) {
+    if (!os_pipe(output)) {
         close(input[0]);
         close(input[1]);
         return false;
     }
-    pid_t pid = subprocess_spawn("/proc/self/exe", (const char *const[]){"petri", command_word, NULL},
-                                 (const int[]){input[0], output[1], -1}, 3, false);
+    char path[PATH_MAX];
+    const char *program = os_program(path);
+    pid_t pid = !program ? -1
+                         : subprocess_spawn(program, (const char *const[]){"petri", command_word, NULL},
+                                            (const int[]){input[0], output[1], -1}, 3, false);
     close(input[0]);
     close(output[1]);
     // The process reads all of its input before it writes. If it ends early, writing fails, because SIGPIPE is ignored.
@@ -141,8 +143,8 @@ static void set_limits(void) {
 #else
     (void)bytes;
 #endif
-    alarm(MAX_WAIT_SECONDS);          // ends a driver that waits forever
-    prctl(PR_SET_PDEATHSIG, SIGKILL); // ends this process with the one that waits for it
+    alarm(MAX_WAIT_SECONDS);         // ends a driver that waits forever
+    os_signal_after_parent(SIGKILL); // ends this process with the one that waits for it
     static const int ending[] = {SIGINT, SIGTERM, SIGHUP, SIGALRM, SIGXCPU}; // may have been ignored before exec
     for (size_t i = 0; i < sizeof ending / sizeof *ending; i++)
         signal(ending[i], SIG_DFL);

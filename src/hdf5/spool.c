@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/hash_index.h"
+#include "base/os.h"
 #include "cli/cli.h"
 
 #include <errno.h>
@@ -36,7 +37,7 @@ static bool report_error(const Spool *spool, const char *why) {
 static bool lock_file(int file) {
     enum { TRIES = 200, PAUSE_MS = 50 };
     for (int i = 0; i < TRIES; i++) {
-        if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+        if (os_lock(file) || errno != EWOULDBLOCK)
             return true;
         poll(NULL, 0, PAUSE_MS);
     }

@@ -2,6 +2,7 @@
 #include "hdf5/store.h"
 
 #include "base/file.h"
+#include "base/os.h"
 #include "cli/cli.h"
 #include "cli/hdf5.h"
 #include "cli/memory.h"
@@ -78,7 +79,12 @@ bool store_begin(Store *store, const char *path, bool continues) {
     hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // H5Fclose also closes all open objects of the file
     SCOPED_TEXT name = {0};
-    text_add_format(&name, "/proc/self/fd/%d/%s", store->replacement.folder, store->replacement.temporary_name);
+    char folder[PATH_MAX];
+    if (!os_folder_path(store->replacement.folder, folder)) {
+        replace_abort(&store->replacement);
+        return report_error(store, strerror(errno));
+    }
+    text_add_format(&name, "%s/%s", folder, store->replacement.temporary_name);
     store->file = store->existing ? H5Fopen(name.bytes, H5F_ACC_RDWR, access)
                                   : check_id(store, H5Fcreate(name.bytes, H5F_ACC_TRUNC, H5P_DEFAULT, access));
     H5Pclose(access);

@@ -77,7 +77,7 @@ static void offer_attributes(Offer *all, size_t kind) {
 static void offer_keywords(Offer *all, const char *list) {
     SCOPED_STRING copy = memory_strdup(list);
     char *rest = copy;
-    for (char *word = strsep(&rest, " "); word; word = strsep(&rest, " "))
+    for (char *word = str_split(&rest, ' '); word; word = str_split(&rest, ' '))
         add_candidate(all, word, AS_KEYWORD, word, 'd');
 }
 
@@ -248,7 +248,7 @@ static void offer_arguments(Offer *all) {
     if (callee == SIZE_MAX || !parameters_of(all->request, callee, &parameters, &help) || !parameters.bytes)
         return;
     char *rest = parameters.bytes;
-    for (char *word = strsep(&rest, ","); word; word = strsep(&rest, ",")) {
+    for (char *word = str_split(&rest, ','); word; word = str_split(&rest, ',')) {
         word += strspn(word, " \n");
         word[strcspn(word, "= \n")] = '\0';
         SCOPED_TEXT label = {0};
@@ -331,7 +331,7 @@ Json *answer_signature(const RequestContext *request, const char **problem) {
     text_add_format(&label, "%.*s(%s)", STR_ARGS(name), !parameters.bytes ? "" : parameters.bytes);
     Json *list = json_object_new_array(), *signature = json_put_text(json_object_new_object(), "label", label.bytes);
     char *rest = parameters.bytes;
-    for (char *word = strsep(&rest, ","); word; word = strsep(&rest, ",")) {
+    for (char *word = str_split(&rest, ','); word; word = str_split(&rest, ',')) {
         word += strspn(word, " \n");
         json_object_array_add(list, json_put_text(json_object_new_object(), "label", word));
     }

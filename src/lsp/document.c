@@ -1,6 +1,7 @@
 // document.c: see document.h.
 #include "lsp/document.h"
 
+#include "base/os.h"
 #include "base/source.h"
 
 #include <limits.h>

@@ -102,7 +102,7 @@ Json *json_path(const Json *object, const char *keys) {
     SCOPED_STRING copy = memory_strdup(keys);
     char *rest = copy;
     Json *at = (Json *)object;
-    for (char *key = strsep(&rest, "."); key; key = strsep(&rest, "."))
+    for (char *key = str_split(&rest, '.'); key; key = str_split(&rest, '.'))
         at = json_get(at, key);
     return at;
 }

@@ -1,4 +1,5 @@
 // main.c: the main function, which prepares the process and runs a command on a thread with a large stack.
+#include "base/os.h"
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
 #include "cli/memory.h"
@@ -141,10 +142,8 @@ static bool run_on_large_stack(Job *job) {
 
 // Returns the path of this program. argv[0] is only a fallback, because it may be a name that the shell found in PATH.
 static const char *program_path(const char *name, char *resolved) {
-    static const char system_path[] = "/proc/self/exe";
-    if (access(system_path, X_OK) == 0)
-        return system_path;
-    return name && realpath(name, resolved) ? resolved : "petri";
+    const char *path = os_program(resolved);
+    return path ? path : name && realpath(name, resolved) ? resolved : "petri";
 }
 
 int main(int argc, char **argv) {

@@ -3,6 +3,7 @@
 #include "mpi/ranks.h"
 
 #include "base/cpu.h"
+#include "base/os.h"
 #include "cli/mpi_channel.h"
 #include "petri-ranks.h"
 
@@ -251,7 +252,7 @@ void ranks_begin(CommandContext *context) {
     context->leave_ranks = cancel_waiting;
     enum { MAX_SPINS = 1000 }; // about 100 µs
     int node_ranks = count_node_ranks();
-    ranks.max_spins = node_ranks <= cpu_count() ? MAX_SPINS : 0;
+    ranks.max_spins = node_ranks <= os_processor_count() ? MAX_SPINS : 0;
     const char *no_shared_memory =
         getenv("PETRI_NO_SHARED_MEMORY"); // for tests: as if each rank were on a separate machine
     ranks.same_node = node_ranks == options->rank_count && !(no_shared_memory && *no_shared_memory);

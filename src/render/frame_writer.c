@@ -23,6 +23,7 @@
 
 #include "base/clock.h"
 #include "base/file.h"
+#include "base/os.h"
 #include "base/replace.h"
 #include "cli/cli.h"
 #include "cli/memory.h"
@@ -317,7 +318,7 @@ static void *run_worker(void *context) {
 
 FrameWriter *frame_writer_start(const char *film, double film_fps, double fps) {
     FrameWriter *writer = memory_calloc(sizeof *writer);
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    long processors = os_processor_count();
     int wanted = film || processors < 1 ? 1 : processors > MAX_WORKERS ? MAX_WORKERS : (int)processors;
     pthread_mutex_init(&writer->lock, NULL);
     pthread_cond_init(&writer->changed, NULL);

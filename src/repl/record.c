@@ -5,6 +5,7 @@
 // script, because file names in a script are relative to the script's folder. Frames are recorded only if a run from
 // frame 0 with one script and fixed settings reproduces them.
 #include "base/file.h"
+#include "base/os.h"
 #include "cli/script.h"
 #include "petri-inspect.h"
 #include "petri-live.h"

@@ -2,6 +2,7 @@
 #include "run/resume.h"
 
 #include "base/file.h"
+#include "base/os.h"
 #include "cli/cli.h"
 #include "cli/hdf5.h"
 
@@ -100,7 +101,7 @@ static bool report_error(const char *path, const char *why) {
 
 static bool read_existing(ResumeFile *file, const char *path, bool csv, int64_t after) {
     struct stat info;
-    if (flock(file->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    if (!os_lock(file->fd) && errno == EWOULDBLOCK)
         return report_error(path, "the file is in use by another petri process");
     int again = fstat(file->fd, &info) == 0 && S_ISREG(info.st_mode) ? dup(file->fd) : -1;
     Lines lines = {.stream = again < 0 ? NULL : fdopen(again, "r")};

@@ -128,7 +128,7 @@ void axis_add_literal(Text *out, const char *value) {
     SCOPED_STRING copy = memory_strdup(value);
     char *rest = copy;
     text_add_format(out, "(");
-    for (const char *element = strsep(&rest, ";"); element; element = strsep(&rest, ";")) {
+    for (const char *element = str_split(&rest, ';'); element; element = str_split(&rest, ';')) {
         add_element(out, element);
         text_add_format(out, !rest ? "" : ";");
     }

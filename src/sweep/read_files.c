@@ -2,6 +2,7 @@
 #include "sweep/read_files.h"
 
 #include "base/file.h"
+#include "base/os.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -53,7 +54,7 @@ static bool same_time(struct timespec a, struct timespec b) {
 
 static bool is_same_version(const struct stat *a, const struct stat *b) {
     return a->st_dev == b->st_dev && a->st_ino == b->st_ino && a->st_size == b->st_size &&
-           same_time(a->st_mtim, b->st_mtim) && same_time(a->st_ctim, b->st_ctim);
+           same_time(os_time_modified(a), os_time_modified(b)) && same_time(os_time_changed(a), os_time_changed(b));
 }
 
 // Returns the hash of a file, or "-" if it cannot be read.

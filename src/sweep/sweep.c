@@ -2,6 +2,7 @@
 #include "sweep/sweep.h"
 
 #include "base/clock.h"
+#include "base/os.h"
 #include "cli/helper_exec.h"
 #include "cli/mpi_channel.h"
 #include "petri.h"
@@ -142,7 +143,7 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t mad
 }
 
 static int64_t jobs_of(const Sweep *sweep) {
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    long processors = os_processor_count();
     // Under mpirun, which starts one process per processor, each process executes one run at a time.
     bool alone = !sweep->host->channel && (sweep->shards == 1 || sweep->options->shard);
     return sweep->options->jobs > 0 ? sweep->options->jobs : alone && processors > 1 ? processors : 1;

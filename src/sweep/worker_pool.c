@@ -5,6 +5,13 @@
 // runs, as many as its workers can hold. After that, each result also serves as the next request.
 #include "sweep/worker_pool.h"
 
+#include "base/file.h"
+#include "base/os.h"
+#include "cli/mpi_channel.h"
+#include "cli/progress.h"
+#include "cli/subprocess.h"
+#include "sweep/measure.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -14,15 +21,6 @@
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
-
-#include "base/file.h"
-#include "cli/mpi_channel.h"
-#include "cli/progress.h"
-#include "cli/subprocess.h"
-#include "sweep/measure.h"
 
 // RUNS_PER_WORKER: maximum number of runs assigned to a worker. REDRAW: milliseconds between progress updates.
 // MESSAGE_POLL_MS: milliseconds between checks for MPI messages.
@@ -106,9 +104,7 @@ static void become_worker(const WorkerPool *pool, int requests, int results, pid
     static const int ignored[] = {SIGINT, SIGTERM, SIGHUP};
     for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++)
         signal(ignored[i], SIG_IGN);
-#ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-#endif
+    os_signal_after_parent(SIGKILL);
     // Closes the pipes of other workers. Otherwise those workers would not notice when the parent exits.
     for (int64_t i = 0; i < pool->jobs; i++) {
         if (pool->workers[i].pid > 0) {

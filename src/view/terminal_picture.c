@@ -1,10 +1,11 @@
 // terminal_picture.c: implementation of terminal_picture.h.
 #include "view/terminal_picture.h"
 
+#include "base/os.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/ioctl.h>
 
 #ifdef HAVE_CHAFA
 #include <chafa.h>
@@ -99,13 +100,13 @@ bool terminal_picture_is_graphics(const TerminalPicture *renderer) {
 
 // Returns the size of a cell in pixels, which may be fractional because terminals have margins.
 static void cell_size(const TerminalPicture *renderer, double *width, double *height) {
-    struct winsize size;
+    OsTerminalSize size;
     *width = CELL_WIDTH;
     *height = CELL_HEIGHT;
-    if (ioctl(renderer->fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0 &&
-        size.ws_xpixel > size.ws_col && size.ws_ypixel > size.ws_row) {
-        *width = (double)size.ws_xpixel / size.ws_col;
-        *height = (double)size.ws_ypixel / size.ws_row;
+    if (os_terminal_size(renderer->fd, &size) && size.columns > 0 && size.rows > 0 && size.width > size.columns &&
+        size.height > size.rows) {
+        *width = (double)size.width / size.columns;
+        *height = (double)size.height / size.rows;
     }
 }
 

@@ -1,6 +1,6 @@
 // bench.c: the benchmark of petri. Runs scripts through petri.h and compares the results with limit kernels, LAMMPS and
 // another build. README.md explains what is measured; `bench --help` lists the options.
-#include "base/cpu.h"
+#include "base/os.h"
 #include "machine.h"
 #include "measure.h"
 #include "peers.h"
@@ -105,7 +105,7 @@ static bool read_options(Bench *bench, int argc, char **argv) {
 static void fill_plan(Bench *bench) {
     Plan *plan = &bench->plan;
     if (plan->threads == 0)
-        plan->threads = cpu_count() < 2 ? 1 : 2;
+        plan->threads = os_processor_count() < 2 ? 1 : 2;
     if (plan->rounds == 0)
         plan->rounds = plan->tiny ? 1 : bench->quick ? 3 : 7;
     plan->budget = plan->tiny ? 0.001 : bench->quick ? 0.04 : 0.2;

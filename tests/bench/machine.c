@@ -2,6 +2,7 @@
 #include "machine.h"
 
 #include "base/cpu.h"
+#include "base/os.h"
 #include "petri.h"
 
 #include <stdio.h>
@@ -42,5 +43,6 @@ void machine_describe(char *text, size_t size, int threads) {
     double load = 0;
     getloadavg(&load, 1);
     snprintf(text, size, "%s (family %s, model %s), %d processors, %s; petri %s on 1 and %d threads; %s%s; load %.1f",
-             name, family, model, cpu_count(), cpu_name(level), petri_version(), threads, COMPILER, __VERSION__, load);
+             name, family, model, os_processor_count(), cpu_name(level), petri_version(), threads, COMPILER,
+             __VERSION__, load);
 }

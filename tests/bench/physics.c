@@ -6,6 +6,7 @@
 // Both sides of a ratio are measured in the same run. The hash at the end of a row covers the bits of all positions. It
 // must depend only on the workload.
 #include "base/cpu.h"
+#include "base/os.h"
 #include "limit.h"
 #include "workloads.h"
 
@@ -132,7 +133,7 @@ int main(int argc, char **argv) {
             "%s, 1 and 2 threads of %d processors; medians; the limit is for one core\n\n"
             "| workload | n | threads | us per frame of 1 step | us per step, frames of 10 | ns per pair "
             "| ns per particle-step | limit, ns | limit / ours | bits |\n|---|---|---|---|---|---|---|---|---|---|\n",
-            cpu_name(settings.options.cpu), cpu_count());
+            cpu_name(settings.options.cpu), os_processor_count());
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const Case *c = &cases[i];
         if (settings.only ? strcmp(settings.only, workload_name(c->kind)) != 0 : settings.quick && c->n > 20000)

@@ -69,8 +69,9 @@ if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
         strace -f -qq -o trace -e trace=openat2 -e inject=openat2:error=ENOSYS "$petri" run ../home/old.fl --frames 1 \
             --print tree >out 2>err
     }
+    # A build with -Dos=posix never calls it.
     file_without_openat2 sub/below.txt
-    check "reading works without openat2" eval 'grep -q "a=.below" out && has trace INJECTED'
+    check "reading works without openat2" eval 'grep -q "a=.below" out && { has trace INJECTED || ! has trace openat2; }'
     file_without_openat2 ../cwd/here.txt
     check "denied reads are denied without openat2" grep -qx '!n' out
 fi

@@ -1,11 +1,11 @@
 // test_base_replace.c: atomic replacement of files.
 #include "base/file.h"
+#include "base/os.h"
 #include "base/replace.h"
 #include "files.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <sys/file.h>
 
 static void check_content(const char *name, const char *text) {
     Str bytes;
@@ -122,6 +122,15 @@ static void test_create_only_keeps_existing_file(void **state) {
     }
 }
 
+// Systems differ: temporary files may always have a name, and open files may have no locks (base/os.h).
+static bool has_unnamed_files(void) {
+    int start = open(folder.path, O_RDONLY | O_DIRECTORY), file = os_open_unnamed(start);
+    close(start);
+    if (file >= 0)
+        close(file);
+    return file >= 0;
+}
+
 static void test_abort_keeps_old_file(void **state) {
     (void)state;
     folder_write(&folder, "old", "old");
@@ -129,7 +138,7 @@ static void test_abort_keeps_old_file(void **state) {
         Replacement replacement;
         assert_true(replace_begin(&replacement, folder_file(&folder, "old"), ways[i]));
         assert_true(file_write(replacement.file, "half", 4));
-        assert_int_equal(count_files(), 1 + i);
+        assert_int_equal(count_files(), i == 0 && has_unnamed_files() ? 1 : 2);
         replace_abort(&replacement);
         replace_abort(&replacement);
         check_content("old", "old");
@@ -145,7 +154,13 @@ static void test_stale_files_are_removed(void **state) {
     folder_write(&folder, ".petri-0123456789abcdef.tmp.mine", "another's");
     folder_write(&folder, ".petri-fedcba9876543210.tmp", "of a running process");
     int file = open(folder_file(&folder, ".petri-fedcba9876543210.tmp"), O_RDONLY);
-    assert_int_equal(flock(file, LOCK_EX), 0);
+    if (!os_lock(file)) {
+        assert_int_equal(errno, ENOTSUP);
+        assert_null(file_replace(folder_file(&folder, "old"), STR("new"), 0));
+        assert_int_equal(count_files(), 4); // nothing shows which files are stale
+        close(file);
+        return;
+    }
     assert_null(file_replace(folder_file(&folder, "old"), STR("new"), 0));
     assert_int_equal(count_files(), 3);
     check_content(".petri-fedcba9876543210.tmp", "of a running process");

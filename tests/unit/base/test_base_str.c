@@ -206,6 +206,18 @@ static void test_word_number_is_index_in_list(void **state) {
     assert_int_equal(str_word_number(STR("one"), ""), -1);
 }
 
+static void test_split_keeps_empty_parts(void **state) {
+    (void)state;
+    char text[] = "one,,two,";
+    char *rest = text;
+    assert_string_equal(str_split(&rest, ','), "one");
+    assert_string_equal(str_split(&rest, ','), "");
+    assert_string_equal(str_split(&rest, ','), "two");
+    assert_string_equal(str_split(&rest, ','), "");
+    assert_null(rest);
+    assert_null(str_split(&rest, ','));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_utf8_round_trip),
@@ -216,6 +228,7 @@ int main(void) {
         cmocka_unit_test(test_edit_distance_counts_edits),
         cmocka_unit_test(test_text_buffer_grows),
         cmocka_unit_test(test_hex_colours_become_numbers),
+        cmocka_unit_test(test_split_keeps_empty_parts),
         cmocka_unit_test(test_word_number_is_index_in_list),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
