@@ -124,6 +124,47 @@ missing() {
     done | xargs
 }
 
+# Packages of Homebrew that replace those of Debian. "-": macOS has it, or it is not needed there.
+BREW_NAMES='
+bison bison
+fonts-dejavu-core -
+fonts-dejavu-extra -
+fonts-liberation -
+gcc -
+libc6-dev -
+libcairo2-dev cairo
+libchafa-dev chafa
+libcmocka-dev cmocka
+libedit-dev -
+libegl-dev -
+libegl1 -
+libepoxy-dev libepoxy
+libgl1-mesa-dri -
+libgles2 -
+libhdf5-dev hdf5
+libjpeg-dev jpeg-turbo
+libjson-c-dev json-c
+libpango1.0-dev pango
+libpng-dev libpng
+libsdl2-dev sdl2
+libsqlite3-dev sqlite
+libxxhash-dev xxhash
+libyaml-dev libyaml
+ninja-build ninja
+zlib1g-dev zlib
+'
+
+# need_elsewhere PACKAGES: stops with a message about packages to install on a system without apt-get. Returns if brew is
+# there and has none of them.
+need_elsewhere() {
+    command -v brew >/dev/null ||
+        die "no apt-get on this system; please install the equivalents of these Debian packages: $1"
+    names=$(echo "$1" | tr ' ' '\n' | awk -v table="$BREW_NAMES" '
+        BEGIN { count = split(table, word); for (i = 1; i < count; i += 2) name[word[i]] = word[i + 1] }
+        { found = $1 in name ? name[$1] : $1; if (found != "-") print found }' | xargs)
+    [ -z "$names" ] || die "petri needs packages of Homebrew; to install them, run: brew install $names"
+}
+
 print_command() { echo "apt-get install --no-install-recommends $*"; }
 
 # plan_sizes PLAN: reads the output of `apt-get --print-uris install`. Prints a line with the number of packages, the
@@ -250,7 +291,10 @@ explain_failure() {
 need() {
     packages=$(missing "$1")
     [ -n "$packages" ] || return 0
-    command -v apt-get >/dev/null || die "no apt-get on this system; please install the equivalents of these Debian packages: $packages"
+    command -v apt-get >/dev/null || {
+        need_elsewhere "$packages"
+        return 0
+    }
     confirm "$packages"
     become_root "$packages"
     mkdir -p "$root/build"
