@@ -51,6 +51,7 @@ int os_open_below(int folder, const char *path, int flags) {
         errno = ENOSYS;
     return (int)file;
 #else
+    (void)folder, (void)path, (void)flags;
     errno = ENOSYS;
     return -1;
 #endif
