@@ -163,8 +163,8 @@ static void test_programs_of_windows(void **state) {
         "void main() { color = vec4(tint * level, 1.0); }\n\"\"\"\n";
     static const char *const starts[] = {"!window size=4;4", "!offscreen size=4;4", "!window size=4;4\n    !shader",
                                          "!window size=4;4\n    !record",
-                                         "!physics state=:s dimensions=2\n    !particle id=1 position=0;0\n"
-                                         "!window size=4;4"};
+                                         ("!physics state=:s dimensions=2\n    !particle id=1 position=0;0\n"
+                                          "!window size=4;4")};
     for (size_t i = 0; i < COUNT_OF(starts); i++) {
         char script[600];
         snprintf(script, sizeof script, "%s tint=1;0.2;0 level=0.2+frame*0 %s", starts[i], program);
