@@ -92,6 +92,7 @@ if [ $edits = yes ]; then
     expect "the completed built-in is called" '^1;0$'
     type_keys 'COU' Tab '+1' Enter
     expect "a name of the script is completed" '^@1> COUNT+1$'
+    expect "its value is printed, and the prompt appears" '^@1> *$'
     type_keys '!parti' Tab ' rad' Tab '1 cha' Tab
     expect "a node and its attributes are completed" '^@1> !particle radius=1 charge=$'
     type_keys C-u '$(:cells;1' '\;' Tab Enter
