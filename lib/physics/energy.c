@@ -122,7 +122,7 @@ static void find_ends(const PhysSystem *system, uint32_t *ends) {
             ends[groups[g].parent] = ends[g];
 }
 
-static PhysStatus add_pairs(Source *source, Body *bodies) {
+static PhysStatus add_sorted_pairs(Source *source, Body *bodies) {
     const PhysSystem *system = source->system;
     PhysStatus status = PHYS_OK;
     double range;
@@ -134,6 +134,22 @@ static PhysStatus add_pairs(Source *source, Body *bodies) {
         if (!phys_charge(system, 1 + (j - i) / PAIRS_A_UNIT))
             status = PHYS_STOPPED;
     }
+    return status;
+}
+
+static PhysStatus add_pairs(Source *source) {
+    const PhysSystem *system = source->system;
+    uint32_t *ends = heap_calloc(system->group_count, sizeof *ends);
+    Body *bodies = heap_calloc((size_t)system->particle_count + 1, sizeof *bodies);
+    PhysStatus status = PHYS_NO_MEMORY;
+    if (ends && bodies) {
+        find_ends(system, ends);
+        source->ends = ends;
+        source->group_end = ends[source->group];
+        status = add_sorted_pairs(source, bodies);
+    }
+    heap_free(ends);
+    heap_free(bodies);
     return status;
 }
 
@@ -190,10 +206,20 @@ static double single_energy(const Source *source, const ParticleRecord *record, 
     return force->kind == PHYS_BUOYANCY ? buoyancy_energy(source, record, position) : barrier_energy(source, position);
 }
 
+// Returns the number after the last group inside group g.
+static uint32_t end_of_group(const PhysSystem *system, uint32_t g) {
+    const Group *groups = system->groups.bytes;
+    uint32_t end = g + 1;
+    while (end < system->group_count && groups[end].parent >= g)
+        end++;
+    return end;
+}
+
 static PhysStatus add_singles(Source *source) {
     const PhysSystem *system = source->system;
     if (!phys_charge(system, 1 + system->particle_count / BODIES_A_UNIT))
         return PHYS_STOPPED;
+    source->group_end = end_of_group(system, source->group);
     for (uint32_t i = 0; i < system->particle_count; i++) {
         const ParticleRecord *record = phys_record(system, i);
         double energy = 0;
@@ -204,35 +230,20 @@ static PhysStatus add_singles(Source *source) {
     return PHYS_OK;
 }
 
-static PhysStatus add_energies(Source *source, Body *bodies) {
-    Stage stage = phys_force_row(source->force.kind).stage;
-    if (stage == STAGE_PAIR)
-        return add_pairs(source, bodies);
-    if (stage != STAGE_LINK)
-        return add_singles(source);
-    add_link(source);
-    return PHYS_OK;
-}
-
 PhysStatus phys_potential_energy(const PhysSystem *system, uint32_t number, double clock, double *energy) {
     Source source = {.system = system};
+    PhysStatus status = PHYS_OK;
     *energy = NAN;
     if (!phys_get_force(system, number, &source.force) || source.force.kind == PHYS_RANDOM ||
         source.force.kind == PHYS_DRAG)
         return PHYS_OK;
-    uint32_t *ends = heap_calloc(system->group_count, sizeof *ends);
-    Body *bodies = heap_calloc((size_t)system->particle_count + 1, sizeof *bodies);
-    PhysStatus status = PHYS_NO_MEMORY;
-    if (ends && bodies) {
-        find_ends(system, ends);
-        source.ends = ends;
-        source.strength = source.force.strength * phys_ramp(source.force.ease, clock);
-        source.group = ((const ForceRecord *)system->force_records.bytes)[number].group;
-        source.group_end = ends[source.group];
-        status = add_energies(&source, bodies);
-    }
-    heap_free(ends);
-    heap_free(bodies);
+    source.strength = source.force.strength * phys_ramp(source.force.ease, clock);
+    source.group = ((const ForceRecord *)system->force_records.bytes)[number].group;
+    Stage stage = phys_force_row(source.force.kind).stage;
+    if (stage == STAGE_LINK)
+        add_link(&source);
+    else
+        status = stage == STAGE_PAIR ? add_pairs(&source) : add_singles(&source);
     *energy = status == PHYS_OK ? source.energy : NAN;
     return status;
 }
