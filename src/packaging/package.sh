@@ -5,7 +5,7 @@ set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)
-version=$(sed -n "s/^ *version: '\([0-9.]*\)',$/\1/p" "$root/meson.build")
+version=$(echo @VERSION@ | "$root/src/packaging/fill.sh" /dev/stdin)
 source=$folder/petri-$version
 rm -rf "$source" "$folder"/*petri*_"$version"* "$folder"/petri_"$version"*
 mkdir "$source"
@@ -19,16 +19,17 @@ tar -c -C "$folder" --sort=name --owner=0 --group=0 --mtime="@$SOURCE_DATE_EPOCH
 
 cp -r src/packaging/debian "$source"
 cd "$source/debian"
-{
-    echo "petri ($version-1) unstable; urgency=medium"
-    echo
-    echo "  * See CHANGELOG.md."
-    echo
-    echo " -- The petri authors <petri@localhost>  $(LC_ALL=C date -uRd "@$SOURCE_DATE_EPOCH")"
-} >changelog
+for library in libpetri libpetri-draw libpetri-archive; do
+    mv $library.install "$library${version%.*}.install"
+done
 # The licence in the format of debian/copyright: a space before each line, and a dot in empty lines.
 sed '1,/^Copyright/d' "$root/LICENSE" | sed '1d; s/^$/./; s/^/ /' >licence
-sed -i -e "s/@OWNER@/$(sed -n 's/^Copyright (c) //p' "$root/LICENSE")/" -e '/@LICENCE@/{r licence' -e 'd}' copyright
+for file in changelog control copyright; do
+    "$root/src/packaging/fill.sh" "$root/src/packaging/debian/$file" \
+        "YEAR=$(sed -n 's/^Copyright (c) \([0-9-]*\) .*/\1/p' "$root/LICENSE")" \
+        "DATE=$(LC_ALL=C date -uRd "@$SOURCE_DATE_EPOCH")" >$file
+done
+sed -i -e '/^LICENCE$/{r licence' -e 'd}' copyright
 rm licence
 cd ..
 dpkg-buildpackage --no-sign

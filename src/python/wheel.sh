@@ -4,7 +4,8 @@
 set -eu
 rm -rf "$2" "$3"
 mkdir -p "$3"
-cp -r "$1/petri" "$1"/*.py "$1"/*.h "$1"/*.c "$1/pyproject.toml" "$3"
+cp -r "$1/petri" "$1"/*.py "$1"/*.h "$1"/*.c "$3"
+"$1/../packaging/fill.sh" "$1/pyproject.toml" >"$3/pyproject.toml"
 "$4" -I -m build --wheel --no-isolation --outdir "$2" "$3" >"$3/wheel.log" 2>&1 || {
     cat "$3/wheel.log" >&2
     exit 1

@@ -13,7 +13,10 @@ folder=$root/src/editors/vscode
     exit 77
 }
 scratch
-mkdir extension
+mkdir -p checkout/src/editors/vscode checkout/src/packaging
+ln -s checkout/src/editors/vscode extension
+cp "$root/meson.build" checkout/
+cp "$root/src/packaging/fill.sh" "$root/src/packaging/identity.ini" checkout/src/packaging/
 cp "$folder"/*.js "$folder"/*.json "$folder"/*.md "$folder"/*.py extension/
 ln -s "$folder/node_modules" extension/node_modules
 (cd extension && npm run bundle) >out 2>err
@@ -37,8 +40,9 @@ for (const { command } of commands) if (!source.includes(`"${command}"`)) throw 
 if (typeof require("./unpacked/extension/" + about.main).activate !== "function") throw new Error("no activate");' >out 2>err
 status=$?
 check "the package is complete and can be loaded" status_is 0
-version=$(sed -n 's/.*version: .\([0-9.]*\).,.*/\1/p' "$root/meson.build" | head -n 1)
-check "the extension has the version of petri" has extension/package.json "\"version\": \"$version\""
+version=$("$petri" --version)
+check "the extension has the version of petri" has unpacked/extension/package.json "\"version\": \"${version#petri }\""
+check "the extension has a publisher" has unpacked/extension/package.json '"publisher": "'
 NODE_PATH=$folder/node_modules node "$here/client.js" "$petri" >out 2>err
 status=$?
 check "VS Code's client library gets the expected answers from the server" has out "all answers are as expected"

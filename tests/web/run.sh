@@ -18,7 +18,7 @@ if [ "${2:-}" = --current ]; then
     [ -f "$PETRI_WEB/petri/engine.wasm" ] || skip "nothing there: ./dev web makes it"
     ninja -C "$root/build-wasm" -n src/web/engine.wasm 2>/dev/null | grep -q 'no work to do' || skip "out of date: ./dev web"
     for file in "$root"/src/web/engine/*; do
-        cmp -s "$file" "$PETRI_WEB/petri/${file##*/}" || skip "out of date: ./dev web"
+        [ "${file##*/}" = package.json ] || cmp -s "$file" "$PETRI_WEB/petri/${file##*/}" || skip "out of date: ./dev web"
     done
 fi
 node "$here/hashes.mjs" "$PETRI_WEB/petri/engine.wasm" "$root/tests/conformance" "$root/tests/hashes/corpora.txt"

@@ -3,6 +3,7 @@
 output is reproducible."""
 
 import json
+import subprocess
 import sys
 import zipfile
 from pathlib import Path
@@ -10,6 +11,8 @@ from xml.sax.saxutils import quoteattr, escape
 
 here = Path(__file__).resolve().parent
 about = json.loads((here / "package.json").read_text())
+about.update(json.loads(subprocess.run([here / "../../packaging/fill.sh", here / "identity.json"], check=True,
+                                       stdout=subprocess.PIPE).stdout))
 for only_for_building in ("dependencies", "devDependencies", "scripts", "private"):
     about.pop(only_for_building)
 MANIFEST = f"""<?xml version="1.0" encoding="utf-8"?>

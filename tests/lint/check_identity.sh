@@ -1,0 +1,27 @@
+#!/bin/sh
+# check_identity.sh SOURCE_ROOT: names of people and hosts are in src/packaging/identity.ini only, LICENSE names the same
+# authors, and templates contain only names that fill.sh knows.
+set -eu
+cd "$1"
+identity=src/packaging/identity.ini
+bad=0
+value() { sed -n "s/^$1 = //p" $identity; }
+git rev-parse --git-dir >/dev/null 2>&1 || {
+    echo "skipped: not a git checkout"
+    exit 77
+}
+values=$(mktemp)
+trap 'rm -f "$values"' EXIT
+sed -n 's/^[a-z_]* = //p' $identity | sort -u >"$values"
+if git grep --untracked -niF -f "$values" -- . ":!$identity" ':!LICENSE'; then
+    echo "these names belong in $identity only; write @NAME@ instead, and print the file with src/packaging/fill.sh"
+    bad=1
+fi
+grep -qi "^Copyright (c) [0-9]* $(value authors)\$" LICENSE || {
+    echo "LICENSE does not name '$(value authors)', the authors in $identity"
+    bad=1
+}
+for template in $(git grep --untracked -lE '@(AUTHORS|EMAIL|HOMEPAGE|REPOSITORY|VERSION|APP_ID)@' -- src ':!*.sh' ':!*.cmake.in'); do
+    src/packaging/fill.sh "$template" YEAR=x DATE=x SHA256=x >/dev/null || bad=1
+done
+exit $bad
