@@ -15,10 +15,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { DEFAULT_SIZE = 512, AUTO_SIDE = 1080, MAX_DIAGNOSTICS = 100 };
+enum { MAX_DIAGNOSTICS = 100 };
 
 void petri_picture_options_init(PetriPictureOptions *options, size_t size) {
-    const PetriPictureOptions defaults = {.size = size, .scale = 1, .window = -1, .detail = 1};
+    const PetriPictureOptions defaults = {.size = size, .scale = 1, .window = PETRI_FIRST_WINDOW, .detail = 1};
     host_struct_write(options, size, &defaults, sizeof defaults);
 }
 
@@ -37,70 +37,8 @@ typedef struct Request {
     const char *problem; // why there is no picture; NULL: the reason was already reported
 } Request;
 
-// Returns the window with this number. If the number is negative, returns the first `!window` with content, else the
-// first `!offscreen` with content, else the first of all windows.
-static const Node *find_window(const DrawAccess *access, int number) {
-    const Node *first = NULL, *offscreen = NULL, *window;
-    for (uint32_t at = 0; (window = canvas_next_window(access->schema, access->tree, &at));) {
-        bool on_screen = schema_window_kind(access->schema, window) == KIND_WINDOW;
-        if (number >= 0 ? number-- == 0 : on_screen && canvas_window_has_picture(access->schema, window))
-            return window;
-        if (number < 0 && !offscreen && !on_screen && canvas_window_has_picture(access->schema, window))
-            offscreen = window;
-        first = first || number >= 0 ? first : window;
-    }
-    return offscreen ? offscreen : first;
-}
-
 static Value attr_value(const Schema *schema, const Node *node, AttrRow row) {
     return node_get(node, schema->slots[row].name);
-}
-
-// The search of petri_find_window.
-typedef struct WindowSearch {
-    const char *id;
-    int found; // -1: none
-    Arena arena;
-} WindowSearch;
-
-static PetriStatus find_protected(PetriSession *session, void *context) {
-    WindowSearch *search = context;
-    DrawAccess access = session_draw_access(session);
-    const Node *window;
-    int number = 0;
-    for (uint32_t at = 0; (window = canvas_next_window(access.schema, access.tree, &at)); number++) {
-        Str id = value_text(&search->arena, access.schema->symbols, attr_value(access.schema, window, ROW_WINDOW_ID));
-        if (search->found < 0 && str_equal(id, str_from(search->id)))
-            search->found = number;
-    }
-    return PETRI_OK;
-}
-
-int petri_find_window(PetriSession *session, const char *id) {
-    if (!session || !id || !id[0])
-        return -1;
-    DrawAccess access = session_draw_access(session);
-    WindowSearch search = {.id = id, .found = -1};
-    arena_init(&search.arena, "picture", access.memory_limit);
-    search.arena.budget = access.budget;
-    session_protect(session, &search.arena, find_protected, &search);
-    arena_free(&search.arena);
-    return search.found;
-}
-
-// Reports the second `!window` if only the first is drawn.
-static void report_other_windows(const Request *request) {
-    const CanvasPicture *picture = &request->picture->picture;
-    const SchemaSink *sink = &request->shown.schema->sink;
-    for (uint32_t i = 0; i < picture->top_count; i++) {
-        const DrawNode *window = picture->tops[i];
-        if (window == picture->window || window->kind != KIND_WINDOW)
-            continue;
-        Str text = str_format(&request->picture->arena,
-                              "only one window is drawn; to draw this one, use petri render --window %u", i);
-        sink->report(sink->user_data, DIAG_WARNING, "other-window", &window->origin, STR("!window"), STR(""), text);
-        return;
-    }
 }
 
 static bool has_word(Str text, Str word) {
@@ -160,71 +98,30 @@ static bool any_needs_history(const DrawAccess *access) {
 }
 
 // Copies all windows, because each can show pictures of the others.
-static void copy_windows(Request *request, const Node *access) {
+static void copy_windows(Request *request, const Node *shown) {
     static _Atomic uint64_t serial;
     PetriPicture *picture = request->picture;
     CanvasPicture *canvases = &picture->picture;
     bool scalable = true;
+    Schema *schema = request->shown.schema;
     const Node *window;
     const DrawNode **tops = NULL;
-    for (uint32_t at = 0; (window = canvas_next_window(request->shown.schema, request->shown.tree, &at));) {
+    for (uint32_t at = 0; (window = canvas_next_window(schema, request->shown.tree, &at));) {
         uint32_t count = canvases->top_count++;
         tops = arena_grow(&picture->arena, tops, count * sizeof *tops, (count + 1) * sizeof *tops);
-        tops[count] = canvas_read(request->shown.schema, &picture->arena, window);
+        picture->windows = arena_grow(&picture->arena, picture->windows, count * sizeof *picture->windows,
+                                      (count + 1) * sizeof *picture->windows);
+        tops[count] = canvas_read(schema, &picture->arena, window);
         scalable = scalable && render_graph_scalable(tops[count]);
-        if (window == access)
-            canvases->window = tops[count];
+        picture->windows[count] = (PictureWindow){.has_picture = canvas_window_has_picture(schema, window),
+                                                  .has_size = attr_value(schema, window, ROW_WINDOW_SIZE).len > 0};
+        if (window == shown)
+            picture->shown = (int)count;
     }
-    const AttrValue *title = canvases->window->kind == KIND_WINDOW ? draw_attr(canvases->window, ATTR_TITLE) : NULL;
-    picture->title = title ? title->as.text.bytes : "";
     canvases->tops = tops;
-    canvases->opaque = canvases->window->kind == KIND_WINDOW;
     canvases->needs_history = any_needs_history(&request->shown);
     canvases->detail = scalable && !canvases->needs_history ? request->options->detail : 1;
     canvases->serial = ++serial;
-}
-
-// Chooses the size in the script's units: the size of the window if there is one, else a default. Returns false if the
-// window's size is invalid.
-static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *name) {
-    const DrawNode *window = picture->window;
-    picture->width = picture->height = window ? DEFAULT_SIZE : AUTO_SIDE;
-    double size[2];
-    if (!window)
-        return true;
-    if (!draw_pair(window, ATTR_SIZE, size))
-        return node_get(node, name).len == 0;
-    picture->width = floor(size[0]);
-    picture->height = floor(size[1]);
-    return true;
-}
-
-static void report_size(Request *request, double width, double height) {
-    Arena *arena = &request->picture->arena;
-    request->problem = str_format(arena, "a picture can have 1 to %d pixels in width and height, not %.10g x %.10g",
-                                  PETRI_MAX_PICTURE_SIDE, width, height)
-                           .bytes;
-}
-
-static bool choose_pixels(Request *request) {
-    PetriPicture *picture = request->picture;
-    const PetriPictureOptions *options = request->options;
-    double width = options->width, height = options->height;
-    if (!picture_is_good_size(picture->picture.width, picture->picture.height)) {
-        report_size(request, picture->picture.width, picture->picture.height);
-        return false;
-    }
-    if (width == 0 && height == 0) {
-        width = floor(picture->picture.width * options->scale + 0.5);
-        height = floor(picture->picture.height * options->scale + 0.5);
-    }
-    if (!picture_is_good_size(width, height)) {
-        report_size(request, width, height);
-        return false;
-    }
-    picture->width = (int)width;
-    picture->height = (int)height;
-    return true;
 }
 
 // Maximum number of frames for which petri_picture_ready waits until each system has been simulated. The wait is
@@ -236,7 +133,7 @@ bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *optio
     if (!session || !copy_options(&wanted, options))
         return false;
     DrawAccess access = session_draw_access(session);
-    const Node *window = find_window(&access, options->window);
+    const Node *window = draw_find_window(&access, options->window);
     bool own = window && canvas_window_has_picture(access.schema, window) && options->automatic != PETRI_AUTO_ALWAYS;
     SceneView view;
     for (uint32_t i = 0; own && access.number < MAX_START_FRAMES; i++) {
@@ -259,7 +156,7 @@ void petri_picture_follow(PetriSession *session, const PetriPictureOptions *opti
     if (!session || !copy_options(&wanted, options) || wanted.automatic == PETRI_AUTO_NEVER)
         return;
     DrawAccess access = session_draw_access(session);
-    const Node *window = find_window(&access, wanted.window);
+    const Node *window = draw_find_window(&access, wanted.window);
     if (access.number < 0 ||
         (wanted.automatic != PETRI_AUTO_ALWAYS && window && canvas_window_has_picture(access.schema, window)))
         return;
@@ -282,7 +179,7 @@ static bool make_picture(Request *request) {
     const DrawAccess *access = &request->shown;
     PetriPicture *picture = request->picture;
     const PetriPictureOptions *options = request->options;
-    const Node *window = find_window(access, options->window);
+    const Node *window = draw_find_window(access, options->window);
     uint32_t systems = options->automatic == PETRI_AUTO_NEVER ? 0 : auto_count(access);
     bool drawable = window && canvas_window_has_picture(access->schema, window);
     bool automatic = options->automatic == PETRI_AUTO_ALWAYS || (!drawable && systems > 0);
@@ -300,24 +197,15 @@ static bool make_picture(Request *request) {
                                                  "!canvas nor !physics";
         return false;
     }
+    picture->shown = -1;
     if (window)
         copy_windows(request, window);
-    if (!choose_size(&picture->picture, window, access->schema->slots[ROW_WINDOW_SIZE].name)) {
-        request->problem = "the attribute 'size' of the !window must be two numbers: width;height";
-        return false;
-    }
     if (automatic) {
         picture->automatic = auto_copy(access, &picture->arena, request->frames, systems);
         picture->picture.automatic = &picture->automatic;
-        picture->picture.window = NULL;
-        picture->picture.opaque = true;
     }
-    if (!choose_pixels(request))
-        return false;
-    if (picture->picture.window)
-        picture->picture.direct = render_graph_direct_canvas(picture->picture.window, (int)picture->picture.width,
-                                                             (int)picture->picture.height);
-    return true;
+    request->problem = draw_show_window(picture, picture->shown);
+    return !request->problem;
 }
 
 static PetriStatus make_protected(PetriSession *session, void *context) {
@@ -328,8 +216,8 @@ static PetriStatus make_protected(PetriSession *session, void *context) {
         session_frame_numbers(session, &request->picture->arena, picture->names, picture->numbers, PICTURE_NAMES);
     if (!make_picture(request))
         return PETRI_INVALID;
-    if (request->options->window < 0 && picture->window)
-        report_other_windows(request);
+    if (request->options->window == PETRI_FIRST_WINDOW && picture->window)
+        draw_report_other_windows(request->picture, &request->shown);
     return PETRI_OK;
 }
 
@@ -349,6 +237,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     Request request = {.shown = access, .options = &wanted, .picture = picture};
     PetriStatus status = PETRI_INVALID;
     picture->picture.beat = access.beat;
+    picture->options = wanted;
     if (access.number >= 0)
         status = session_report_abort(session, session_protect(session, &picture->arena, make_protected, &request),
                                       "the picture");

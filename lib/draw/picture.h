@@ -3,11 +3,22 @@
 
 #include "draw/cairo_canvas.h"
 
+struct DrawAccess; // session/draw_access.h
+
+// Properties of a window that its DrawNode does not contain.
+typedef struct PictureWindow {
+    bool has_picture; // canvas_window_has_picture
+    bool has_size;    // true if the attribute `size` is set, even if its value is not valid
+} PictureWindow;
+
 struct PetriPicture {
     Arena arena; // holds all other data
     CanvasPicture picture;
     AutoPicture automatic;
-    int width; // size in pixels
+    PetriPictureOptions options; // as passed to petri_picture
+    PictureWindow *windows;      // properties of each window in `picture.tops`
+    int shown;                   // number of the shown window; -1: none
+    int width;                   // size in pixels
     int height;
     int64_t frame;
     const char *title;
@@ -19,3 +30,13 @@ struct PetriPicture {
 static inline bool picture_is_good_size(double width, double height) {
     return width >= 1 && height >= 1 && width <= PETRI_MAX_PICTURE_SIDE && height <= PETRI_MAX_PICTURE_SIDE;
 }
+
+// windows.c
+// Returns the window with this number. If the number is negative, returns the first `!window` with content, else the
+// first `!offscreen` with content, else the first of all windows.
+const Node *draw_find_window(const struct DrawAccess *access, int number);
+// Reports the second `!window` if only the first is drawn.
+void draw_report_other_windows(PetriPicture *picture, const struct DrawAccess *access);
+// Lets the picture show the window with this number (-1: none), and sets its size and title. Returns NULL on success.
+// Otherwise returns the reason, a text that lives as long as the picture, and changes nothing.
+const char *draw_show_window(PetriPicture *picture, int number);

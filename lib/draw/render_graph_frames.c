@@ -48,6 +48,14 @@ const Recorded *render_graph_records(const RenderGraph *pictures, uint32_t *coun
     return frame->records;
 }
 
+Texture *render_graph_window(const RenderGraph *pictures, const CanvasPicture *picture) {
+    const GraphNode *top = &pictures->frames[pictures->now].top;
+    for (uint32_t i = 0; i < picture->top_count && i < top->count; i++)
+        if (picture->tops[i] == picture->window)
+            return top->children[i].picture;
+    return NULL;
+}
+
 static Texture *find_known(const Frame *frame, Str id) {
     for (uint32_t i = frame->known_count; i-- > 0;)
         if (str_equal(frame->known[i].id, id))

@@ -157,8 +157,11 @@ void draw_clear(uint32_t *pixels, int width, int height, size_t stride) {
 
 // Renders the render graph unless it was already rendered for this picture.
 static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
-    if (painter->made == picture->serial)
+    if (painter->made == picture->serial) {
+        painter->shown =
+            render_graph_window(painter->render_graph, picture); // petri_picture_select may have changed it
         return PETRI_OK;
+    }
     painter->shown = NULL;
     PetriStatus result = render_graph_run(painter, picture, faults, &painter->shown);
     painter->made = result == PETRI_OK ? picture->serial : 0;
@@ -169,7 +172,9 @@ static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *pic
 PetriStatus draw_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
     if (picture->window && (picture->needs_history || !picture->direct))
         return make_pictures(painter, picture, faults);
-    if (painter->made > 0) { // this frame does not use the render graph, so the next frame has nothing to continue
+    if (painter->made > 0 &&
+        painter->made !=
+            picture->serial) { // this frame does not use the render graph, so the next frame has nothing to continue
         render_graph_clear(painter);
         painter->made = 0;
         painter->shown = NULL;

@@ -26,6 +26,8 @@ typedef enum PetriAutomatic {
     PETRI_AUTO_NEVER,
 } PetriAutomatic;
 
+enum { PETRI_FIRST_WINDOW = -1, PETRI_ALL_WINDOWS = -2 }; // special values of PetriPictureOptions.window
+
 // Options of a picture. Start with petri_default_picture_options.
 typedef struct PetriPictureOptions {
     size_t size; // sizeof(PetriPictureOptions)
@@ -34,7 +36,10 @@ typedef struct PetriPictureOptions {
     int width;
     int height;
     double scale; // if width and height are 0: pixels per unit of the script's size. Default 1
-    int window;   // number of the window or `!offscreen`; -1 (the default): the first with something to draw
+    // Number of the window or `!offscreen`. PETRI_FIRST_WINDOW (the default): the first with something to draw; a
+    // warning names the next window. PETRI_ALL_WINDOWS: the first, without a warning, because the host draws the others
+    // as well (petri_picture_select).
+    int window;
     PetriAutomatic automatic; // default PETRI_AUTO_IF_NEEDED
     // Resolution of effects and 3-D scenes, relative to the picture: greater than 0, at most 1 (the default). Smaller
     // values are faster, for previews. Ignored by pictures that need history (petri_needs_history) and by custom
@@ -89,6 +94,22 @@ PETRI_API void petri_picture_size(const PetriPicture *picture, int *width, int *
 
 // Returns the title of the picture's window, or "". Valid as long as the picture.
 PETRI_API const char *petri_picture_title(const PetriPicture *picture);
+
+// Returns the number of a `!window` of the picture's frame that has something to draw: the first whose number is
+// greater than `after`. To find all windows, start with -1. Returns -1 if there is none, as for automatic pictures.
+PETRI_API int petri_picture_next_window(const PetriPicture *picture, int after);
+
+// Returns the number of the window that the picture shows. An automatic picture has the size of this window. Returns -1
+// if there is no window.
+PETRI_API int petri_picture_window(const PetriPicture *picture);
+
+// Returns the attribute `id` of the window with this number, or "". Valid as long as the picture.
+PETRI_API const char *petri_picture_window_id(const PetriPicture *picture, int window);
+
+// Lets the picture show another `!window` of its frame, with its own size and title. A painter that has rendered the
+// picture does not render it again, so the history of the frames does not change. Returns PETRI_INVALID, with a
+// diagnostic (petri_picture_report), if there is no such window or its size is not valid. On failure nothing changes.
+PETRI_API PetriStatus petri_picture_select(PetriPicture *picture, int window);
 
 // Returns the number of the frame that the picture shows.
 PETRI_API int64_t petri_picture_frame(const PetriPicture *picture);

@@ -16,9 +16,9 @@
 //   WRITING  Jobs run, and written files are renamed.
 //   FAILED   No more jobs start. Files of jobs before the failed one are still renamed.
 //   STOPPED  No more jobs start, and no more files are renamed.
-//   CUT      A video is written, and the frame that was being drawn is abandoned: the worker sleeps until the process
-//            ends. The video ends with the frame before it.
-//   DROPPED  Like CUT, but the video is discarded.
+//   CUT      Videos are written, and the frame that was being drawn is abandoned: the worker sleeps until the process
+//            ends. The videos end with the frame before it.
+//   DROPPED  Like CUT, but the videos are discarded.
 #include "render/frame_writer.h"
 
 #include "base/clock.h"
@@ -42,22 +42,38 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { QUEUE = 4, MAX_WORKERS = 16, MAX_READY = 32 };
+enum { QUEUE = 4, MAX_WORKERS = 16, MAX_READY = 32, MAX_FILMS = 64 };
 static const double GRACE_SECONDS = 0.05; // after a signal, jobs that are not finished within this time are abandoned
+
+// An image file or a frame of a video.
+typedef struct Output {
+    int window; // number of the window; -1: the one that the picture shows
+    char *file; // owned by the output
+    Replacement target;
+    bool target_open; // true if `target` is in use
+    int error;        // errno of the failure to rename the file; 0: none
+} Output;
 
 typedef struct Job Job;
 struct Job {
     Job *next;
     PetriPicture *picture;
-    bool for_film;
     bool needs_history;
     bool records; // true if the files of `!record` nodes are written
-    char *file;   // name of the image file, owned by the job; NULL: none
-    Replacement target;
-    bool target_open; // true if `target` is in use
+    Output *outputs;
+    size_t output_count;
     bool failed;
-    int error;       // errno of the failure to rename the file; 0: none
     uint64_t number; // from 0, in the order of frame_writer_add
+};
+
+// A video and its next frame.
+typedef struct Film Film;
+struct Film {
+    Film *next;
+    char *file;
+    Video video;
+    uint32_t *pixels; // buffer for a frame
+    bool has_frame;   // true if the video has a frame
 };
 
 typedef enum WriterState { WRITER_WRITING, WRITER_FAILED, WRITER_STOPPED, WRITER_CUT, WRITER_DROPPED } WriterState;
@@ -77,14 +93,12 @@ struct FrameWriter {
     Job *done;               // jobs to be reported and freed
     bool begun;              // true if the first worker has started
     bool ending;             // true if no more jobs will be added
-    bool drawing;            // true while a frame of the video is drawn; such a frame can be abandoned
-    bool has_frame;          // true if the video has a frame
+    bool drawing;            // true while a frame of a video is drawn; such a frame can be abandoned
     int unfinished;          // number of abandoned jobs
     double seconds;          // time that all threads together spent on jobs
-    const char *film;        // `film` to `recording` are used by the first worker only
+    bool makes_films;        // true if outputs are videos. `films` to `recording` are used by the first worker only
+    Film *films;
     double fps;
-    Video video;
-    uint32_t *pixels; // buffer for a frame of the video
     Recording recording;
     pthread_t workers[MAX_WORKERS];
     int worker_count;
@@ -115,14 +129,14 @@ static void set_error_text(FrameWriter *writer, const char *text) {
     pthread_mutex_unlock(&writer->lock);
 }
 
-// Draws a frame of the video. Never returns if the frame is abandoned in the meantime, because another thread then
-// completes the video.
-static bool draw_for_film(FrameWriter *writer, PetriPicture *picture, PetriPainter *painter) {
-    const Video *video = &writer->video;
+// Draws a frame of a video. Never returns if the frame is abandoned in the meantime, because another thread then
+// completes the videos.
+static bool draw_for_film(FrameWriter *writer, const Film *film, PetriPicture *picture, PetriPainter *painter) {
+    const Video *video = &film->video;
     pthread_mutex_lock(&writer->lock);
     writer->drawing = true;
     pthread_mutex_unlock(&writer->lock);
-    PetriStatus status = petri_picture_draw(picture, painter, writer->pixels, video->width, video->height,
+    PetriStatus status = petri_picture_draw(picture, painter, film->pixels, video->width, video->height,
                                             (size_t)video->width * sizeof(uint32_t));
     pthread_mutex_lock(&writer->lock);
     while (writer->state == WRITER_CUT || writer->state == WRITER_DROPPED)
@@ -134,28 +148,50 @@ static bool draw_for_film(FrameWriter *writer, PetriPicture *picture, PetriPaint
     return status == PETRI_OK && !shader_test_interrupted();
 }
 
-static bool add_to_film(FrameWriter *writer, PetriPicture *picture, PetriPainter *painter) {
-    Video *video = &writer->video;
-    if (!writer->pixels) {
+// Returns the video with this name, and adds it if it does not exist yet. Returns NULL after a failure.
+static Film *find_film(FrameWriter *writer, const char *file) {
+    int count = 0;
+    for (Film *film = writer->films; film; film = film->next, count++)
+        if (strcmp(film->file, file) == 0)
+            return film;
+    if (count == MAX_FILMS) {
+        char text[sizeof writer->error_text];
+        snprintf(text, sizeof text, "cannot write '%s': a run can write at most %d videos", file, MAX_FILMS);
+        set_error_text(writer, text);
+        return NULL;
+    }
+    Film *film = memory_calloc(sizeof *film);
+    *film = (Film){.next = writer->films, .video = {.frames = -1, .errors = -1, .cleanup_id = -1}};
+    film->file = memory_strdup(file);
+    writer->films = film;
+    return film;
+}
+
+static bool add_to_film(FrameWriter *writer, const char *file, PetriPicture *picture, PetriPainter *painter) {
+    Film *film = find_film(writer, file);
+    if (!film)
+        return false;
+    Video *video = &film->video;
+    if (!film->pixels) {
         int width = 0, height = 0;
         petri_picture_size(picture, &width, &height);
-        writer->pixels = calloc((size_t)width * (size_t)height, sizeof(uint32_t));
-        if (!writer->pixels) {
+        film->pixels = calloc((size_t)width * (size_t)height, sizeof(uint32_t));
+        if (!film->pixels) {
             set_error_text(writer, "out of memory");
             return false;
         }
-        if (!video_open(video, writer->film, &(VideoOptions){.crf = NAN}, width, height, writer->fps)) {
+        if (!video_open(video, film->file, &(VideoOptions){.crf = NAN}, width, height, writer->fps)) {
             set_error_text(writer, video->error_text);
             return false;
         }
     }
-    if (!draw_for_film(writer, picture, painter))
+    if (!draw_for_film(writer, film, picture, painter))
         return false;
-    if (!video_add(video, writer->pixels)) {
+    if (!video_add(video, film->pixels)) {
         set_error_text(writer, video->error_text);
         return false;
     }
-    writer->has_frame = true;
+    film->has_frame = true;
     return true;
 }
 
@@ -172,8 +208,8 @@ static bool cannot_write(FrameWriter *writer, const char *file) {
     return false;
 }
 
-static bool write_bytes(FrameWriter *writer, Job *job, const Text *bytes) {
-    return file_write(job->target.file, bytes->bytes, bytes->len) || cannot_write(writer, job->file);
+static bool write_bytes(FrameWriter *writer, const Output *output, const Text *bytes) {
+    return file_write(output->target.file, bytes->bytes, bytes->len) || cannot_write(writer, output->file);
 }
 
 // Waits until all earlier jobs are committed. Returns false after a failure.
@@ -187,21 +223,28 @@ static bool wait_for_turn(FrameWriter *writer, const Job *job) {
 }
 
 // Writes a temporary file; commit_ready_jobs renames it. A target that is not a regular file is written directly.
-static bool write_file(FrameWriter *writer, Job *job, PetriPainter *painter) {
+static bool write_file(FrameWriter *writer, const Job *job, Output *output, PetriPainter *painter) {
     SCOPED_TEXT bytes = {0};
-    if (!check_saved(writer, petri_picture_encode(job->picture, painter, job->file, text_collect, &bytes)))
+    if (!check_saved(writer, petri_picture_encode(job->picture, painter, output->file, text_collect, &bytes)))
         return false;
-    job->target_open = replace_begin(&job->target, job->file, 0);
-    if (!job->target_open)
-        return cannot_write(writer, job->file);
-    return (!job->target.direct || wait_for_turn(writer, job)) && write_bytes(writer, job, &bytes) &&
-           (replace_flush(&job->target) || cannot_write(writer, job->file));
+    output->target_open = replace_begin(&output->target, output->file, 0);
+    if (!output->target_open)
+        return cannot_write(writer, output->file);
+    return (!output->target.direct || wait_for_turn(writer, job)) && write_bytes(writer, output, &bytes) &&
+           (replace_flush(&output->target) || cannot_write(writer, output->file));
+}
+
+static bool write_output(FrameWriter *writer, const Job *job, Output *output, PetriPainter *painter) {
+    if (output->window >= 0 && !check_saved(writer, petri_picture_select(job->picture, output->window)))
+        return false;
+    return writer->makes_films ? add_to_film(writer, output->file, job->picture, painter)
+                               : write_file(writer, job, output, painter);
 }
 
 static bool run_job(FrameWriter *writer, Job *job, PetriPainter *painter) {
-    bool good = !job->for_film || add_to_film(writer, job->picture, painter);
-    if (job->file)
-        good = good && write_file(writer, job, painter);
+    bool good = true;
+    for (size_t i = 0; good && i < job->output_count; i++)
+        good = write_output(writer, job, &job->outputs[i], painter);
     if (good && job->records) {
         good = recording_add(&writer->recording, job->picture, painter);
         if (!good && writer->recording.error_text)
@@ -223,13 +266,22 @@ static Job *pop_ready_job(FrameWriter *writer) {
     return job;
 }
 
+static bool rename_files(Job *job) {
+    bool good = true;
+    for (size_t i = 0; i < job->output_count; i++) {
+        Output *output = &job->outputs[i];
+        output->error = output->target_open && !replace_rename(&output->target) ? errno : 0;
+        good = good && output->error == 0;
+    }
+    return good;
+}
+
 // Renames the files of ready jobs in order, up to the first job that is not ready. Returns the jobs of these files,
 // which the caller passes to finish_jobs.
 static Job *commit_ready_jobs(FrameWriter *writer) {
     Job *named = NULL, *job;
     while ((writer->state == WRITER_WRITING || writer->state == WRITER_FAILED) && (job = pop_ready_job(writer))) {
-        job->error = job->target_open && !replace_rename(&job->target) ? errno : 0;
-        if (job->error != 0)
+        if (!rename_files(job))
             stop(writer, false);
         writer->next_committed++;
         job->next = named;
@@ -241,11 +293,13 @@ static Job *commit_ready_jobs(FrameWriter *writer) {
 // Completes renamed files. Returns false if one of them failed.
 static bool finish_jobs(FrameWriter *writer, Job *named) {
     bool good = true;
-    for (Job *job = named; job; job = job->next) {
-        errno = job->error;
-        if (job->target_open && (job->error != 0 || !replace_end(&job->target)))
-            good = cannot_write(writer, job->file);
-    }
+    for (Job *job = named; job; job = job->next)
+        for (size_t i = 0; i < job->output_count; i++) {
+            Output *output = &job->outputs[i];
+            errno = output->error;
+            if (output->target_open && (output->error != 0 || !replace_end(&output->target)))
+                good = cannot_write(writer, output->file);
+        }
     return good;
 }
 
@@ -316,17 +370,16 @@ static void *run_worker(void *context) {
     return NULL;
 }
 
-FrameWriter *frame_writer_start(const char *film, double film_fps, double fps) {
+FrameWriter *frame_writer_start(bool films, double film_fps, double fps) {
     FrameWriter *writer = memory_calloc(sizeof *writer);
     long processors = os_processor_count();
-    int wanted = film || processors < 1 ? 1 : processors > MAX_WORKERS ? MAX_WORKERS : (int)processors;
+    int wanted = films || processors < 1 ? 1 : processors > MAX_WORKERS ? MAX_WORKERS : (int)processors;
     pthread_mutex_init(&writer->lock, NULL);
     pthread_cond_init(&writer->changed, NULL);
     writer->last = &writer->waiting;
-    writer->film = film;
+    writer->makes_films = films;
     writer->fps = film_fps;
     writer->recording.fps = fps;
-    writer->video = (Video){.frames = -1, .errors = -1, .cleanup_id = -1};
     sigset_t all, before; // workers block all signals, because the main thread handles them
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -353,11 +406,22 @@ static void wait_briefly(FrameWriter *writer) {
     pthread_cond_timedwait(&writer->changed, &writer->lock, &until);
 }
 
-bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file, bool repeats) {
+static void free_job(Job *job) {
+    petri_picture_free(&job->picture);
+    for (size_t i = 0; i < job->output_count; i++)
+        free(job->outputs[i].file);
+    free(job->outputs);
+    free(job);
+}
+
+bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, const FrameOutput *outputs, size_t count,
+                      bool repeats) {
     Job *job = memory_calloc(sizeof *job);
-    *job = (Job){.picture = picture, .for_film = for_film, .needs_history = petri_picture_needs_history(picture)};
+    *job = (Job){.picture = picture, .needs_history = petri_picture_needs_history(picture), .output_count = count};
     job->records = job->needs_history && !repeats;
-    job->file = !file ? NULL : memory_strdup(file);
+    job->outputs = count > 0 ? memory_calloc(count * sizeof *job->outputs) : NULL;
+    for (size_t i = 0; i < count; i++)
+        job->outputs[i] = (Output){.window = outputs[i].window, .file = memory_strdup(outputs[i].file)};
     pthread_mutex_lock(&writer->lock);
     job->number = writer->added++;
     while (writer->waiting_count >= QUEUE && !has_failed(writer) && frames_signal() == 0)
@@ -379,9 +443,7 @@ void frame_writer_report(FrameWriter *writer, PetriSession *session) {
     while (done) {
         Job *next = done->next;
         petri_picture_report(session, done->picture);
-        petri_picture_free(&done->picture);
-        free(done->file);
-        free(done);
+        free_job(done);
         done = next;
     }
 }
@@ -397,13 +459,27 @@ static int wait_for_end(FrameWriter *writer) {
             signalled = signalled == 0 ? clock_seconds() : signalled;
             bool patient = clock_seconds() - signalled <= GRACE_SECONDS;
             if (!patient && writer->next_committed < writer->added &&
-                (!writer->film || writer->drawing || shader_test_interrupted())) {
-                stop(writer, writer->film);
+                (!writer->makes_films || writer->drawing || shader_test_interrupted())) {
+                stop(writer, writer->makes_films);
                 return (int)(writer->added - writer->next_committed);
             }
         }
         wait_briefly(writer);
     }
+}
+
+// Completes the videos, or discards them after a failure.
+static void close_films(FrameWriter *writer) {
+    double start = clock_seconds();
+    for (Film *film = writer->films; film; film = film->next) {
+        if (has_failed(writer) || (writer->state == WRITER_CUT && !film->has_frame)) {
+            video_abandon(&film->video);
+        } else if (film->video.open && !video_close(&film->video)) {
+            set_failed(writer);
+            set_error_text(writer, film->video.error_text);
+        }
+    }
+    writer->seconds += clock_seconds() - start;
 }
 
 bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abandon, const char **error_text) {
@@ -417,23 +493,15 @@ bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abando
     while (writer->unfinished == 0 && writer->worker_count > 0)
         pthread_join(writer->workers[--writer->worker_count], NULL);
     for (Job *job = writer->unfinished == 0 ? writer->ready : NULL; job; job = job->next)
-        if (job->target_open)
-            replace_abort(&job->target); // the file is not renamed, because an earlier job has failed
+        for (size_t i = 0; i < job->output_count; i++)
+            if (job->outputs[i].target_open)
+                replace_abort(&job->outputs[i].target); // the file is not renamed, because an earlier job has failed
     if (writer->unfinished == 0) {
         add_done(writer, writer->ready);
         writer->ready = NULL;
     }
     frame_writer_report(writer, session);
-    if (has_failed(writer) || (writer->state == WRITER_CUT && !writer->has_frame)) {
-        video_abandon(&writer->video);
-    } else if (writer->video.open) {
-        double start = clock_seconds();
-        if (!video_close(&writer->video)) {
-            set_failed(writer);
-            set_error_text(writer, writer->video.error_text);
-        }
-        writer->seconds += clock_seconds() - start;
-    }
+    close_films(writer);
     if (!recording_end(&writer->recording, abandon)) {
         set_failed(writer);
         set_error_text(writer, writer->recording.error_text ? writer->recording.error_text : "out of memory");
@@ -456,6 +524,11 @@ void frame_writer_free(FrameWriter *writer) {
     pthread_mutex_destroy(&writer->lock);
     pthread_cond_destroy(&writer->changed);
     recording_free(&writer->recording);
-    free(writer->pixels);
+    for (Film *film = writer->films, *next; film; film = next) {
+        next = film->next;
+        free(film->pixels);
+        free(film->file);
+        free(film);
+    }
     free(writer);
 }

@@ -1,6 +1,6 @@
 // frame_writer.h: threads that draw and write pictures while the next frames are computed.
 //
-// Pictures wait in a short queue. Frames of a video are drawn in order by one thread. Image files are drawn by one
+// Pictures wait in a short queue. Frames of videos are drawn in order by one thread. Image files are drawn by one
 // thread per processor. After the first failure, nothing more is written.
 #pragma once
 
@@ -10,19 +10,26 @@
 
 typedef struct FrameWriter FrameWriter;
 
-// Starts the threads. `film` is the file name of the video, which has `film_fps` frames per second; NULL: no video.
-// Videos of `!record` nodes have `fps` frames per second. Returns NULL after a message.
-FrameWriter *frame_writer_start(const char *film, double film_fps, double fps);
-// Adds a picture to the queue and takes ownership of it. A thread adds the picture to the video if `for_film` is true,
-// and writes it to `file` if that is not NULL. The thread also writes the files of the picture's `!record` nodes,
-// unless `repeats` is true: a picture of the same frame was added before. The file name is copied. Pictures that need
-// history (petri_picture_needs_history) must be added for every frame. Waits while the queue is full, unless a signal
-// arrives. Returns false if writing has failed before.
-bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, bool for_film, const char *file, bool repeats);
+// A file for a picture of a frame.
+typedef struct FrameOutput {
+    int window;       // number of the window to draw; -1: the one that the picture shows
+    const char *file; // name of an image or a video
+} FrameOutput;
+
+// Starts the threads. If `films` is true, outputs are added to videos, which have `film_fps` frames per second,
+// otherwise each output is an image. Videos of `!record` nodes have `fps` frames per second. Returns NULL after a
+// message.
+FrameWriter *frame_writer_start(bool films, double film_fps, double fps);
+// Adds a picture to the queue and takes ownership of it. A thread writes the `count` outputs, whose file names are
+// copied. The thread also writes the files of the picture's `!record` nodes, unless `repeats` is true: a picture of the
+// same frame was added before. Pictures that need history (petri_picture_needs_history) must be added for every frame.
+// Waits while the queue is full, unless a signal arrives. Returns false if writing has failed before.
+bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, const FrameOutput *outputs, size_t count,
+                      bool repeats);
 // Reports the diagnostics of finished pictures to the session's callback and frees the pictures.
 void frame_writer_report(FrameWriter *writer, PetriSession *session);
-// Waits for all pictures and completes the video. If `abandon` is true, discards unfinished pictures. After a signal,
-// waits only briefly, but does not stop while a frame is partly written to the video. Returns false if writing has
+// Waits for all pictures and completes the videos. If `abandon` is true, discards unfinished pictures. After a signal,
+// waits only briefly, but does not stop while a frame is partly written to a video. Returns false if writing has
 // failed. *error_text is then the reason, or NULL if a picture's diagnostics contain the reason. The text is valid
 // until frame_writer_free.
 bool frame_writer_finish(FrameWriter *writer, PetriSession *session, bool abandon, const char **error_text);

@@ -4,6 +4,7 @@
 #include "cli/script.h"
 #include "cli/stdout_file.h"
 #include "render/frame_writer.h"
+#include "render/output_names.h"
 #include "render/video.h"
 #include "run/frames.h"
 
@@ -16,6 +17,8 @@
 #include <unistd.h>
 
 typedef enum OutputKind { OUTPUT_PICTURE, OUTPUT_SERIES, OUTPUT_FILM } OutputKind;
+
+enum { MAX_WINDOWS = 64 }; // maximum number of windows of a frame that are written
 
 typedef struct Render {
     Frames frames;
@@ -30,36 +33,9 @@ typedef struct Render {
     const char *display_name; // name of the output in messages
 } Render;
 
-// Finds the placeholder for the frame number in a file name: the first `%`, if at most two digits and a `d` follow, as
-// in `%d` or `%05d`. Returns the start of the placeholder and sets *end to its end. Returns NULL if there is none.
-static const char *find_number(const char *name, const char **end) {
-    const char *at = strchr(name, '%');
-    if (!at)
-        return NULL;
-    const char *after = at + 1 + strspn(at + 1, "0123456789");
-    *end = after + 1;
-    return *after == 'd' && after - at <= 3 ? at : NULL;
-}
-
-// Returns the file name of a frame. The caller frees it with free.
-static char *series_name(const char *name, int64_t frame) {
-    Text text = {0};
-    const char *end = NULL;
-    const char *at = find_number(name, &end);
-    int width = (int)strtol(at + 1, NULL, 10);
-    text_add(&text, (Str){name, (size_t)(at - name)});
-    if (at[1] == '0')
-        text_add_format(&text, "%0*" PRId64, width, frame);
-    else
-        text_add_format(&text, "%*" PRId64, width, frame);
-    text_add_c(&text, end);
-    return text.bytes;
-}
-
 // Determines the kind of output. Returns false after a message.
 static bool read_output(Render *render) {
     Options *options = render->frames.options;
-    const char *end = NULL;
     if (!options->output) {
         message("option '--output' is missing; try: petri render %s -o OUT.png", options->script);
         return false;
@@ -81,7 +57,7 @@ static bool read_output(Render *render) {
                 options->output);
         return false;
     } else {
-        render->kind = find_number(options->output, &end) ? OUTPUT_SERIES : OUTPUT_PICTURE;
+        render->kind = output_has_number(options->output) ? OUTPUT_SERIES : OUTPUT_PICTURE;
     }
     if (options->frame >= 0 && render->kind == OUTPUT_FILM) {
         message("option '--frame' is for images; '%s' is a video", render->display_name);
@@ -113,9 +89,50 @@ static void choose_window(Render *render) {
     render->picture.window = found >= 0 ? found : is_number ? (int)number : INT_MAX;
 }
 
-// Draws the last computed frame. Adds it to the video if `for_film` is true, writes it to `file` if that is not NULL,
-// and writes the files of its `!record` nodes.
-static void draw_frame(Render *render, bool for_film, const char *file) {
+// The outputs of a frame: one, or one for each window.
+typedef struct OutputList {
+    FrameOutput items[MAX_WINDOWS];
+    char *names[MAX_WINDOWS]; // the file names of `items`
+    int count;
+} OutputList;
+
+// Adds an output for a window. Returns false after a message.
+static bool add_output(const Render *render, const PetriPicture *picture, int window, OutputList *list) {
+    const char *pattern = render->frames.options->output;
+    if (list->count == MAX_WINDOWS) {
+        message("cannot write '%s': a frame has more than %d windows", pattern, MAX_WINDOWS);
+        return false;
+    }
+    int64_t frame = render->kind == OUTPUT_SERIES ? petri_picture_frame(picture) : -1;
+    char *name = output_name(pattern, frame, window, petri_picture_window_id(picture, window));
+    list->names[list->count] = name;
+    list->items[list->count++] = (FrameOutput){.window = window, .file = name};
+    for (int i = 0; i + 1 < list->count; i++) {
+        if (strcmp(list->names[i], name) == 0) {
+            message("windows %d and %d have the same file, '%s': give them different ids", list->items[i].window,
+                    window, name);
+            return false;
+        }
+    }
+    return true;
+}
+
+// Lists the files of a picture. Returns false after a message.
+static bool list_outputs(const Render *render, const PetriPicture *picture, OutputList *list) {
+    bool good = true;
+    int window = render->picture.window == PETRI_ALL_WINDOWS ? petri_picture_next_window(picture, -1) : -1;
+    for (; window >= 0 && good; window = petri_picture_next_window(picture, window))
+        good = add_output(render, picture, window, list);
+    if (good && list->count == 0) {
+        good = add_output(render, picture, petri_picture_window(picture), list);
+        list->items[0].window = -1;
+    }
+    return good;
+}
+
+// Draws the last computed frame. If `wanted` is true, writes it to the output. Also writes the files of its `!record`
+// nodes.
+static void draw_frame(Render *render, bool wanted) {
     PetriPicture *picture = NULL;
     frames_set_interruptible(&render->frames, true);
     PetriStatus status = petri_picture(render->frames.session, &render->picture, &picture);
@@ -129,8 +146,15 @@ static void draw_frame(Render *render, bool for_film, const char *file) {
     int64_t number = petri_frame_number(render->frames.session);
     bool repeats = number == render->last_drawn; // a single picture of a frame that was drawn for its history
     render->last_drawn = number;
-    render->failed = status != PETRI_OK || !frame_writer_add(render->writer, picture, for_film, file, repeats);
-    render->drawn += for_film || file;
+    OutputList list = {.count = 0};
+    render->failed = status != PETRI_OK || (wanted && !list_outputs(render, picture, &list));
+    if (render->failed)
+        petri_picture_free(&picture);
+    else
+        render->failed = !frame_writer_add(render->writer, picture, list.items, (size_t)list.count, repeats);
+    for (int i = 0; i < list.count; i++)
+        free(list.names[i]);
+    render->drawn += wanted;
 }
 
 static void output_frame(Render *render) {
@@ -138,14 +162,9 @@ static void output_frame(Render *render) {
     int64_t number = petri_frame_number(render->frames.session);
     bool wanted = options->frame >= 0 ? number == options->frame
                                       : (number - render->frames.before_first_picture) % options->every == 0;
-    if (wanted && render->kind == OUTPUT_FILM) {
-        draw_frame(render, true, NULL);
-    } else if (wanted && render->kind == OUTPUT_SERIES) {
-        SCOPED_STRING name = series_name(options->output, number);
-        draw_frame(render, false, name);
-    } else if (petri_needs_history(render->frames.session)) {
-        draw_frame(render, false, NULL);
-    }
+    wanted = wanted && render->kind != OUTPUT_PICTURE;
+    if (wanted || petri_needs_history(render->frames.session))
+        draw_frame(render, wanted);
 }
 
 // Returns true for the first frames, in which particles have no positions yet (petri_picture_ready). They are computed,
@@ -163,7 +182,7 @@ static void output_picture(Render *render) {
         message("nothing to draw: the run ended with frame %" PRId64 ", before frame %" PRId64, number, options->frame);
         render->failed = true;
     } else {
-        draw_frame(render, false, options->output);
+        draw_frame(render, true);
     }
 }
 
@@ -227,8 +246,7 @@ static int render_frames(Render *render) {
     Frames *frames = &render->frames;
     const Options *options = frames->options;
     double fps = frames_fps(frames);
-    render->writer =
-        frame_writer_start(render->kind == OUTPUT_FILM ? options->output : NULL, fps / (double)options->every, fps);
+    render->writer = frame_writer_start(render->kind == OUTPUT_FILM, fps / (double)options->every, fps);
     if (!render->writer)
         return STATUS_FAILED;
     frames_begin(frames);
@@ -263,6 +281,8 @@ static int render_script(Render *render) {
     render->picture.width = options->size.width;
     render->picture.height = options->size.height;
     render->picture.scale = options->scale;
+    if (output_has_window(options->output))
+        render->picture.window = PETRI_ALL_WINDOWS;
     render->picture.automatic = options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     if (!check_folder(options->output) || !frames_load(&render->frames))
         return render->frames.invalid_definition ? STATUS_USAGE : STATUS_FAILED;
@@ -292,7 +312,9 @@ const Command RENDER_COMMAND = {
     .details =
         "Renders the script's !window, or its particles if it does not draw. The suffix of OUT selects the output: an\n"
         "image of the last frame or of --frame; an image of every frame, if the name contains %d or %05d; or a video,\n"
-        "which needs ffmpeg. '-o -' writes to standard output at the end (petri render dish.fl -o - --format gif\n"
+        "which needs ffmpeg. If the name contains {window}, each window has its own file, with the window's id or\n"
+        "number in the place of {window}. '-o -' writes to standard output at the end (petri render dish.fl -o - "
+        "--format gif\n"
         ">dish.gif). Ctrl-C ends a video or a series after the current frame and keeps it; a second Ctrl-C discards\n"
         "the video.\n"
         "\n"
@@ -300,7 +322,8 @@ const Command RENDER_COMMAND = {
         "but neither rendered nor counted: the first image is frame 2, and --frames 60 renders 60 frames.",
     .examples = "  petri render dish.fl -o dish.png --frame 100    one image\n"
                 "  petri render dish.fl -o dish%05d.png --every 10 every tenth frame\n"
-                "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a video\n",
+                "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a video\n"
+                "  petri render two.fl -o two-{window}.png         an image of each window\n",
     .missing_operand = "no script given",
     .options = FOR_RENDER,
     .run = render_run,

@@ -139,6 +139,46 @@ END
     check "a window that does not exist is an error" has err "the frame has no window with this number or id"
     check "a window that does not exist exits with 1" status_is 1
 
+    # a file for each window
+    mkdir each
+    cat >>windows.fl <<'END'
+!window size=8;4 id="../../a%d/b"
+    !feedback mixer=0.5
+        !canvas
+            !rect size=2 point=frame%8;0 fill=true color=0;1;0
+!window size=7;4
+    !canvas
+        !rect size=2 point=frame%8;0 fill=true color=0;1;0
+!window size=9;4 id="empty"
+END
+    petri render windows.fl -o 'each/{window}-x.png' --frames 3
+    check "{window} writes a file for each window with content" status_is 0
+    check "{window} reports no windows that are not drawn" empty err
+    check "{window} is the id or the number, without characters that lead to other folders" \
+        [ "$(ls each)" = "$(printf '%s\n' _._.._a_d_b-x.png 4-x.png first-x.png second-x.png | LC_ALL=C sort)" ]
+    check "each file has the size of its window" eval 'sized each/first-x.png 4x4 && sized each/second-x.png 6x4 &&
+        sized each/_._.._a_d_b-x.png 8x4 && sized each/4-x.png 7x4'
+    petri render windows.fl -o windows.png --frames 3 --window 3
+    check "{window} continues the history of frames only once per frame" cmp -s windows.png each/_._.._a_d_b-x.png
+    petri render windows.fl -o 'each/%02d-{window}.png' --frames 3
+    check "{window} can be combined with frame numbers" [ "$(ls each/0?-*.png | wc -l)" -eq 12 ]
+    petri render windows.fl -o windows.png --frame 1 --window 4
+    check "a file of a series has the picture of its window and frame" cmp -s windows.png each/01-4.png
+    petri render windows.fl -o 'one-{window}.png' --frames 1 --window second
+    check "--window selects the only file of {window}" [ "$(echo one-*)" = one-second.png ]
+    petri render disc.fl -o 'one-{window}.png' --frames 1
+    check "a window without an id has a number" cmp -s one-0.png first.png
+    petri render windows.fl -o '{window}/x.png' --frames 1
+    check "a folder cannot depend on the window" has err "cannot write '{window}/x.png'"
+    sed 's/second/first/' windows.fl >double.fl
+    petri render double.fl -o 'double-{window}.png' --frames 1
+    check "windows with the same id are an error" has err "windows 0 and 2 have the same file, 'double-first.png'"
+    check "windows with the same id exit with 1" status_is 1
+    printf 'for i in ..65\n    !window size=1;1\n        !canvas\n' >many.fl
+    petri render many.fl -o 'many-{window}.png' --frames 1
+    check "more than 64 windows are an error" has err "a frame has more than 64 windows"
+    check "a frame with too many windows writes no file" [ ! -e many-0.png ]
+
     # record
     cat >record.fl <<'END'
 !window size=20;20
@@ -401,6 +441,15 @@ END
 
     # videos
     if command -v ffmpeg >/dev/null; then
+        petri render windows.fl -o 'each/{window}.gif' --frames 3
+        check "{window} writes a video of each window" status_is 0
+        check "each window has a video" [ "$(ls each/*.gif | wc -l)" -eq 4 ]
+        petri render windows.fl -o windows.gif --frames 3 --window 3
+        check "the video of a window equals that of --window" cmp -s windows.gif each/_._.._a_d_b.gif
+        printf '!window size=2;2 id=frame\n    !canvas\n' >many.fl
+        petri render many.fl -o 'many-{window}.gif' --frames 70
+        check "more than 64 videos are an error" has err "a run can write at most 64 videos"
+        check "none of too many videos is written" [ ! -e many-0.gif ]
         for suffix in mp4 m4v mov mkv webm ogg gif; do
             petri render disc.fl -o film.$suffix --frames 10 --fps 50
             check "render writes a video: $suffix" [ -s film.$suffix ]

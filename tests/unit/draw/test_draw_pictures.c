@@ -3,6 +3,7 @@
 #include "player.h"
 
 #include <dirent.h>
+#include <limits.h>
 
 static const char DISC[] = "!window size=8;4 title=\"disc \";frame\n"
                            "    !canvas\n"
@@ -32,6 +33,52 @@ static int red_column(PetriPicture *picture) {
             column = x;
     }
     return column;
+}
+
+// The picture of each window is selected without rendering the frame again, which would continue its history.
+static void test_select_windows(void **state) {
+    Player *player = *state;
+    static const char script[] = "!window size=8;4 id=:first title=\"1\"\n"
+                                 "    !canvas\n"
+                                 "        !rect point=1;0 size=1;4 fill=true color=1;0;0 antialias=false\n"
+                                 "!offscreen size=8;4\n"
+                                 "    !canvas\n"
+                                 "!window size=8;4 title=\"2\"\n"
+                                 "!window size=9;4 title=\"3\"\n"
+                                 "    !canvas\n"
+                                 "        !rect point=2;0 size=1;4 fill=true color=1;0;0 antialias=false\n"
+                                 "!window size=0;4 title=\"4\"\n"
+                                 "    !canvas\n";
+    player_run(player, script, 1);
+    PetriPictureOptions options = petri_default_picture_options();
+    options.window = PETRI_ALL_WINDOWS;
+    PetriPicture *picture = make_picture(player, options, PETRI_OK);
+    assert_int_equal(petri_picture_window(picture), 0);
+    assert_string_equal(petri_picture_window_id(picture, 0), "first");
+    assert_string_equal(petri_picture_window_id(picture, 3), "");
+    assert_string_equal(petri_picture_window_id(picture, 99), "");
+    assert_int_equal(petri_picture_next_window(picture, -1), 0);
+    assert_int_equal(petri_picture_next_window(picture, 0), 3);
+    assert_int_equal(petri_picture_next_window(picture, 3), 4);
+    assert_int_equal(petri_picture_next_window(picture, 4), -1);
+    assert_int_equal(petri_picture_next_window(picture, INT_MAX), -1);
+    int width, height, column = red_column(picture);
+    assert_true(column == 1 || column == -2);
+    assert_int_equal(petri_picture_select(picture, 3), PETRI_OK);
+    petri_picture_size(picture, &width, &height);
+    assert_int_equal(width, 9);
+    assert_string_equal(petri_picture_title(picture), "3");
+    assert_int_equal(petri_picture_window(picture), 3);
+    assert_int_equal(petri_picture_select(picture, 4), PETRI_INVALID); // its size is not valid
+    assert_int_equal(petri_picture_select(picture, 1), PETRI_INVALID); // an !offscreen
+    assert_int_equal(petri_picture_select(picture, 5), PETRI_INVALID);
+    assert_int_equal(petri_picture_select(picture, -1), PETRI_INVALID);
+    assert_int_equal(petri_picture_window(picture), 3);
+    petri_picture_report(player->session, picture);
+    assert_non_null(strstr(player->diagnostics.text, "not 0 x 4"));
+    assert_int_equal(petri_picture_select(picture, 0), PETRI_OK);
+    assert_int_equal(red_column(picture), column);
+    petri_picture_free(&picture);
 }
 
 // Returns the number of threads of this process, or 0 if the system does not list them.
@@ -526,6 +573,7 @@ static void test_host_backend_draws_canvases(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_no_fonts_without_text),
+        PLAYER_TEST(test_select_windows),
         PLAYER_TEST(test_picture_outlives_session),
         PLAYER_TEST(test_sizes_and_options_are_checked),
         PLAYER_TEST(test_choice_of_content),
