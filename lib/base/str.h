@@ -85,6 +85,9 @@ int str_hex_digit(char c);
 // Appends its components as numbers from 0 to 1, separated by ';'. Returns false, with nothing appended, if there is no
 // colour.
 bool text_add_hex_colour(Text *text, Str hex);
+// Returns the components of a colour with a common English name, such as "1;0;0" for "red". Returns an empty string for
+// other names.
+Str str_named_colour(Str name);
 
 // Returns a formatted string in the arena. It is followed by a NUL byte.
 Str str_format(Arena *arena, const char *format, ...) PRIVATE_API(str_format) __attribute__((format(printf, 2, 3)));

@@ -122,6 +122,17 @@ bool text_add_hex_colour(Text *text, Str hex) {
     return true;
 }
 
+Str str_named_colour(Str name) {
+    static const char *const colours[][2] = {{"white", "1"},       {"black", "0"},       {"gray", "0.5"},
+                                             {"grey", "0.5"},      {"red", "1;0;0"},     {"green", "0;1;0"},
+                                             {"blue", "0;0;1"},    {"yellow", "1;1;0"},  {"cyan", "0;1;1"},
+                                             {"magenta", "1;0;1"}, {"orange", "1;0.5;0"}};
+    for (size_t i = 0; i < sizeof colours / sizeof colours[0]; i++)
+        if (str_equal(name, str_from(colours[i][0])))
+            return str_from(colours[i][1]);
+    return (Str){0};
+}
+
 Str str_format(Arena *arena, const char *format, ...) {
     Text text = text_new(arena);
     va_list args;

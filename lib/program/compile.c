@@ -169,6 +169,8 @@ static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
             tags[code->code.tag_count++] = decoration->name;
         } else {
             lint_negation(compiler, decoration->children[0]);
+            if (str_equal(decoration->name->name, STR("state")))
+                compiler->state_attr = decoration->children[0];
             spans[code->attr_count] = decoration->span;
             names[code->attr_count++] = decoration->name;
             children[code->attr_count] = compile_expr(compiler, decoration->children[0]);

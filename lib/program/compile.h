@@ -71,6 +71,7 @@ struct Compiler {
     NameUses *uses;               // uses of names in `root` and in included files; NULL: not collected yet (optional.c)
     const Ast *subject;           // latest expression to which attributes or children are added; used for a hint
     const Ast *key;               // key of the latest state lookup; used for a hint
+    const Ast *state_attr;        // value of the latest attribute `state`; used for a hint
     const Ast *parameter_use;     // NAME of the last parameter `let X=NAME or DEFAULT`; not reported if unbound
     const Ast *parameter_default; // DEFAULT of the last parameter; NULL: the right side has several `or`
     Include *includes;            // in order of the %include directives

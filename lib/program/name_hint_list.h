@@ -35,16 +35,6 @@ HINT("lerp mix", "use 'map(t, a, b)' to interpolate from a to b")
 HINT("append push", "join vectors with semicolons: v;x")
 HINT("math Math", "write functions without a prefix: sin(x)")
 HINT("rgb rgba", COLOUR "(255;128;0)/255")
-HINT("white", COLOUR "white is 1")
-HINT("black", COLOUR "black is 0")
-HINT("gray grey", COLOUR "grey is 0.5")
-HINT("red", COLOUR "red is 1;0;0")
-HINT("green", COLOUR "green is 0;1;0")
-HINT("blue", COLOUR "blue is 0;0;1")
-HINT("yellow", COLOUR "yellow is 1;1;0")
-HINT("cyan", COLOUR "cyan is 0;1;1")
-HINT("magenta", COLOUR "magenta is 1;0;1")
-HINT("orange", COLOUR "orange is 1;0.5;0")
 // clang-format on
 
 #undef HINT

@@ -208,12 +208,38 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
     return nearest.found.len ? str_format(compiler->arena, "did you mean '%.*s'?", STR_ARGS(nearest.found)) : (Str){0};
 }
 
+// Returns the last part of the innermost vector that contains a use of a name, if that part is a loop that binds the
+// name. Such a loop repeats only its own part of the vector. Otherwise returns NULL.
+static const Ast *loop_to_the_right(const Ast *ast, const Ast *use) {
+    while (ast && ast != use) {
+        const Ast *inner = NULL, *last = ast->count ? ast->children[ast->count - 1] : NULL;
+        for (uint32_t i = 0; i < ast->count && !inner; i++)
+            if (ast->children[i] && ast->children[i]->span.start <= use->span.start &&
+                use->span.end <= ast->children[i]->span.end)
+                inner = ast->children[i];
+        if (ast->kind == AST_COMPOSE && last && last->kind == AST_FOR && last != inner)
+            for (uint32_t i = 0; i < last->children[0]->count; i++)
+                if (last->children[0]->children[i]->name == use->name)
+                    return last;
+        ast = inner;
+    }
+    return NULL;
+}
+
 // Returns a hint about the probable cause of an unbound name, or an empty string.
 static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     for (size_t i = 0; i < sizeof name_hints / sizeof name_hints[0]; i++)
         if (str_word_number(name, name_hints[i].names) >= 0)
             return name_hints[i].hint;
+    Str colour = str_named_colour(name);
+    if (colour.len)
+        return str_format(compiler->arena, "a colour is r;g;b, each from 0 to 1: %.*s is %.*s", STR_ARGS(name),
+                          STR_ARGS(colour));
+    if (compiler->state_attr == ast)
+        return str_format(compiler->arena, "a name for the state is a symbol: state=:%.*s", STR_ARGS(name));
+    if (loop_to_the_right(compiler->root, ast))
+        return STR("'for' repeats only the part after the last semicolon; put what it should repeat in parentheses");
     if (compiler->subject == ast)
         return str_format(compiler->arena, "a node is written !%.*s", STR_ARGS(name));
     if (compiler->key == ast)

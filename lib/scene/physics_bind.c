@@ -261,6 +261,8 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
     SystemAttrs settings;
     if (!read_settings(&reader, frame, &settings) || !fits_in_memory(&reader, &settings)) {
         retain_skipped(scene, settings.state, frame);
+        if (scene->schema->lint)
+            reader_report_inside(&reader);
         return 0;
     }
     reader.dimensions = (uint32_t)settings.dimensions;

@@ -308,6 +308,32 @@ __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node
         tree->out_of_memory = true;
 }
 
+// Returns the number of particles and anchors in a group, at most 2.
+static uint32_t count_bodies(PhysicsTree *tree, const Node *group) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < group->child_count && count < 2; i++) {
+        const Node *child = group->children[i];
+        NodeKind kind = schema_kind(tree->scene->schema, child);
+        arena_charge(tree->frame->arena, 1);
+        if (kind == KIND_GROUP)
+            count += count_bodies(tree, child);
+        else if (kind == KIND_PARTICLE || kind == KIND_ANCHOR)
+            count += child->is_batch ? node_batch(child)->count : 1;
+    }
+    return count < 2 ? count : 2;
+}
+
+// Reports a pair force in a group with a single particle, which has no effect.
+static void check_group(PhysicsTree *tree, const Node *group, const Node *node, NodeKind kind) {
+    PhysForceKind force = schema_force(kind);
+    if (force == PHYS_FORCE_KINDS || phys_force_row(force).stage != STAGE_PAIR || count_bodies(tree, group) > 1)
+        return;
+    const Reader reader = reader_of(tree, node, kind);
+    reader_report(&reader, "lonely-force", "",
+                  STR("the force acts only between particles of the same group, and this group has only one; put the "
+                      "force outside the group"));
+}
+
 static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t group, uint32_t randoms) {
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
@@ -316,6 +342,8 @@ static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t gr
         if (kind == KIND_GROUP) {
             read_group_forces(tree, child, tree->next_group++, randoms);
         } else if (kind != KIND_PARTICLE && kind != KIND_ANCHOR) {
+            if (group > 0 && tree->scene->schema->lint)
+                check_group(tree, parent, child, kind);
             read_applier(tree, child, kind, group, randoms);
             randoms += kind == KIND_RANDOM;
         }

@@ -87,6 +87,9 @@ void reader_report_child(const Reader *reader, const Node *child);
 // no such kind.
 void schema_add_home(Text *out, Str kind);
 
+// Reports the unknown attributes and the unknown or misplaced nodes inside a system that is not read otherwise.
+void reader_report_inside(const Reader *reader);
+
 // Stores the defaults of a kind in its record. Vectors become NULL.
 void schema_defaults(NodeKind kind, void *record) PRIVATE_API(schema_defaults);
 // Reads the attributes into a record that contains the defaults. Unknown or malformed attributes are reported and keep

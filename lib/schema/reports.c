@@ -1,6 +1,7 @@
 // reports.c: reports of mistakes in nodes; see reader.h.
 #include "schema/reader_internal.h"
 #include "value/format.h"
+#include "value/node_batch.h"
 
 #include <string.h>
 
@@ -36,6 +37,30 @@ void reader_report_attr(const Reader *reader, const char *code, AttrName name, S
     report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text);
 }
 
+// Adds what to write instead of an attribute that other programs have.
+static void add_replacement(Text *out, const Reader *reader, Str name) {
+    static const struct {
+        const char *names;
+        const char *attr; // suggested if the node has it
+        const char *text;
+    } replacements[] = {
+        {"x y cx cy left top", "point", "point=x;y"},      {"x y cx cy z", "position", "position=x;y"},
+        {"w h width height", "size", "size=width;height"}, {"r diameter", "radius", "radius=r"},
+        {"angle rotation", "rotate", "rotate=turns"},
+    };
+    bool transforms = str_word_number(name, "translate scale rotate skew") >= 0;
+    const Schema *schema = reader->schema;
+    for (int i = schema->first_row[reader->kind]; i < schema->first_row[reader->kind + 1]; i++)
+        for (size_t k = 0; k < sizeof replacements / sizeof replacements[0]; k++)
+            if (str_word_number(name, replacements[k].names) >= 0 &&
+                strcmp(schema_names[schema_rows[i].name], replacements[k].attr) == 0) {
+                text_add_format(out, "; write %s", replacements[k].text);
+                return;
+            }
+    if (transforms && schema_can_contain(KIND_TRANSFORM, schema_kinds[reader->kind].place))
+        text_add_c(out, "; put the node in a '!transform', which has it");
+}
+
 void reader_report_unknown(const Reader *reader, const Symbol *name) {
     StrNearest nearest = str_nearest(name->name);
     for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++)
@@ -44,6 +69,8 @@ void reader_report_unknown(const Reader *reader, const Symbol *name) {
     text_add_format(&out, "unknown attribute '%.*s'", STR_ARGS(name->name));
     if (nearest.found.len)
         text_add_format(&out, "; did you mean '%.*s'?", STR_ARGS(nearest.found));
+    else
+        add_replacement(&out, reader, name->name);
     report_symbol(reader, "unknown-attribute", name, text_str(&out));
 }
 
@@ -82,14 +109,20 @@ void reader_report_child(const Reader *reader, const Node *child) {
     if (why == NODE_MISPLACED)
         schema_add_home(&out, name);
     else if (why == NODE_UNKNOWN)
-        schema_add_nearest_kind(&out, name, PLACE_TOP, "'!", "'");
+        schema_add_nearest_kind(
+            &out, name, schema_kinds[reader->kind].children == PLACE_PHYSICS ? PLACE_PHYSICS : PLACE_TOP, "'!", "'");
     reader_report_at(reader, schema_rejection_codes[why], node_origin(child, NULL), name, text_str(&out));
 }
 
-static void add_hex(Text *out, Value found) {
+// Adds the numbers that a colour represented by a string such as '#ff8800' or 'red'.
+static void add_colour(Text *out, Value found) {
+    if (found.len != 1 || found.kind != VALUE_MIXED || found.as.items[0].type != ITEM_STRING)
+        return;
+    Str written = found.as.items[0].as.string->text;
     Text colour = text_new(out->arena);
-    if (found.len == 1 && found.kind == VALUE_MIXED && found.as.items[0].type == ITEM_STRING &&
-        text_add_hex_colour(&colour, found.as.items[0].as.string->text))
+    if (!text_add_hex_colour(&colour, written))
+        text_add(&colour, str_named_colour(written));
+    if (colour.len)
         text_add_format(out, "; did you mean %.*s?", STR_ARGS(colour));
 }
 
@@ -113,7 +146,7 @@ void reader_report_shape(const Reader *reader, const SchemaRow *row, Value found
     else
         text_add_format(&out, "%u elements", found.len);
     if (type->shape == SHAPE_COLOR)
-        add_hex(&out, found);
+        add_colour(&out, found);
     report_symbol(reader, "bad-attribute", reader->schema->slots[row - schema_rows].name, text_str(&out));
 }
 
@@ -131,4 +164,29 @@ void reader_report_lint(const Reader *reader, const char *code, const SchemaRow 
     format_value(&out, reader->schema->symbols, v);
     text_add_c(&out, text);
     report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text_str(&out));
+}
+
+static bool has_attr(const Schema *schema, NodeKind kind, const Symbol *name) {
+    for (int row = schema->first_row[kind]; row < schema->first_row[kind + 1]; row++)
+        if (schema->slots[row].name == name)
+            return true;
+    return false;
+}
+
+void reader_report_inside(const Reader *reader) {
+    uint32_t count;
+    const Node *const *children = node_children(reader->arena, reader->node, &count);
+    arena_charge(reader->arena, 1 + count);
+    for (uint32_t i = 0; i < count; i++) {
+        NodeKind kind = schema_kind(reader->schema, children[i]);
+        if (kind == KIND_COUNT || !schema_can_contain(kind, schema_kinds[reader->kind].children)) {
+            reader_report_child(reader, children[i]);
+            continue;
+        }
+        const Reader inner = {reader->schema, reader->arena, children[i], kind, reader->dimensions};
+        for (uint32_t k = 0; k < children[i]->attr_count; k++)
+            if (!has_attr(reader->schema, kind, children[i]->attrs[k].name))
+                reader_report_unknown(&inner, children[i]->attrs[k].name);
+        reader_report_inside(&inner);
+    }
 }

@@ -13,7 +13,8 @@ static PetriStatus lint_windows(PetriSession *session, void *context) {
 }
 
 // Diagnostics of the scratch session, a temporary session that runs the checks. They are collected and then sorted by
-// position, because each stage of the check goes through the whole script.
+// line, because each stage of the check goes through the whole script. In a line, causes come first: an unbound name is
+// found by the compiler, and the system that it invalidates by the evaluation.
 typedef struct CheckLog {
     PetriSession *scratch;
     Arena arena;
@@ -54,11 +55,10 @@ static void log_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
 }
 
 static bool comes_before(const PetriDiagnostic *a, const PetriDiagnostic *b) {
-    return a->file && b->file && strcmp(a->file, b->file) == 0 &&
-           (a->line < b->line || (a->line == b->line && a->column < b->column));
+    return a->file && b->file && strcmp(a->file, b->file) == 0 && a->line < b->line;
 }
 
-// Reports the diagnostics. Those of one file are sorted by position.
+// Reports the diagnostics. Those of one file are sorted by line.
 static void report_in_order(PetriSession *session, CheckLog *log) {
     for (size_t i = 0; i < log->count; i++) {
         PetriDiagnostic item = log->items[i];

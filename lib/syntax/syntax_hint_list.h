@@ -22,6 +22,8 @@
 #define NO_TYPES "remove the type: let x=5"
 #define LASTING \
     "names keep their values for one frame only; for values that last, use the state, '$(:name)', or a !counter"
+#define ATTRIBUTES "write attributes as 'name=value', such as text='hello'"
+#define BELOW "put the node on the next line, indented"
 #define WHILE "use 'for i in ..10' to repeat, 'if' to test, or a !counter to count from frame to frame"
 
 // Comments.
@@ -58,6 +60,7 @@ HINT(BEGIN "for" GAP WORD BLANK "$", "^,", "separate names with semicolons: for 
 HINT(BEGIN "(foreach|repeat|loop)" GAP, "", FOR)
 HINT(BEGIN "(if|elif|else|for|func|where)([ \t(].*)?$", "^:([ \t]|$)", NO_COLON)
 HINT("", "^[?]", "write 'A if TEST else B'")
+HINT(BEGIN "(for|if|elif|else)([ \t(].*)?$", "^!", BELOW)
 
 // Files.
 HINT(BEGIN "(import|from)" GAP, "", FILES)
@@ -83,6 +86,7 @@ HINT("[^A-Za-z0-9_]not" GAP "$", "^in([^A-Za-z0-9_]|$)", "write 'not x in v'")
 HINT("", "^\\^", "write 'x**2' for a power")
 
 // Strings and numbers.
+HINT(BEGIN "!" WORD "(" GAP "#" WORD ")*" GAP "$", "^['\"]", ATTRIBUTES)
 HINT("(^|[^A-Za-z0-9_])[bfruBFRU]$", "^['\"]", TEXT)
 HINT("['\"]" BLANK "$", "^['\"]", TEXT)
 HINT("['\"]" BLANK "%" BLANK "[(][^)]*$", "^,", TEXT)
@@ -125,4 +129,6 @@ HINT("[ \t]#[A-Za-z]+" GAP "[A-Za-z]+$", "^($|[A-Za-z])", COMMENT)
 #undef FOR
 #undef NO_TYPES
 #undef LASTING
+#undef ATTRIBUTES
+#undef BELOW
 #undef WHILE

@@ -209,6 +209,12 @@ petri check order.fl
 check "diagnostics come in the order of the text" [ "$(grep -o '^order.fl:[0-9]*' err | tr '\n' ' ')" = \
     "order.fl:3 order.fl:4 order.fl:4 order.fl:6 " ]
 
+# A system that is skipped.
+printf '!physics dimensions=2\n    !partikel id=0\n    !group\n        !particle id=1 positon=2;3\n' >skipped.fl
+petri check skipped.fl
+check "check looks into a system that is skipped" has err "'!partikel' is not supported; ignored; did you mean '!particle'?"
+check "check looks into its groups, too" has err "skipped.fl:4:24: warning: !particle id=1: unknown attribute 'positon'; did you mean 'position'?"
+
 # Optional definitions.
 printf '!window size=RECORD or 5\n' >optional.fl
 petri check optional.fl

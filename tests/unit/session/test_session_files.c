@@ -226,14 +226,15 @@ static void test_check(void **state) {
     assert_int_equal(petri_frame_number(session), 1);
 }
 
-// A check goes through the script several times, and then reports everything in the order of the text.
+// A check goes through the script several times, and then reports everything in the order of the lines. In a line, an
+// unbound name comes before what follows from it.
 static void test_check_reports_in_order(void **state) {
     Desk *desk = *state;
     Notebook *reported = &desk->player.diagnostics;
     static const char script[] = "!window size=40;40\n    !canvas size=40;40\n        !rect siz=1\n"
                                  "!physics state=:s dimensions=1 colour=1\n!a v=unknown\n";
-    static const char *const wanted[] = {"!rect: unknown attribute 'siz'", "unknown attribute 'colour'",
-                                         "'!a' does nothing", "t.fl:5:6 "};
+    static const char *const wanted[] = {"!rect: unknown attribute 'siz'", "unknown attribute 'colour'", "t.fl:5:6 ",
+                                         "'!a' does nothing"};
     assert_int_equal(petri_check_text(desk->player.session, "t.fl", script, PETRI_NUL_TERMINATED), PETRI_OK);
     const char *at = reported->text;
     for (size_t i = 0; i < COUNT_OF(wanted); i++) {
