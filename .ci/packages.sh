@@ -7,7 +7,7 @@ command -v gcc            : gcc libc6-dev
 command -v meson          : meson
 command -v ninja          : ninja-build
 command -v pkg-config     : pkg-config
-command -v bison          : bison
+bison --version | grep -Eq " (3[.]([89]|[1-9][0-9])|[4-9])" : bison
 command -v re2c           : re2c
 pkg-config --exists libxxhash : libxxhash-dev
 pkg-config --exists cairo : libcairo2-dev
@@ -60,11 +60,13 @@ command -v abidiff        : abigail-tools
 command -v zsh            : zsh
 command -v fish           : fish
 command -v desktop-file-validate : desktop-file-utils
+command -v appstreamcli   : appstream
 pkg-config --exists x11   : libx11-dev
 pkg-config --exists ompi-c: libopenmpi-dev openmpi-bin
 pkg-config --exists mpfr  : libmpfr-dev
 /usr/bin/python3 -I -c 'import h5py' : python3-h5py
 /usr/bin/python3 -I -c 'import xxhash' : python3-xxhash
+/usr/bin/python3 -I -c 'import yaml' : python3-yaml
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 "
@@ -86,7 +88,7 @@ command -v musl-gcc      : musl-tools
 WEB_NEEDS='
 command -v meson : meson
 command -v ninja : ninja-build
-command -v bison : bison
+bison --version | grep -Eq " (3[.]([89]|[1-9][0-9])|[4-9])" : bison
 command -v re2c  : re2c
 command -v pkg-config : pkg-config
 pkg-config --exists libxxhash : libxxhash-dev
@@ -108,6 +110,11 @@ command -v dh               : debhelper
 command -v dh_python3       : dh-python
 command -v xz               : xz-utils
 '
+DIST_NEEDS='
+command -v git    : git
+command -v python3: python3
+command -v xz     : xz-utils
+'
 STATIC_NEEDS='command -v musl-gcc: musl-tools'
 # Options of a build that needs only the C library.
 WITHOUT='-Dauto_features=disabled -Dtests=false -Ddefault_library=static'
@@ -124,45 +131,68 @@ missing() {
     done | xargs
 }
 
-# Packages of Homebrew that replace those of Debian. "-": macOS has it, or it is not needed there.
-BREW_NAMES='
-bison bison
-fonts-dejavu-core -
-fonts-dejavu-extra -
-fonts-liberation -
-gcc -
-libc6-dev -
-libcairo2-dev cairo
-libchafa-dev chafa
-libcmocka-dev cmocka
-libedit-dev -
-libegl-dev -
-libegl1 -
-libepoxy-dev libepoxy
-libgl1-mesa-dri -
-libgles2 -
-libhdf5-dev hdf5
-libjpeg-dev jpeg-turbo
-libjson-c-dev json-c
-libpango1.0-dev pango
-libpng-dev libpng
-libsdl2-dev sdl2
-libsqlite3-dev sqlite
-libxxhash-dev xxhash
-libyaml-dev libyaml
-ninja-build ninja
-zlib1g-dev zlib
+# Names of packages on other systems: Debian's name, and those of Homebrew, Fedora (dnf) and Arch Linux (pacman). "-": the
+# system has it, or it is not needed there. Other packages have the same name as in Debian.
+OTHER_NAMES='
+bison                bison        bison                bison
+fonts-dejavu-core    -            dejavu-sans-fonts    ttf-dejavu
+fonts-dejavu-extra   -            dejavu-sans-fonts    ttf-dejavu
+fonts-liberation     -            liberation-fonts     ttf-liberation
+gcc                  -            gcc                  gcc
+libc6-dev            -            glibc-devel          -
+libcairo2-dev        cairo        cairo-devel          cairo
+libchafa-dev         chafa        chafa-devel          chafa
+libcmocka-dev        cmocka       libcmocka-devel      cmocka
+libedit-dev          -            libedit-devel        libedit
+libegl-dev           -            libglvnd-devel       libglvnd
+libegl1              -            libglvnd-egl         -
+libepoxy-dev         libepoxy     libepoxy-devel       libepoxy
+libgl1-mesa-dri      -            mesa-dri-drivers     mesa
+libgles2             -            libglvnd-gles        -
+libhdf5-dev          hdf5         hdf5-devel           hdf5
+libjpeg-dev          jpeg-turbo   libjpeg-turbo-devel  libjpeg-turbo
+libjson-c-dev        json-c       json-c-devel         json-c
+libpango1.0-dev      pango        pango-devel          pango
+libpng-dev           libpng       libpng-devel         libpng
+libsdl2-dev          sdl2         SDL2-devel           sdl2
+libsqlite3-dev       sqlite       sqlite-devel         sqlite
+libxxhash-dev        xxhash       xxhash-devel         xxhash
+libyaml-dev          libyaml      libyaml-devel        libyaml
+ninja-build          ninja        ninja-build          ninja
+pkg-config           pkgconf      pkgconf-pkg-config   pkgconf
+zlib1g-dev           zlib         zlib-devel           zlib
 '
 
-# need_elsewhere PACKAGES: stops with a message about packages to install on a system without apt-get. Returns if brew is
-# there and has none of them.
+# Homebrew's bison is not in PATH, because macOS has an older one.
+! command -v brew >/dev/null || PATH=$(brew --prefix)/opt/bison/bin:$PATH
+
+# names_elsewhere COLUMN PACKAGES: prints the names of these Debian packages in a column of the table.
+names_elsewhere() {
+    echo "$2" | tr ' ' '\n' | awk -v table="$OTHER_NAMES" -v column="$1" '
+        BEGIN { count = split(table, word); for (i = 1; i < count; i += 4) name[word[i]] = word[i + column] }
+        { found = $1 in name ? name[$1] : $1; if (found != "-" && !done[found]++) print found }' | xargs
+}
+
+# need_elsewhere PACKAGES: on a system without apt-get, installs packages with brew, or stops with the command that
+# installs them. Returns if the system has all.
 need_elsewhere() {
-    command -v brew >/dev/null ||
+    if command -v brew >/dev/null; then
+        names=$(names_elsewhere 1 "$1")
+        [ -n "$names" ] || return 0
+        say "packages: brew install $names"
+        mkdir -p "$root/build"
+        # shellcheck disable=SC2086 # packages are words
+        quietly "$root/build/packages.log" brew install $names
+        return
+    fi
+    if command -v dnf >/dev/null; then
+        command="sudo dnf install" names=$(names_elsewhere 2 "$1")
+    elif command -v pacman >/dev/null; then
+        command="sudo pacman -S --needed" names=$(names_elsewhere 3 "$1")
+    else
         die "no apt-get on this system; please install the equivalents of these Debian packages: $1"
-    names=$(echo "$1" | tr ' ' '\n' | awk -v table="$BREW_NAMES" '
-        BEGIN { count = split(table, word); for (i = 1; i < count; i += 2) name[word[i]] = word[i + 1] }
-        { found = $1 in name ? name[$1] : $1; if (found != "-") print found }' | xargs)
-    [ -z "$names" ] || die "petri needs packages of Homebrew; to install them, run: brew install $names"
+    fi
+    [ -z "$names" ] || die "petri needs packages; to install them, run: $command $names"
 }
 
 print_command() { echo "apt-get install --no-install-recommends $*"; }

@@ -74,6 +74,7 @@ case " $* " in
         imagemagick) package=compare ;;
         libgl1-mesa-dri) touch "$WORK/mesa/dri/swrast_dri.so" ;;
         desktop-file-utils) package=desktop-file-validate ;;
+        appstream) package=appstreamcli ;;
         python3-dev) package=python3-config ;;
         dpkg-dev) package=dpkg-buildpackage ;;
         debhelper) package=dh ;;
@@ -89,6 +90,7 @@ case " $* " in
         lib*-dev | zlib1g-dev) touch "$WORK/later/$package" ;;
         -* | install) ;;
         debootstrap) echo '#!/bin/sh' >"$WORK/bin/debootstrap"; chmod +x "$WORK/bin/debootstrap" ;;
+        bison) { echo '#!/bin/sh' && echo 'echo bison 3.8.2'; } >"$WORK/bin/bison" && chmod +x "$WORK/bin/bison" ;;
         *) [ -e "$WORK/bin/$package" ] || cp "$WORK/later/$package" "$WORK/bin" 2>/dev/null || {
                echo '#!/bin/sh' >"$WORK/bin/$package"; chmod +x "$WORK/bin/$package"; } ;;
         esac
@@ -343,6 +345,49 @@ network=yes breaks=dpkg
 dev run dish.fl
 check "other errors of apt-get are shown" has err "E: Sub-process dpkg returned an error code (1)"
 check "other errors name the log" has err "build/packages.log"
+
+machine
+rm "$work/bin/apt-get"
+dev run dish.fl
+check "run without a known package manager lists Debian's packages" has err \
+    "please install the equivalents of these Debian packages: gcc libc6-dev meson ninja-build"
+fake_tool bin/pacman </dev/null
+dev run dish.fl
+check "run prints the command for pacman" has err \
+    "petri needs packages; to install them, run: sudo pacman -S --needed gcc meson ninja pkgconf bison re2c xxhash cairo pango"
+check "run does not start pacman" lacks calls pacman
+fake_tool bin/dnf </dev/null
+dev run dish.fl
+check "run prints the command for dnf" has err \
+    "run: sudo dnf install gcc glibc-devel meson ninja-build pkgconf-pkg-config bison re2c xxhash-devel cairo-devel pango-devel"
+check "run does not start dnf" lacks calls dnf
+fake_tool bin/brew <<'END'
+[ "$1" != --prefix ] || { echo "$WORK/brew"; exit; }
+shift
+for package; do
+    case $package in
+    bison) mkdir -p "$WORK/brew/opt/bison/bin" && { echo '#!/bin/sh' && echo 'echo bison 3.8.2'; } >"$WORK/brew/opt/bison/bin/bison" ;;
+    pkgconf) cp "$WORK/later/pkg-config" "$WORK/bin" ;;
+    meson | ninja) cp "$WORK/later/$package" "$WORK/bin" ;;
+    re2c) { echo '#!/bin/sh'; } >"$WORK/bin/re2c" ;;
+    cairo | pango) touch "$WORK/later/lib${package}1.0-dev" "$WORK/later/lib${package}2-dev" ;;
+    *) touch "$WORK/later/lib$package-dev" ;;
+    esac
+done
+chmod +x "$WORK"/bin/* "$WORK/brew/opt/bison/bin/bison"
+END
+{ echo 'echo bison 2.3'; } | fake_tool bin/bison
+dev run dish.fl
+check "run installs with brew" has calls "brew install meson ninja pkgconf bison re2c xxhash cairo pango"
+check "run installs no packages that macOS has" lacks calls "brew install gcc"
+check "run compiles after brew" has out "this is petri run --show dish.fl"
+dev run dish.fl
+check "run does not install bison again" lacks calls " bison"
+machine
+rm "$work/bin/apt-get"
+echo '[ "$1" = --prefix ] || { echo "Error: no formula"; exit 1; }' | fake_tool bin/brew
+dev run dish.fl
+check "run shows errors of brew" has err "Error: no formula"
 
 machine
 mkdir -p "$project/src/packaging"
