@@ -25,7 +25,7 @@ exec awk -v given="$(printf '%s\n' "$@")" '
     file == 3 {
         rest = $0
         filled = ""
-        while (match(rest, /@[A-Z_]+@/)) {
+        while (match(rest, /@[A-Z][A-Z0-9_]+@/)) {
             name = substr(rest, RSTART + 1, RLENGTH - 2)
             if (!(name in value)) {
                 print FILENAME ":" FNR ": unknown name: @" name "@" >"/dev/stderr"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# package.sh FOLDER: builds Debian packages (source and binary) in FOLDER from the files that git tracks. The debian/
-# folder is created there from src/packaging/debian.
+# package.sh FOLDER BUILD: builds Debian packages (source and binary) in FOLDER from the archive that dist.sh makes with the
+# build folder BUILD. The debian/ folder is created there from src/packaging/debian.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1"
@@ -8,20 +8,26 @@ folder=$(cd "$1" && pwd)
 version=$(echo @VERSION@ | "$root/src/packaging/fill.sh" /dev/stdin)
 source=$folder/petri-$version
 rm -rf "$source" "$folder"/*petri*_"$version"* "$folder"/petri_"$version"*
-mkdir "$source"
 cd "$root"
 # All time stamps are the time of the last commit, so that builds of the same tree are identical.
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
-git ls-files -z | tar -c --null --files-from=- | tar -x -C "$source"
-tar -c -C "$folder" --sort=name --owner=0 --group=0 --mtime="@$SOURCE_DATE_EPOCH" "petri-$version" |
-    xz -T0 >"$folder/petri_$version.orig.tar.xz"
-
+src/packaging/dist.sh "$2" "$folder"
+mv "$folder/petri-$version.tar.xz" "$folder/petri_$version.orig.tar.xz"
+rm -r "$folder/petri-$version.spdx.json" "$folder/SHA256SUMS" "$folder/petri.rb" "$folder/conda"
+tar -xf "$folder/petri_$version.orig.tar.xz" -C "$folder"
 cp -r src/packaging/debian "$source"
 cd "$source/debian"
-for library in libpetri libpetri-draw libpetri-archive; do
-    mv $library.install "$library${version%.*}.install"
+# Symbols files: the public functions, and all private ones, which only the libraries of the same version use.
+for header in petri petri-draw petri-archive; do
+    package=lib$header${version%.*}
+    mv "lib$header.install" "$package.install"
+    echo "lib$header.so.${version%.*} $package #MINVER#" >"$package.symbols"
+    awk -v header=$header -v series="${version%.*}" '
+        !/^#/ { of = $1 ~ /-(draw|archive)$/ ? $1 : "petri" }
+        !/^#/ && of == header { print " " $2 "@PETRI_" series " " series }' "$root/tests/lint/abi.txt" >>"$package.symbols"
 done
+echo " (symver)PETRI_PRIVATE_$version $version" >>"libpetri${version%.*}.symbols"
 # The licence in the format of debian/copyright: a space before each line, and a dot in empty lines.
 sed '1,/^Copyright/d' "$root/LICENSE" | sed '1d; s/^$/./; s/^/ /' >licence
 for file in changelog control copyright; do

@@ -21,7 +21,7 @@ grep -qi "^Copyright (c) [0-9]* $(value authors)\$" LICENSE || {
     echo "LICENSE does not name '$(value authors)', the authors in $identity"
     bad=1
 }
-for template in $(git grep --untracked -lE '@(AUTHORS|EMAIL|HOMEPAGE|REPOSITORY|VERSION|APP_ID)@' -- src ':!*.sh' ':!*.cmake.in'); do
+for template in $(git grep --untracked -lE '@(AUTHORS|EMAIL|HOMEPAGE|REPOSITORY|VERSION|APP_ID)@' -- src ':!*.sh' ':!*.cmake.in' ':!*meson.build'); do
     src/packaging/fill.sh "$template" YEAR=x DATE=x SHA256=x >/dev/null || bad=1
 done
 exit $bad
