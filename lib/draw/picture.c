@@ -8,6 +8,7 @@
 #include "draw/render_graph.h"
 #include "draw/shader_errors.h"
 #include "draw/systems.h"
+#include "gl/scene_solid.h"
 #include "maths/maths.h"
 #include "session/draw_access.h"
 #include "value/format.h"
@@ -34,6 +35,7 @@ typedef struct Request {
     AutoFrame *frames; // views of the systems, kept by the session from picture to picture
     const PetriPictureOptions *options;
     PetriPicture *picture;
+    PetriSession *session;
     const char *problem; // why there is no picture; NULL: the reason was already reported
 } Request;
 
@@ -97,6 +99,12 @@ static bool any_needs_history(const DrawAccess *access) {
     return false;
 }
 
+static bool sample_function(void *user_data, void *function, const double (*points)[3], uint32_t count,
+                            double *distances) {
+    const Request *request = user_data;
+    return session_sample_function(request->session, &request->picture->arena, function, points, count, distances);
+}
+
 // Copies all windows, because each can show pictures of the others.
 static void copy_windows(Request *request, const Node *shown) {
     static _Atomic uint64_t serial;
@@ -112,6 +120,7 @@ static void copy_windows(Request *request, const Node *shown) {
         picture->windows = arena_grow(&picture->arena, picture->windows, count * sizeof *picture->windows,
                                       (count + 1) * sizeof *picture->windows);
         tops[count] = canvas_read(schema, &picture->arena, window);
+        scene_sample_functions(&picture->arena, tops[count], sample_function, request);
         scalable = scalable && render_graph_scalable(tops[count]);
         picture->windows[count] = (PictureWindow){.has_picture = canvas_window_has_picture(schema, window),
                                                   .has_size = attr_value(schema, window, ROW_WINDOW_SIZE).len > 0};
@@ -210,6 +219,7 @@ static bool make_picture(Request *request) {
 
 static PetriStatus make_protected(PetriSession *session, void *context) {
     Request *request = context;
+    request->session = session;
     request->frames = session_draw_memory(session, SYSTEMS_MAX * sizeof *request->frames);
     CanvasPicture *picture = &request->picture->picture;
     picture->name_count =

@@ -146,7 +146,7 @@ bool scene_same_model(const SceneModel *a, const SceneModel *b);
 // `max`.
 uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max);
 
-// Reports a problem of a node.
+// Reports a problem of a node, unless the scene has no sink.
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem);
 
 // The source of texture maps. `find` returns the current picture with this id. If there is none, the `texture` of the

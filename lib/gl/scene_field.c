@@ -1,6 +1,5 @@
 // scene_field.c: reads `!sdf` nodes and creates their surfaces (spec canvas3d.md 9.4).
 #include "gl/scene_solid.h"
-#include "solid/field.h"
 
 #include <math.h>
 #include <string.h>
@@ -68,6 +67,11 @@ static bool field_kind(NodeKind kind, FieldKind *out) {
     return false;
 }
 
+// Returns the attribute of an `!sdf` that is a function. NULL: it has none.
+static const AttrValue *function_of(const DrawNode *node) {
+    return node->kind == KIND_SDF ? draw_attr(node, ATTR_FUNCTION) : NULL;
+}
+
 // Reads a member of a distance field. Returns NULL if it has no distance function. The recursion is limited by the
 // maximum depth of nodes.
 static Field *read_field(const Scene *scene, const DrawNode *node, const Matrix *matrix, Arena *arena) {
@@ -87,6 +91,13 @@ static Field *read_field(const Scene *scene, const DrawNode *node, const Matrix 
         field->weights = weights->as.list;
         field->weight_count = weights->count;
     }
+    const AttrValue *function = field->kind == FIELD_UNION ? function_of(node) : NULL;
+    if (function) {
+        field->kind = FIELD_FUNCTION;
+        field->function = function->as.function;
+        field->samples = function->as.function->values;
+        return field;
+    }
     field->children = arena_alloc_array(arena, node->child_count, sizeof(Field *));
     for (uint32_t i = 0; i < node->child_count; i++) {
         Matrix placed = scene_member_matrix(&matrix_identity, node->children[i]);
@@ -103,16 +114,57 @@ static void read_corner(const DrawNode *node, AttrName name, AttrName alias, dou
         out[k] = attr ? attr->as.numbers[k] : fallback;
 }
 
-bool scene_field_mesh(const Scene *scene, const DrawNode *node, Arena *arena, Mesh *mesh) {
-    double low[3], high[3], size = 0;
+// Reads the box of an `!sdf`. Returns the distance between samples.
+static double read_box(const DrawNode *node, double low[3], double high[3]) {
+    double size = 0, cell = draw_number(node, ATTR_RESOLUTION);
     read_corner(node, ATTR_MINIMUM, ATTR_MIN, -1, low);
     read_corner(node, ATTR_MAXIMUM, ATTR_MAX, 1, high);
     for (int k = 0; k < 3; k++)
         size = fmax(size, high[k] - low[k]);
-    double cell = draw_number(node, ATTR_RESOLUTION);
+    return cell > 0 ? cell : size / 64;
+}
+
+static bool has_function(const DrawNode *node) {
+    if (function_of(node))
+        return true;
+    for (uint32_t i = 0; i < node->child_count; i++)
+        if (has_function(node->children[i]))
+            return true;
+    return false;
+}
+
+// Stores the results of the functions where they are read from when the scene is drawn.
+static void store_samples(const Field *field) {
+    FunctionSamples *function = field->function;
+    if (function && field->samples) {
+        function->values = field->samples;
+        function->hash = hash_bytes(1, field->samples, field->sample_count * sizeof *field->samples);
+    }
+    for (uint32_t i = 0; i < field->child_count; i++)
+        store_samples(field->children[i]);
+}
+
+void scene_sample_functions(Arena *arena, const DrawNode *node, FieldFunction *call, void *user_data) {
+    double low[3], high[3];
+    if (node->kind == KIND_SDF && has_function(node)) {
+        double cell = read_box(node, low, high);
+        const Scene scene = {.arena = arena}; // problems are reported when the scene is drawn
+        Field *field = read_field(&scene, node, &matrix_identity, arena);
+        if (!field)
+            return;
+        field_sample_functions(arena, field, low, high, cell, call, user_data);
+        store_samples(field);
+    } else if (node->kind != KIND_CANVAS) {
+        for (uint32_t i = 0; i < node->child_count; i++)
+            scene_sample_functions(arena, node->children[i], call, user_data);
+    }
+}
+
+bool scene_field_mesh(const Scene *scene, const DrawNode *node, Arena *arena, Mesh *mesh) {
+    double low[3], high[3], cell = read_box(node, low, high);
     FieldSurface surface;
     const Field *field = read_field(scene, node, &matrix_identity, arena);
-    if (!field_surface(arena, field, low, high, cell > 0 ? cell : size / 64, &surface)) {
+    if (!field_surface(arena, field, low, high, cell, &surface)) {
         scene_report(scene, "bad-resolution", node,
                      "'resolution' is too small: at most 1024 samples along an axis and 4 million points are possible");
         return false;

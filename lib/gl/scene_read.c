@@ -18,6 +18,8 @@ typedef struct InheritedState {
 } InheritedState;
 
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem) {
+    if (!scene->faults)
+        return;
     Str text = str_format(scene->faults->arena, "!%s: %s", schema_kinds[node->kind].name, problem);
     diag_report(scene->faults, &(Diag){DIAG_WARNING, node->origin, text, .code = code});
 }

@@ -49,14 +49,17 @@ Matrix scene_member_matrix(const Matrix *outside, const DrawNode *node) {
 
 // Adds the attributes that determine the shape, other than those of the placement.
 static uint64_t hash_attributes(const DrawNode *node, uint64_t seed) {
-    static const AttrName names[] = {ATTR_ORIGIN,     ATTR_NORMAL, ATTR_MINIMUM, ATTR_MIN,     ATTR_MAXIMUM, ATTR_MAX,
-                                     ATTR_RESOLUTION, ATTR_SMOOTH, ATTR_FILLET,  ATTR_CHAMFER, ATTR_WEIGHTS};
+    static const AttrName names[] = {ATTR_ORIGIN,  ATTR_NORMAL,  ATTR_MINIMUM,    ATTR_MIN,
+                                     ATTR_MAXIMUM, ATTR_MAX,     ATTR_RESOLUTION, ATTR_SMOOTH,
+                                     ATTR_FILLET,  ATTR_CHAMFER, ATTR_WEIGHTS,    ATTR_FUNCTION};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         const AttrValue *attr = schema_row((NodeKind)node->kind, names[i]) ? draw_attr(node, names[i]) : NULL;
         if (!attr)
             seed++;
         else if (names[i] == ATTR_WEIGHTS)
             seed = hash_bytes(seed, attr->as.list, attr->count * sizeof *attr->as.list);
+        else if (names[i] == ATTR_FUNCTION)
+            seed = hash_bytes(seed, &attr->as.function->hash, sizeof attr->as.function->hash);
         else
             seed = hash_bytes(seed, attr->as.numbers, (i < 6 ? 3 : 1) * sizeof *attr->as.numbers);
     }

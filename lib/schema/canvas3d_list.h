@@ -172,6 +172,7 @@ ALIAS(SDF, MIN, MINIMUM, "minimum", TRIPLE, NOWHERE, "")
 ATTR(SDF, MAXIMUM, TRIPLE, NOWHERE, DESCRIBED(1, "1"), "", "upper corner of the box that contains the surface")
 ALIAS(SDF, MAX, MAXIMUM, "maximum", TRIPLE, NOWHERE, "")
 ATTR(SDF, RESOLUTION, AMOUNT, NOWHERE, DESCRIBED(0, "1/64 of the box's longest side"), "", "distance between samples of the field")
+ATTR(SDF, FUNCTION, FUNCTION, NOWHERE, NONE, "", "called with a point x;y;z, it returns the distance from the surface; replaces the members")
 BLEND_ROWS(SDF)
 SOLID_ROWS(SDF)
 

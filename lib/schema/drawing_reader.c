@@ -58,6 +58,16 @@ static bool read_word(const Reader *reader, Value v, AttrType type, int *word) {
     return false;
 }
 
+static bool read_function(const Reader *reader, Value v, const SchemaRow *row, AttrValue *attr) {
+    if (v.len != 1 || v.kind != VALUE_MIXED || v.as.items[0].type != ITEM_FUNCTION)
+        return false;
+    const Symbol *name = reader->schema->slots[row - schema_rows].name;
+    attr->as.function = arena_alloc(reader->arena, sizeof *attr->as.function);
+    *attr->as.function =
+        (FunctionSamples){.function = v.as.items[0].as.function, .origin = node_origin(reader->node, name)};
+    return true;
+}
+
 static bool read_weight(const Reader *reader, Value v, const SchemaRow *row, AttrValue *attr) {
     int weight = 0;
     if (!read_word(reader, v, row->type, &weight))
@@ -112,6 +122,8 @@ static bool read_drawing_attr(const Reader *reader, const SchemaRow *row, Value 
         return read_weight(reader, v, row, attr);
     case SHAPE_WORD:
         return read_word(reader, v, row->type, &attr->as.word);
+    case SHAPE_FUNCTION:
+        return read_function(reader, v, row, attr);
     default:
         return true; // not used in drawings
     }

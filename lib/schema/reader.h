@@ -96,6 +96,16 @@ void schema_defaults(NodeKind kind, void *record) PRIVATE_API(schema_defaults);
 // the default. Vectors are borrowed from the node or allocated from the reader's arena.
 void reader_fill(const Reader *reader, void *record);
 
+// A function that is an attribute, and its results. Functions exist only as long as the frame, so lib/draw calls the
+// function before the drawing leaves the session's thread.
+typedef struct FunctionSamples {
+    const Function *function; // valid as long as the frame
+    Origin origin;            // of the attribute
+    const double *values;     // results of the function; NULL: it was not called, or it failed
+    uint64_t hash;            // hash of the results
+    bool reported;            // true if a wrong result was reported
+} FunctionSamples;
+
 // An attribute of a drawing node.
 typedef struct AttrValue {
     uint16_t name;           // AttrName
@@ -108,6 +118,7 @@ typedef struct AttrValue {
         Str text; // NUL-terminated; schema_store stores only its address
         int word;
         bool flag;
+        FunctionSamples *function;
     } as;
 } AttrValue;
 

@@ -118,6 +118,7 @@ TYPE(MIX3D, WORD, 0, 0, false, ":over, :source, :dest, :dest_over, :add, :subtra
 TYPE(FOV_REF, WORD, 0, 0, false, ":horizontal, :vertical, :diagonal, :wide or :narrow")
 TYPE(UV_MAP, WORD, 0, 0, false, ":standard or :repeat")
 TYPE(UV_REMAP, WORD, 0, 0, false, ":sphere, :plane or :book")
+TYPE(FUNCTION, FUNCTION, 0, 0, false, "a function")
 
 #define STRENGTH_ROW(kind) \
     ATTR(kind, STRENGTH, NUMBER, TO_FORCE(force.strength), IS(1), "", "factor for the force")

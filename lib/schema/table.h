@@ -56,26 +56,27 @@ typedef enum PlaceKind {
 
 // How the value of an attribute is checked and stored.
 typedef enum AttrShape {
-    SHAPE_VALUE,   // Value, not restricted
-    SHAPE_NUMBERS, // Value that consists of one or more numbers
-    SHAPE_NUMBER,  // double, clamped to the limits of its type
-    SHAPE_INTEGER, // double, rounded down
-    SHAPE_TIME,    // double; NaN is allowed
-    SHAPE_VECTOR,  // PhysVector with one element per dimension of the system; a single number is repeated
-    SHAPE_NORMAL,  // PhysVector of length 1; NULL if its direction is undefined
-    SHAPE_FINITE,  // finite double; a value outside the limits of the attribute's type is an error
-    SHAPE_PAIR,    // double[2]; a single number is repeated
-    SHAPE_TRIPLE,  // double[3]; a single number is repeated
-    SHAPE_QUAD,    // double[4]; a single number is repeated
-    SHAPE_LIST,    // array of doubles; the limits of the type are the minimum and maximum number of elements
-    SHAPE_SEED,    // double: hash of the value (value_exact_hash) as a signed integer, divided by 2^48
-    SHAPE_POINTS,  // array of doubles x, y, x, y…; a last x without y is dropped
-    SHAPE_COLOR,   // double[4]: red, green, blue, alpha
-    SHAPE_FLAG,    // bool
-    SHAPE_TEXT,    // const char *
-    SHAPE_WEIGHT,  // double; scripts give a number or a word
-    SHAPE_WORD,    // int: WordRow.value of a word
-    SHAPE_OTHER,   // no attribute has this shape; see SchemaSlot
+    SHAPE_VALUE,    // Value, not restricted
+    SHAPE_NUMBERS,  // Value that consists of one or more numbers
+    SHAPE_NUMBER,   // double, clamped to the limits of its type
+    SHAPE_INTEGER,  // double, rounded down
+    SHAPE_TIME,     // double; NaN is allowed
+    SHAPE_VECTOR,   // PhysVector with one element per dimension of the system; a single number is repeated
+    SHAPE_NORMAL,   // PhysVector of length 1; NULL if its direction is undefined
+    SHAPE_FINITE,   // finite double; a value outside the limits of the attribute's type is an error
+    SHAPE_PAIR,     // double[2]; a single number is repeated
+    SHAPE_TRIPLE,   // double[3]; a single number is repeated
+    SHAPE_QUAD,     // double[4]; a single number is repeated
+    SHAPE_LIST,     // array of doubles; the limits of the type are the minimum and maximum number of elements
+    SHAPE_SEED,     // double: hash of the value (value_exact_hash) as a signed integer, divided by 2^48
+    SHAPE_POINTS,   // array of doubles x, y, x, y…; a last x without y is dropped
+    SHAPE_COLOR,    // double[4]: red, green, blue, alpha
+    SHAPE_FLAG,     // bool
+    SHAPE_TEXT,     // const char *
+    SHAPE_WEIGHT,   // double; scripts give a number or a word
+    SHAPE_WORD,     // int: WordRow.value of a word
+    SHAPE_FUNCTION, // FunctionSamples * (reader.h)
+    SHAPE_OTHER,    // no attribute has this shape; see SchemaSlot
 } AttrShape;
 
 // Values of the words in word_list.h.

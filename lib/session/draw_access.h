@@ -31,6 +31,12 @@ DrawAccess session_draw_access(PetriSession *session) PRIVATE_API(session_draw_a
 uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[],
                                uint32_t capacity) PRIVATE_API(session_frame_numbers);
 
+// Calls a function of the last frame for `count` points and stores the results in `distances`. Reports the
+// first result that is not a finite number; such results become INFINITY. Returns false if the function failed. Called
+// within a protected call that protects the arena.
+bool session_sample_function(PetriSession *session, Arena *arena, FunctionSamples *function, const double (*points)[3],
+                             uint32_t count, double *distances) PRIVATE_API(session_sample_function);
+
 // Returns true if the source of a diagnostic still exists. A reload may have freed the source.
 bool session_has_source(const PetriSession *session, const Diag *fault) PRIVATE_API(session_has_source);
 

@@ -10,6 +10,7 @@ typedef struct Row {
     double base[3];
     double step[3];
     uint32_t count;
+    size_t number; // number of the first point in the grid
 } Row;
 
 static double box_distance(const double p[3]) {
@@ -92,16 +93,25 @@ static void operation_row(Arena *arena, const Field *field, const Row *row, doub
     arena_rewind(arena, mark);
 }
 
-// Computes the distances of a row of points. The recursion is limited by the maximum depth of nodes.
-static void field_row(Arena *arena, const Field *field, const Row *outside, double *out) {
-    Row row = {.count = outside->count};
-    arena_charge(arena, 4 + outside->count / 2);
+// Converts a row to the coordinates inside a field.
+static Row inside_row(const Field *field, const Row *outside) {
+    Row row = {.count = outside->count, .number = outside->number};
     for (int k = 0; k < 3; k++) {
         const double *m = field->inverse + 4 * k;
         row.base[k] = m[0] * outside->base[0] + m[1] * outside->base[1] + m[2] * outside->base[2] + m[3];
         row.step[k] = m[0] * outside->step[0] + m[1] * outside->step[1] + m[2] * outside->step[2];
     }
-    if (field->kind <= FIELD_CONE)
+    return row;
+}
+
+// Computes the distances of a row of points. The recursion is limited by the maximum depth of nodes.
+static void field_row(Arena *arena, const Field *field, const Row *outside, double *out) {
+    Row row = inside_row(field, outside);
+    arena_charge(arena, 4 + outside->count / 2);
+    if (field->kind == FIELD_FUNCTION)
+        for (uint32_t i = 0; i < row.count; i++)
+            out[i] = field->samples ? field->samples[row.number + i] : INFINITY;
+    else if (field->kind <= FIELD_CONE)
         primitive_row(field->kind, &row, out);
     else
         operation_row(arena, field, &row, out);
@@ -123,14 +133,19 @@ typedef struct Net {
     FieldSurface *surface;
 } Net;
 
+static Row grid_row(const Net *net, uint32_t y, uint32_t z) {
+    return (Row){.count = net->counts[0],
+                 .step = {net->cell, 0, 0},
+                 .base = {net->low[0] - net->cell, net->low[1] + net->cell * ((double)y - 1),
+                          net->low[2] + net->cell * ((double)z - 1)},
+                 .number = ((size_t)z * net->counts[1] + y) * net->counts[0]};
+}
+
 static void sample_layer(const Net *net, uint32_t z) {
     double *layer = net->samples[z & 1];
     for (uint32_t y = 0; y < net->counts[1]; y++) {
         double *out = layer + (size_t)y * net->counts[0];
-        Row row = {.count = net->counts[0], .step = {net->cell, 0, 0}};
-        row.base[0] = net->low[0] - net->cell;
-        row.base[1] = net->low[1] + net->cell * ((double)y - 1);
-        row.base[2] = net->low[2] + net->cell * ((double)z - 1);
+        Row row = grid_row(net, y, z);
         field_row(net->arena, net->field, &row, out);
         for (uint32_t x = 0; x < row.count; x++) { // cuts the body off at the box
             double p[3] = {row.base[0] + x * net->cell, row.base[1], row.base[2]};
@@ -234,20 +249,83 @@ static bool add_layer(const Net *net, uint32_t z) {
     return true;
 }
 
+// Sets the size of the grid. Sets *too_large if there would be too many cells. Returns false if there are too many or
+// none.
+static bool set_size(Net *net, const double low[3], const double high[3], bool *too_large) {
+    for (int k = 0; k < 3; k++) {
+        net->low[k] = low[k];
+        net->high[k] = high[k];
+        double count = ceil((high[k] - low[k]) / net->cell - 1e-9);
+        *too_large = !(count <= FIELD_MAX_CELLS);
+        if (*too_large || !(count >= 1))
+            return false;
+        net->counts[k] = (uint32_t)count + 3;
+    }
+    return true;
+}
+
+// Calls the functions of a field.
+typedef struct Sampler {
+    const Net *net;
+    FieldFunction *call;
+    void *user_data;
+} Sampler;
+
+// Returns the distances of a function at all points of the grid. `inverse` converts to its coordinates.
+static const double *sample_function(const Sampler *sampler, const Field *field, const double inverse[12]) {
+    const Net *net = sampler->net;
+    const uint32_t width = net->counts[0];
+    Field place = {0};
+    memcpy(place.inverse, inverse, sizeof place.inverse);
+    double *samples = arena_alloc_array(net->arena, (size_t)net->counts[1] * net->counts[2], width * sizeof *samples);
+    const uint32_t layer = width * net->counts[1];
+    double(*points)[3] = arena_alloc_array(net->arena, layer, sizeof *points);
+    for (uint32_t z = 0; z < net->counts[2]; z++) {
+        arena_charge(net->arena, layer / 4);
+        for (uint32_t y = 0; y < net->counts[1]; y++) {
+            Row outside = grid_row(net, y, z), row = inside_row(&place, &outside);
+            for (uint32_t x = 0; x < width; x++)
+                for (int k = 0; k < 3; k++)
+                    points[y * width + x][k] = row.base[k] + x * row.step[k];
+        }
+        if (!sampler->call(sampler->user_data, field->function, (const double(*)[3])points, layer,
+                           samples + (size_t)z * layer))
+            return NULL;
+    }
+    return samples;
+}
+
+// The recursion is limited by the maximum depth of nodes.
+static void sample_functions(const Sampler *sampler, Field *field, const double outside[12]) {
+    double inverse[12]; // field->inverse times outside
+    for (int i = 0; i < 12; i++) {
+        const double *m = field->inverse + i / 4 * 4, *n = outside + i % 4;
+        inverse[i] = m[0] * n[0] + m[1] * n[4] + m[2] * n[8] + (i % 4 == 3 ? m[3] : 0);
+    }
+    if (field->kind == FIELD_FUNCTION) {
+        field->samples = sample_function(sampler, field, inverse);
+        field->sample_count = (size_t)sampler->net->counts[0] * sampler->net->counts[1] * sampler->net->counts[2];
+    }
+    for (uint32_t i = 0; i < field->child_count; i++)
+        sample_functions(sampler, field->children[i], inverse);
+}
+
+void field_sample_functions(Arena *arena, Field *field, const double low[3], const double high[3], double cell,
+                            FieldFunction *call, void *user_data) {
+    Net net = {.arena = arena, .cell = cell};
+    Sampler sampler = {.net = &net, .call = call, .user_data = user_data};
+    bool too_large;
+    if (set_size(&net, low, high, &too_large))
+        sample_functions(&sampler, field, (const double[12]){1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+}
+
 bool field_surface(Arena *arena, const Field *field, const double low[3], const double high[3], double cell,
                    FieldSurface *surface) {
     Net net = {.arena = arena, .field = field, .cell = cell, .surface = surface};
+    bool too_large;
     *surface = (FieldSurface){0};
-    for (int k = 0; k < 3; k++) {
-        net.low[k] = low[k];
-        net.high[k] = high[k];
-        double count = ceil((high[k] - low[k]) / cell - 1e-9);
-        if (!(count <= FIELD_MAX_CELLS))
-            return false;
-        if (!(count >= 1))
-            return true;
-        net.counts[k] = (uint32_t)count + 3;
-    }
+    if (!set_size(&net, low, high, &too_large))
+        return !too_large;
     size_t layer = (size_t)net.counts[0] * net.counts[1];
     for (int i = 0; i < 2; i++) {
         net.samples[i] = arena_alloc_array(arena, layer, sizeof *net.samples[i]);

@@ -148,3 +148,8 @@ Value vm_call(Vm *vm, const Frame *frame, const Instr *instr) {
         vector_add(&vector, call_item(vm, callee.as.items[i], &args, instr->at));
     return vm_finish(vm, instr->at, &vector);
 }
+
+Value vm_call_function(Vm *vm, const Function *function, const Value *args, uint32_t count, const Origin *at) {
+    Arguments arguments = {.positional = args, .count = count};
+    return call_item(vm, (Item){ITEM_FUNCTION, .as.function = function}, &arguments, at);
+}

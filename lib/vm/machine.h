@@ -78,6 +78,8 @@ Value vm_index_value(Vm *vm, Value vector, Value index);
 // If from..to are whole numbers within a numeric vector, and at least two, sets *slice to these elements and returns
 // true.
 bool vm_slice_numbers(Vm *vm, const Value *vector, double from, double to, Value *slice);
+// Calls a function with positional arguments. Errors are reported at `at`.
+Value vm_call_function(Vm *vm, const Function *function, const Value *args, uint32_t count, const Origin *at);
 // Returns element i of the loop's source, or null if the source has fewer elements.
 Value vm_loop_element(const Loop *loop, uint32_t i);
 // batch.c: executes as many of the loop's remaining iterations as possible in batches. `start` is the FOR or FOR_RANGE

@@ -1,6 +1,7 @@
 // vm.c: evaluation of programs and import of modules; see vm.h.
 #include "vm/machine.h"
 
+#include <math.h>
 #include <string.h>
 
 // Reports an error of a built-in at the position of its call.
@@ -83,6 +84,33 @@ Value vm_run(Vm *vm, const Program *program, const Value *arguments, Value *expo
     vm->imports = NULL;
     vm->at = NULL;
     return result;
+}
+
+uint32_t vm_sample(Vm *vm, Arena *arena, VmSamples *samples) {
+    Arena *before = vm->arena;
+    ImportLink self = {NULL, samples->program->source, 0};
+    uint32_t i = 0;
+    vm->arena = vm->builtins.arena = arena;
+    reset_evaluation(vm, __builtin_frame_address(0));
+    vm->imports = &self;
+    vm->builtins.directory = samples->program->source->directory;
+    vm_inline_cache_reset(vm, samples->program->lookup_count);
+    if (vm->profile)
+        vm_profile_begin(vm->profile, arena->escape);
+    for (ArenaMark mark = arena_mark(arena); i < samples->count; i++, arena_rewind(arena, mark)) {
+        const Value point = {.len = 3, .as.numbers = samples->points[i]};
+        samples->wrong = vm_call_function(vm, samples->function, &point, 1, samples->at);
+        if (!value_is_number(samples->wrong) || !isfinite(samples->wrong.as.number))
+            break;
+        samples->numbers[i] = samples->wrong.as.number;
+    }
+    if (vm->profile)
+        vm_profile_end(vm->profile);
+    samples->failed = vm->reported_count > 0;
+    vm->arena = vm->builtins.arena = before;
+    vm->imports = NULL;
+    vm->at = NULL;
+    return i;
 }
 
 bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value) {

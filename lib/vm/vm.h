@@ -86,6 +86,20 @@ void vm_free(Vm *vm);
 // CompileOptions.params, or NULL if there are none. Stores the values of the program's exports in `exports`, unless
 // `exports` is NULL.
 Value vm_run(Vm *vm, const Program *program, const Value *arguments, Value *exports);
+// Calls a function value of the last evaluation for each of `count` points, with the point as a vector of three
+// numbers, and stores the results in `numbers`. Returns the number of results: fewer than `count` if the next one is
+// not a finite number. Temporary values are allocated in `arena`.
+typedef struct VmSamples {
+    const Program *program; // the main program
+    const Function *function;
+    const Origin *at; // where errors of the call itself are reported
+    const double (*points)[3];
+    uint32_t count;
+    double *numbers;
+    Value wrong; // the last result, if it is not a finite number; in `arena`
+    bool failed; // true if an error was reported
+} VmSamples;
+uint32_t vm_sample(Vm *vm, Arena *arena, VmSamples *samples);
 // Evaluates the code of an expression at load time. The value is allocated in `arena`. Returns false and sets *value to
 // null if the code is dynamic (L17.2) or reports an error. Only for VMs initialised with `is_static`.
 bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value);

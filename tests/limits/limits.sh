@@ -54,6 +54,8 @@ for script in state_memory concat counters particles systems sorts debug_dag; do
 done
 refused gradient work-limit render --frame 0 gradient.fl -o picture.png
 refused canvas_dag memory-limit render --frame 0 canvas_dag.fl -o picture.png
+refused sdf_function work-limit render --frame 0 sdf_function.fl -o picture.png
+refused sdf_memory memory-limit render --frame 0 sdf_memory.fl -o picture.png
 check "an aborted drawing writes no file" [ ! -e picture.png ]
 refused print_dag memory-limit run --frames 1 --print tree print_dag.fl
 fits $limit eq_dag run --frames 1 eq_dag.fl

@@ -74,6 +74,32 @@ static const Row rows[] = {
      "9 [empty-solid] !sdf: the distance field has no surface in its box\n"
      "14 [misplaced-node] !light: has no effect inside a distance field; ignored\n"
      "13 [empty-solid] !sdf: the distance field has no surface in its box\n"},
+    {"functions of distance fields that do not return distances",
+     "        !sdf color=0;1;0 function=f where f=3\n"
+     "        !sdf color=0;1;0 function=(func(p) 'text')\n"
+     "        !sdf color=0;1;0 function=(func(p) 0/p[0]*0)\n"
+     "        !sdf color=0;1;0 function=(func(p) p) resolution=1e-9\n"
+     "        !sdf color=0;1;0 function=(func(p) nothing)\n"
+     "            !sphere\n"
+     "        !sdf color=0;1;0 position=2;0;0 function=(func(p) hypot(p)-1/(p[0] > -0.5))\n"
+     "        !sdf color=0;1;0 position=2;0;0 size=0.5\n"
+     "            !sdf position=0.5;0;0 function=(func(p, r=0.5) hypot(p)-r)\n",
+     "9 [unbound-name] unbound name 'nothing' is null\n"
+     "5 [bad-attribute] !sdf: function should be a function, not 3\n"
+     "6 [bad-function] !sdf: the function must return a finite number, but for the point "
+     "-1.03125;-1.03125;-1.03125 it returns 'text'; such points are outside\n"
+     "7 [bad-function] !sdf: the function must return a finite number, but for the point "
+     "0;-1.03125;-1.03125 it returns nan; such points are outside\n"
+     "9 [bad-function] !sdf: the function must return a finite number, but for the point "
+     "-1.03125;-1.03125;-1.03125 it returns null; such points are outside\n"
+     "11 [bad-function] !sdf: the function must return a finite number, but for the point "
+     "-1.03125;-1.03125;-1.03125 it returns -inf; such points are outside\n"
+     "5 [empty-solid] !sdf: the distance field has no surface in its box\n"
+     "6 [empty-solid] !sdf: the distance field has no surface in its box\n"
+     "7 [empty-solid] !sdf: the distance field has no surface in its box\n"
+     "8 [bad-resolution] !sdf: 'resolution' is too small: at most 1024 samples along an axis and 4 million points are "
+     "possible\n"
+     "9 [empty-solid] !sdf: the distance field has no surface in its box\n"},
     {"missing textures", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
     {"textures that refer to each other",
      "        !camera id=:a secondary=true size=32;32\n        !camera id=:b secondary=true size=32;32\n"

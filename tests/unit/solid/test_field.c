@@ -111,6 +111,52 @@ static void test_limits_of_resolution(void **state) {
     assert_int_equal(surface.index_count, 0);
 }
 
+// Computes the distances of a sphere with radius 1. `function` counts the points; above 10^5, the function fails.
+static bool sphere_function(void *user_data, void *function, const double (*points)[3], uint32_t count,
+                            double *distances) {
+    uint32_t *total = function;
+    assert_string_equal(user_data, "user data");
+    for (uint32_t i = 0; i < count; i++) {
+        const double *p = points[i];
+        distances[i] = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - 1;
+    }
+    return (*total += count) < 100000;
+}
+
+static void test_function_replaces_primitive(void **state) {
+    static char text[] = "user data";
+    const double low[] = {-1.5, -1.5, -1.5}, high[] = {1.5, 1.5, 1.5};
+    uint32_t total = 0;
+    Field a = primitive(FIELD_SPHERE, 0.25), b = primitive(FIELD_BOX, -0.5), *both[] = {&a, &b};
+    Field field = operation(FIELD_UNION, both, 2);
+    field.inverse[0] = 0.5;
+    FieldSurface one = surface_of(*state, &field, 1.5, 0.125);
+    a.kind = FIELD_FUNCTION;
+    a.function = &total;
+    field_sample_functions(*state, &field, low, high, 0.125, sphere_function, text);
+    assert_int_equal(total, 27 * 27 * 27);
+    assert_int_equal(a.sample_count, total);
+    FieldSurface two = surface_of(*state, &field, 1.5, 0.125);
+    assert_int_equal(two.point_count, one.point_count);
+    assert_memory_equal(two.indices, one.indices, one.index_count * sizeof *one.indices);
+    assert_memory_equal(two.points, one.points, one.point_count * sizeof *one.points);
+}
+
+static void test_failing_function_is_outside(void **state) {
+    static char text[] = "user data";
+    const double low[] = {-2, -2, -2}, high[] = {2, 2, 2};
+    uint32_t total = 99000;
+    Field field = primitive(FIELD_FUNCTION, 0);
+    field.function = &total;
+    field_sample_functions(*state, &field, low, high, 0.1, sphere_function, text);
+    assert_in_range(total, 100000, 102000); // no points after the failure
+    assert_null(field.samples);
+    assert_int_equal(surface_of(*state, &field, 2, 0.1).point_count, 0);
+    total = 0;
+    field_sample_functions(*state, &field, low, high, 1e-9, sphere_function, text);
+    assert_int_equal(total, 0); // too many cells
+}
+
 static void test_surface_has_same_bits_everywhere(void **state) {
     Field a = primitive(FIELD_SPHERE, -0.5), b = primitive(FIELD_CONE, 0.5), *both[] = {&a, &b};
     Field field = operation(FIELD_UNION, both, 2);
@@ -132,6 +178,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_blends_add_material, setup, teardown),
         cmocka_unit_test_setup_teardown(test_body_is_cut_off_at_box, setup, teardown),
         cmocka_unit_test_setup_teardown(test_limits_of_resolution, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_function_replaces_primitive, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_failing_function_is_outside, setup, teardown),
         cmocka_unit_test_setup_teardown(test_surface_has_same_bits_everywhere, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
