@@ -62,8 +62,7 @@ void draw_report_other_windows(PetriPicture *picture, const DrawAccess *access) 
         const DrawNode *window = canvases->tops[i];
         if (window == canvases->window || window->kind != KIND_WINDOW)
             continue;
-        Str text =
-            str_format(&picture->arena, "only one window is drawn; to draw this one, use petri render --window %u", i);
+        Str text = str_format(&picture->arena, "only one window is drawn; to draw this one, use --window %u", i);
         sink->report(sink->user_data, DIAG_WARNING, "other-window", &window->origin, STR("!window"), STR(""), text);
         return;
     }

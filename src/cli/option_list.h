@@ -9,7 +9,7 @@ FIELD(const char *, format,       NULL)           // render: format for `-o -`; 
 FIELD(int64_t,      frame,        -1)             // render, link: frame number; -1: not given
 FIELD(bool,         terminal,     false)          // view: show in the terminal
 FIELD(bool,         full_screen,  false)          // view
-FIELD(const char *, window,       NULL)           // render: id or number of the window to draw; NULL: the first
+FIELD(const char *, window,       NULL)           // render, view: id or number of the window to draw; NULL: not given
 FIELD(int64_t,      screen,       -1)             // view: number of the screen; -1: not given
 FIELD(bool,         update,       false)
 FIELD(const char *, filter,       NULL)
@@ -122,6 +122,7 @@ OPTION(FOR_RENDER, "every", 0, "K", WHOLE(1, INT64_MAX), every, "draw every K-th
 OPTION(FOR_RENDER, "size", 0, "WxH", read_size, size, "set the picture size in pixels (default: the size of the script's window)")
 OPTION(FOR_RENDER, "scale", 0, "S", read_positive, scale, "multiply the size of the picture in pixels by S (default: 1)")
 OPTION(FOR_RENDER, "window", 0, "WINDOW", read_text, window, "draw the window with this id or number, counted from 0 (default: the first with content)")
+OPTION(FOR_VIEW, "window", 0, "WINDOW", read_text, window, "show only the window with this id or number, counted from 0 (default: all windows; in a terminal, the first)")
 OPTION(FOR_RENDER, "auto", 0, NULL, read_flag, automatic, "draw the particles instead of the script's canvas")
 OPTION(FOR_DIFF | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "fps", 0, "F", read_fps, fps, "set the frames per second (default: 60); '%pragma fps' in a script overrides it")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "lockstep", 0, NULL, read_unset, realtime, "run as fast as possible with time = frame/fps (default)")

@@ -6,6 +6,7 @@
 #include "render/frame_writer.h"
 #include "render/output_names.h"
 #include "render/video.h"
+#include "render/window_option.h"
 #include "run/frames.h"
 
 #include <errno.h>
@@ -75,18 +76,6 @@ static bool check_folder(const char *file) {
     if (!good)
         message("cannot write '%s': %s", file, strerror(errno));
     return good;
-}
-
-// Finds the window of --window in the last frame, because a script can create other windows in each frame.
-static void choose_window(Render *render) {
-    const char *wanted = render->frames.options->window;
-    if (!wanted)
-        return;
-    char *end;
-    int found = petri_find_window(render->frames.session, wanted);
-    long number = strtol(wanted, &end, 10);
-    bool is_number = *end == '\0' && end > wanted && number >= 0 && number < INT_MAX;
-    render->picture.window = found >= 0 ? found : is_number ? (int)number : INT_MAX;
 }
 
 // The outputs of a frame: one, or one for each window.
@@ -255,7 +244,9 @@ static int render_frames(Render *render) {
         going = frames_step(frames) || frames->abandoned;
         if (frames->abandoned)
             break;
-        choose_window(render);
+        render->picture.window =
+            window_option(frames->session, options->window,
+                          output_has_window(options->output) ? PETRI_ALL_WINDOWS : PETRI_FIRST_WINDOW);
         petri_picture_follow(frames->session, &render->picture);
         if (going && is_before_first_picture(render))
             frames->before_first_picture++;
@@ -281,8 +272,6 @@ static int render_script(Render *render) {
     render->picture.width = options->size.width;
     render->picture.height = options->size.height;
     render->picture.scale = options->scale;
-    if (output_has_window(options->output))
-        render->picture.window = PETRI_ALL_WINDOWS;
     render->picture.automatic = options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     if (!check_folder(options->output) || !frames_load(&render->frames))
         return render->frames.invalid_definition ? STATUS_USAGE : STATUS_FAILED;

@@ -32,6 +32,7 @@ typedef struct Event {
     double x;        // position of the pointer in pixels, within the area whose size DisplayKind.size sets
     double y;
     unsigned buttons; // PETRI_BUTTON_...
+    Display *display; // the display that the event belongs to; NULL: the first
 } Event;
 
 // Returns the name, as in petri_report_key, of the key that types an ASCII character: a letter of either case, a digit,
@@ -43,9 +44,15 @@ typedef struct DisplayKind {
     // anything yet. If `colour` is false, terminals show black and white. On failure, writes a message and returns
     // NULL.
     Display *(*open)(const char *title, int width, int height, PetriPainter *painter, bool colour);
+    // Opens a further display, which uses the painter of `first` and must be closed before it. On failure, writes a
+    // message and returns NULL. NULL: there is only one display.
+    Display *(*open_another)(Display *first, const char *title, int width, int height);
     // Closes and frees the display. NULL is ignored.
     void (*close)(Display *display);
-    // Waits at most `seconds` for the next event. Returns EVENT_NONE if there is none.
+    // Hides the display until it is closed. NULL: not possible.
+    void (*hide)(Display *display);
+    // Waits at most `seconds` for the next event of the first display and all further ones. Returns EVENT_NONE if there
+    // is none.
     Event (*next_event)(Display *display, double seconds);
     // Sets *drawn_width and *drawn_height to the size in pixels at which to draw a picture of width x height.
     void (*size)(Display *display, int width, int height, int *drawn_width, int *drawn_height);

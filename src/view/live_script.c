@@ -5,6 +5,7 @@
 #include "cli/script.h"
 #include "petri-inspect.h"
 #include "petri-live.h"
+#include "render/window_option.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -159,6 +160,8 @@ static void record_frame(LiveScript *live) {
 static PetriPictureOptions picture_options(const LiveScript *live) {
     PetriPictureOptions options = petri_default_picture_options();
     options.automatic = live->options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    options.window =
+        window_option(live->session, live->options->window, live->all_windows ? PETRI_ALL_WINDOWS : PETRI_FIRST_WINDOW);
     return options;
 }
 

@@ -62,6 +62,7 @@ typedef struct LiveScript {
     double detail; // detail of future pictures (PetriPictureOptions)
     // True while the display is not open yet. Nothing is drawn, because the display determines how the painter draws.
     bool awaits_display;
+    bool all_windows;     // true if the display shows all windows of the script
     bool failed;          // true if an error occurred while reading, writing or recording
     bool memory_reported; // true if a failure to allocate memory for a picture was reported
     StateFile state_file;

@@ -53,6 +53,7 @@ static void follow_script(View *view) {
         view->kind->resize(view->display, width, height);
     if (view->display && renamed)
         view->kind->set_title(view->display, view->title);
+    windows_follow(view);
 }
 
 static void step_script(View *view) {
@@ -88,12 +89,13 @@ static double idle_seconds(const View *view) {
 
 // Reports the pointer to the session, relative to the picture, which is centred in the display.
 static void report_pointer(View *view, const Event *event) {
-    int across, down;
-    view->kind->size(view->display, view->width, view->height, &across, &down);
-    double scale = fmin((double)across / view->width, (double)down / view->height);
+    const Pane *pane = windows_find(view, event->display);
+    int across, down, width = pane ? pane->width : view->width, height = pane ? pane->height : view->height;
+    view->kind->size(pane ? pane->display : view->display, width, height, &across, &down);
+    double scale = fmin((double)across / width, (double)down / height);
     PetriPointer pointer = {.size = sizeof pointer,
-                            .x = (event->x - across / 2.0) / (view->width * scale) + 0.5,
-                            .y = (event->y - down / 2.0) / (view->height * scale) + 0.5,
+                            .x = (event->x - across / 2.0) / (width * scale) + 0.5,
+                            .y = (event->y - down / 2.0) / (height * scale) + 0.5,
                             .buttons = event->buttons};
     pointer.inside = event->inside && pointer.x >= 0 && pointer.x <= 1 && pointer.y >= 0 && pointer.y <= 1;
     petri_report_pointer(view->live.session, &pointer);
@@ -106,14 +108,22 @@ static void set_paused(View *view, bool paused) {
     view_update_status(view);
 }
 
+// Saves the picture of the window that has the focus.
 static void take_screenshot(View *view) {
     char name[300];
+    PetriPicture *picture = view->live.picture;
+    const Pane *pane = windows_find(view, view->focused);
+    int first = petri_picture_window(picture);
+    if (pane && petri_picture_select(picture, pane->window) != PETRI_OK)
+        pane = NULL;
     if (live_script_screenshot(&view->live, name, sizeof name)) {
         view_notice(view, "saved %s", name);
     } else {
         view_notice(view, "cannot save %s", name);
         view->live.failed = true;
     }
+    if (pane)
+        petri_picture_select(picture, first);
     if (view->kind->logs)
         message("%s", view->overlay.notice);
 }
@@ -151,7 +161,7 @@ static void execute_key(View *view, const char *key) {
         reset_script(view);
     } else if (strcmp(key, "f") == 0) {
         if (view->kind->toggle_full_screen)
-            view->kind->toggle_full_screen(view->display);
+            view->kind->toggle_full_screen(windows_find(view, view->focused) ? view->focused : view->display);
         view->redraw = true;
     } else if (strcmp(key, "s") == 0) {
         take_screenshot(view);
@@ -181,9 +191,10 @@ static void handle_key(View *view, const Event *event) {
 }
 
 static void handle_event(View *view, const Event *event) {
+    view->focused = event->display;
     switch (event->kind) {
     case EVENT_CLOSE:
-        view->closing = true;
+        view->closing = !windows_hide(view, event->display);
         break;
     case EVENT_KEY:
     case EVENT_KEY_TAP:
@@ -228,10 +239,10 @@ static void make_opaque(uint32_t *pixels, size_t count) {
 }
 
 // Draws the picture into view->pixels and shows the pixels.
-static PetriStatus show_pixels(View *view, PetriPicture *picture) {
+static PetriStatus show_pixels(View *view, Display *display, PetriPicture *picture, const Overlay *overlay) {
     int width, height;
     PetriStatus status = PETRI_OK;
-    view->kind->size(view->display, view->width, view->height, &width, &height);
+    view->kind->size(display, view->width, view->height, &width, &height);
     size_t count = (size_t)width * (size_t)height;
     if (count == 0)
         return PETRI_OK;
@@ -245,19 +256,24 @@ static PetriStatus show_pixels(View *view, PetriPicture *picture) {
     make_opaque(view->pixels, count);
     view->drawn_width = width;
     view->drawn_height = height;
-    view->broken = !view->kind->show(view->display, view->pixels, width, height, &view->overlay);
+    view->broken = !view->kind->show(display, view->pixels, width, height, overlay);
     return status;
+}
+
+PetriStatus view_show(View *view, Display *display, PetriPicture *picture, const Overlay *overlay) {
+    PetriStatus status;
+    if (view->kind->show_directly && view->kind->show_directly(display, picture, overlay, &status))
+        return status;
+    return show_pixels(view, display, picture, overlay);
 }
 
 static void draw_view(View *view) {
     choose_detail(view);
     PetriPicture *picture = live_script_draw(&view->live);
-    PetriStatus status;
     view->redraw = false;
     view->drawn = clock_seconds(); // taken before drawing, so that slow drawing does not delay the next picture
-    if (!view->kind->show_directly || !view->kind->show_directly(view->display, picture, &view->overlay, &status))
-        status = show_pixels(view, picture);
-    live_script_check_drawn(&view->live, status);
+    live_script_check_drawn(&view->live, view_show(view, view->display, picture, &view->overlay));
+    windows_draw(view, picture);
     if (picture) {
         petri_picture_report(view->live.session, picture);
         view_update_error_text(view); // show diagnostics reported during drawing
@@ -296,7 +312,8 @@ static void check_display(View *view) {
     view->broken = !has_purpose(view);
     message(view->broken ? "display lost; the run ends" : "display lost; continuing without it");
     view->kind = null_display();
-    view->display = NULL;
+    view->display = view->focused = NULL;
+    view->other_count = 0;
     view->paused = false; // because there is no longer a keyboard with which to resume
     petri_report_pointer(view->live.session, NULL);
     petri_resync_clock(view->live.session);
@@ -356,10 +373,12 @@ static bool open_display(View *view) {
         return false;
     }
     view->kind = window ? window_display() : terminal_display();
+    view->live.all_windows = window;
     view->live.hold_messages = !window && isatty(STDERR_FILENO);
     view->display = view->kind->open(view->title, view->width, view->height, view->live.painter, !options->monochrome);
     if (!view->display && window && terminal_display() && isatty(STDOUT_FILENO)) {
         view->kind = terminal_display();
+        view->live.all_windows = false;
         view->live.hold_messages = isatty(STDERR_FILENO);
         view->display =
             view->kind->open(view->title, view->width, view->height, view->live.painter, !options->monochrome);
@@ -404,7 +423,7 @@ static int run_view(View *view) {
     view->start = view->measured = clock_seconds();
     view->notice_ends = INFINITY;
     view->redraw = true;
-    view->live.awaits_display = true;
+    view->live.awaits_display = view->live.all_windows = true;
     if (view->live.options->frames > 0)
         step_script(view); // before the display is opened, because the picture determines its size
     follow_script(view);
@@ -412,11 +431,13 @@ static int run_view(View *view) {
     bool opened = open_display(view);
     if (opened) {
         live_script_begin(&view->live);
+        windows_follow(view);
         petri_report_pointer(view->live.session, &(PetriPointer){.size = sizeof(PetriPointer), .inside = false});
         petri_resync_clock(view->live.session);
         view_hint_keys(view);
         run_loop(view);
         if (view->display) {
+            windows_close(view);
             view->kind->close(view->display);
             leave_picture(view);
         }

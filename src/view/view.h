@@ -6,12 +6,28 @@
 #include "view/live_script.h"
 #include "view/parameters.h"
 
+enum { MAX_OTHERS = 15 }; // maximum number of windows besides the first
+
+// A window of the script besides the first.
+typedef struct Pane {
+    Display *display;
+    int window; // number of the window in the last picture
+    int width;  // size and title as last passed to the display
+    int height;
+    char title[300];
+    bool hidden; // true if the user has closed the window
+} Pane;
+
 typedef struct View {
     const CommandContext *host; // borrowed
     LiveScript live;
     Listener listener;       // for `petri send`
     const DisplayKind *kind; // functions of `display`
-    Display *display;        // NULL: the null display
+    Display *display;        // shows the first window; NULL: the null display
+    Pane others[MAX_OTHERS]; // the other windows
+    int other_count;
+    bool hidden;      // true if the user has closed the first window
+    Display *focused; // the display of the last event; NULL: the first
     Overlay overlay;
     bool paused;
     bool step_once; // true if one frame must be computed although the view is paused
@@ -39,6 +55,22 @@ typedef struct View {
     Event pointer; // last pointer event
     ParameterKeys parameters;
 } View;
+
+// view.c
+// Draws a picture (NULL: black) and an overlay on one of the displays. Returns the status of drawing.
+PetriStatus view_show(View *view, Display *display, PetriPicture *picture, const Overlay *overlay);
+
+// windows.c
+// Opens, updates and closes displays, so that there is one for each window of the last picture.
+void windows_follow(View *view);
+// Draws a picture (NULL: black) on all displays but the first.
+void windows_draw(View *view, PetriPicture *picture);
+// Returns the pane of a display. Returns NULL for the first display.
+Pane *windows_find(View *view, const Display *display);
+// Hides a display that the user has closed. Returns false if no display is visible any more.
+bool windows_hide(View *view, Display *display);
+// Closes all displays but the first.
+void windows_close(View *view);
 
 // status_text.c: the texts shown over the picture. After a change of a text, the picture is drawn again.
 

@@ -31,6 +31,8 @@ enum { MIN_SIZE = 64 };
 static const double MAX_SCREEN_FRACTION = 0.9;
 
 struct Display {
+    Display *first; // owner of the context and of SDL
+    Display *next;  // list of further displays, which begins with the first
     SDL_Window *window;
     SDL_GLContext context;  // context in which the painter draws into the window; NULL: `renderer` is used
     SDL_Renderer *renderer; // shows the painter's pixels; NULL: `context` is used
@@ -38,7 +40,7 @@ struct Display {
     int texture_width;
     int texture_height;
     PetriPainter *painter; // borrowed
-    bool gone;             // true if the screen was lost
+    bool gone;             // true if the screen was lost; set in the first display
     bool filled;           // true if petri made the window as large as the screen, because no window manager can
     SDL_Rect windowed;     // position and size of the window before it filled the screen
 };
@@ -61,7 +63,8 @@ static void fit_screen(int *width, int *height) {
 static void window_close(Display *display) {
     if (!display)
         return;
-    if (display->context)
+    bool is_first = display->first == display;
+    if (display->context && is_first)
         SDL_GL_DeleteContext(display->context);
     if (display->texture)
         SDL_DestroyTexture(display->texture);
@@ -69,7 +72,13 @@ static void window_close(Display *display) {
         SDL_DestroyRenderer(display->renderer);
     if (display->window)
         SDL_DestroyWindow(display->window);
-    SDL_Quit();
+    if (is_first)
+        SDL_Quit();
+    Display **at = &display->first->next;
+    while (*at && *at != display)
+        at = &(*at)->next;
+    if (*at)
+        *at = display->next;
     free(display);
 }
 
@@ -81,8 +90,10 @@ static void release_context(const Display *display) {
 }
 
 // Creates a window that is hidden at first, because SDL may replace it when SDL creates the context or renderer.
+// The first window is centred. The window manager places the others, so that they do not cover it.
 static bool create_window(Display *display, const char *title, int width, int height, Uint32 flags) {
-    display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
+    int place = display->first == display ? (int)SDL_WINDOWPOS_CENTERED : (int)SDL_WINDOWPOS_UNDEFINED;
+    display->window = SDL_CreateWindow(title, place, place, width, height,
                                        SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_HIDDEN | flags);
     if (display->window)
         SDL_SetWindowMinimumSize(display->window, MIN_SIZE, MIN_SIZE);
@@ -121,9 +132,11 @@ static bool create_with_gl(Display *display, const char *title, int width, int h
     return false;
 }
 
-// Returns a renderer that copies pixels to the screen. Without a graphics card, it is a software renderer.
-static SDL_Renderer *new_renderer(SDL_Window *window) {
-    SDL_Renderer *renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_PRESENTVSYNC);
+// Returns a renderer that copies pixels to the screen. Without a graphics card, it is a software renderer. If
+// `synchronises` is true, it waits for the screen after each picture. Only one window may wait, because the waits of
+// all windows add up.
+static SDL_Renderer *new_renderer(SDL_Window *window, bool synchronises) {
+    SDL_Renderer *renderer = SDL_CreateRenderer(window, -1, synchronises ? SDL_RENDERER_PRESENTVSYNC : 0);
     return renderer ? renderer : SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
 }
 
@@ -155,6 +168,7 @@ static Display *window_open(const char *title, int width, int height, PetriPaint
     (void)colour;
     Display *display = memory_calloc(sizeof *display);
     display->painter = painter;
+    display->first = display;
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     SDL_SetMainReady();
@@ -164,7 +178,7 @@ static Display *window_open(const char *title, int width, int height, PetriPaint
         open = create_with_gl(display, title, width, height);
     }
     if (started && !open && create_window(display, title, width, height, 0)) {
-        display->renderer = new_renderer(display->window);
+        display->renderer = new_renderer(display->window, true);
         open = display->renderer;
     }
     if (!open) {
@@ -176,6 +190,31 @@ static Display *window_open(const char *title, int width, int height, PetriPaint
     release_context(display);
     window_manager_watch(display->window, &display->gone);
     return display;
+}
+
+static Display *window_open_another(Display *first, const char *title, int width, int height) {
+    Display *display = memory_calloc(sizeof *display);
+    *display = (Display){.first = first, .painter = first->painter, .context = first->context};
+    fit_screen(&width, &height);
+    bool open = create_window(display, title, width, height, first->context ? SDL_WINDOW_OPENGL : 0);
+    if (open && !first->context) {
+        display->renderer = new_renderer(display->window, false);
+        open = display->renderer;
+    }
+    if (!open) {
+        message("cannot open a window: %s", SDL_GetError());
+        window_close(display);
+        return NULL;
+    }
+    display->next = first->next;
+    first->next = display;
+    SDL_ShowWindow(display->window);
+    release_context(display);
+    return display;
+}
+
+static void window_hide(Display *display) {
+    SDL_HideWindow(display->window);
 }
 
 // Returns the name of a key. For keys that type no character, SDL's codes contain the keyboard's scancodes.
@@ -264,10 +303,24 @@ static Event quit_event(Display *display) {
     return (Event){.kind = display->gone ? EVENT_NONE : EVENT_CLOSE};
 }
 
+// Returns the display that an event belongs to, or the first if it belongs to none.
+static Display *display_of(Display *first, const SDL_Event *event) {
+    Uint32 id = event->type == SDL_WINDOWEVENT                                           ? event->window.windowID
+                : event->type == SDL_KEYDOWN || event->type == SDL_KEYUP                 ? event->key.windowID
+                : event->type == SDL_MOUSEMOTION                                         ? event->motion.windowID
+                : event->type == SDL_MOUSEBUTTONDOWN || event->type == SDL_MOUSEBUTTONUP ? event->button.windowID
+                                                                                         : 0;
+    const SDL_Window *window = SDL_GetWindowFromID(id);
+    for (Display *display = first->next; display; display = display->next)
+        if (display->window == window)
+            return display;
+    return first;
+}
+
 static Event translate_event(Display *display, const SDL_Event *event) {
     switch (event->type) {
     case SDL_QUIT:
-        return quit_event(display);
+        return quit_event(display->first);
     case SDL_WINDOWEVENT:
         return window_event(&event->window);
     case SDL_KEYDOWN:
@@ -299,7 +352,9 @@ static Event window_next_event(Display *display, double seconds) {
     Event event = {.kind = EVENT_NONE};
     while (event.kind == EVENT_NONE && !display->gone &&
            (wait > 0 ? SDL_WaitEventTimeout(&found, wait) : SDL_PollEvent(&found))) {
-        event = translate_event(display, &found);
+        Display *source = display_of(display, &found);
+        event = translate_event(source, &found);
+        event.display = source;
         wait = 0;
     }
     release_context(display);
@@ -332,8 +387,15 @@ static bool window_show_directly(Display *display, PetriPicture *picture, const 
     int width = 0, height = 0;
     density(display, &across, &down);
     output_size(display, &width, &height);
+    bool is_first = display->first == display;
+    if (!is_first) {
+        SDL_GL_MakeCurrent(display->window, display->context);
+        SDL_GL_SetSwapInterval(0); // only the first window waits for the screen, because the waits would add up
+    }
     *status = overlay_show(display->painter, picture, overlay, across, width, height);
     SDL_GL_SwapWindow(display->window);
+    if (!is_first)
+        SDL_GL_MakeCurrent(display->first->window, display->context);
     return true;
 }
 
@@ -409,7 +471,9 @@ static bool window_gone(const Display *display) {
 
 static const DisplayKind WINDOW = {
     .open = window_open,
+    .open_another = window_open_another,
     .close = window_close,
+    .hide = window_hide,
     .next_event = window_next_event,
     .size = window_size,
     .show_directly = window_show_directly,

@@ -129,7 +129,7 @@ END
     petri render windows.fl -o windows.png --frames 2
     check "render draws the first window" [ "$(width windows.png)" = 4 ]
     check "render reports once that another window is not drawn" \
-        count_is err "windows.fl:7:1: warning: !window: only one window is drawn; to draw this one, use petri render --window 2" 1
+        count_is err "windows.fl:7:1: warning: !window: only one window is drawn; to draw this one, use --window 2" 1
     for window in second:6 2:6 spare:5 first:4; do
         petri render windows.fl -o windows.png --frames 2 --window "${window%:*}"
         check "--window ${window%:*} draws this window" [ "$(width windows.png)" = "${window#*:}" ]

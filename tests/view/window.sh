@@ -315,6 +315,92 @@ else
     echo "skipped: full screen, for there is no openbox"
 fi
 
+# Each window of the script has a window on the screen.
+cat >two.fl <<'END'
+!window size=300;200 title='left'
+    !canvas
+        !rect size=300;200 color=0.2;0.4;0.6 fill=true
+!offscreen id=:spare size=300;200
+    !canvas
+!window size=200;100 id=:right title='right'
+    !pointer state=:mouse
+    !canvas
+        !rect size=200;100 color=0;1;0 fill=true
+        if $:mouse
+            !ellipse point=$:mouse*(200;100) radius=10 color=1;0;0 fill=true
+if $(:k)
+    !window size=100;100 title='third'
+        !canvas
+            !rect size=100;100 color=1;1;0 fill=true
+!window title='empty'
+!window title='keys'
+    !key name=:k state=:k
+END
+switch_to() { title=$1; soon find_window; }
+has_no_window() { title=$1; none_is_left; }
+for driver in software ''; do
+    if [ -n "$driver" ]; then
+        SDL_RENDER_DRIVER=$driver
+        export SDL_RENDER_DRIVER
+        name="a second window"
+    else
+        unset SDL_RENDER_DRIVER
+        name="a second window with OpenGL"
+    fi
+    view left two.fl
+    check "$name opens" switch_to right
+    xdotool windowmove "$window" 0 0 # without a window manager, all windows are centred
+    switch_to left
+    check "$name: the first window shows its picture" point 150 100 336699
+    switch_to right
+    check "$name has the size of its !window" size_is 200 100
+    check "$name shows its picture" point 100 50 00ff00
+    check "a window without content does not open" has_no_window empty
+    switch_to right
+    xdotool mousemove --window "$window" 50 50
+    check "$name has the pointer relative to its picture" point 50 50 ff0000
+    xdotool windowsize "$window" 400 200
+    check "$name is drawn in its own size" point 300 190 00ff00
+    sed 's/color=0;1;0/color=0;0;1/' two.fl >two.tmp
+    cp two.fl two.old
+    mv two.tmp two.fl
+    check "$name shows changes" point 300 190 0000ff
+    cp two.old two.fl
+    check "$name can be closed alone" eval '"$closer" "$window"; soon has_no_window right'
+    switch_to left
+    check "$name: the first window remains" point 150 100 336699
+    "$closer" "$window"
+    check "$name: closing the last window ends the view" ended 0
+    check "$name: nothing is written to standard error" [ ! -s err ]
+done
+SDL_RENDER_DRIVER=software
+export SDL_RENDER_DRIVER
+view left two.fl
+switch_to right
+touch mark
+check "s saves the picture of the window with the focus" shot
+check "the picture has the size of this window" [ "$(identify -format '%wx%h' "$shot")" = 200x100 ]
+switch_to left
+"$closer" "$window"
+check "the first window can be closed" soon has_no_window left
+switch_to right
+check "the second window continues without the first" point 100 50 00ff00
+sed '/^!window.*right/,/1;0;0/d' two.fl >two.tmp
+mv two.tmp two.fl
+check "the view ends if the script removes its last window" ended 0
+cp two.old two.fl
+for wanted in right 2; do
+    view right two.fl --window $wanted
+    check "--window $wanted shows only this window" point 100 50 00ff00
+    check "--window $wanted opens no other" has_no_window left
+    switch_to right
+    press q
+    check "--window $wanted ends" ended 0
+    check "--window $wanted writes nothing to standard error" [ ! -s err ]
+done
+timeout 60 "$petri" view two.fl --window none --frames 3 >out 2>err </dev/null
+check "a window that does not exist is reported" has err "the frame has no window with this number or id"
+
 # The pointer and keys are passed to the script. Keys that the script uses have no other function.
 cat >hands.fl <<'END'
 !window size=300;200 title='hands'
