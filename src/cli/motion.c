@@ -7,6 +7,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { SPACE = 3 };
 
@@ -101,6 +102,69 @@ static void add_force_row(const Rows *rows, size_t system, uint32_t number, doub
         add_vector_row(rows, name.bytes, &energy, 1, true);
 }
 
+const char *const motion_quantity_names[MOTION_QUANTITIES] = {"energy", "kinetic_energy", "potential_energy",
+                                                              "momentum", "angular_momentum"};
+
+MotionQuantity motion_quantity(const char *name) {
+    MotionQuantity quantity = 0;
+    while (quantity < MOTION_QUANTITIES && strcmp(name, motion_quantity_names[quantity]) != 0)
+        quantity++;
+    return quantity;
+}
+
+static Motion measure_motion(const PetriSystem *system) {
+    Motion motion = {.momentum = memory_calloc(system->dimensions * sizeof(double)), .fastest = -1};
+    for (uint32_t i = 0; i < system->particle_count; i++)
+        if (!is_anchor(system, i))
+            add_particle(&motion, system, i);
+    return motion;
+}
+
+// Adds the potential energy of a system to *sum.
+static PetriStatus add_potential_energy(PetriSession *session, size_t number, const PetriSystem *system, double *sum) {
+    for (uint32_t i = 0; i < system->force_count; i++) {
+        double energy;
+        PetriStatus status = petri_potential_energy(session, number, i, &energy);
+        if (status != PETRI_OK)
+            return status;
+        *sum += isnan(energy) ? 0 : energy;
+    }
+    return PETRI_OK;
+}
+
+PetriStatus motion_add_quantity(PetriSession *session, MotionQuantity quantity, Text *out) {
+    PetriSystem system;
+    double energy = 0, angular[SPACE] = {0}, *momentum = NULL;
+    uint32_t dimensions = 0;
+    PetriStatus status = PETRI_OK;
+    for (size_t number = 0; status == PETRI_OK && petri_system(session, number, &system, sizeof system); number++) {
+        Motion motion = measure_motion(&system);
+        if (system.dimensions > dimensions) {
+            momentum = memory_realloc(momentum, system.dimensions * sizeof *momentum);
+            for (; dimensions < system.dimensions; dimensions++)
+                momentum[dimensions] = 0;
+        }
+        for (uint32_t k = 0; k < system.dimensions; k++)
+            momentum[k] += motion.momentum[k];
+        for (int k = 0; k < SPACE; k++)
+            angular[k] += motion.angular[k];
+        energy += quantity == MOTION_POTENTIAL_ENERGY ? 0 : motion.kinetic_energy;
+        if (quantity == MOTION_ENERGY || quantity == MOTION_POTENTIAL_ENERGY)
+            status = add_potential_energy(session, number, &system, &energy);
+        free(motion.momentum);
+    }
+    const double *values = quantity == MOTION_MOMENTUM ? momentum : &energy;
+    uint32_t count = quantity == MOTION_MOMENTUM ? dimensions : 1;
+    if (quantity == MOTION_ANGULAR_MOMENTUM) {
+        values = angular + (dimensions == 2 ? 2 : 0);
+        count = dimensions == 2 ? 1 : dimensions == SPACE ? SPACE : 0;
+    }
+    for (uint32_t k = 0; status == PETRI_OK && k < count; k++)
+        text_add_format(out, "%s%.17g", k == 0 ? "" : ";", values[k]);
+    free(momentum);
+    return status;
+}
+
 // Adds rows of potential energies and of the total energy, unless no force has a potential energy.
 static void add_potential_rows(const Rows *rows, size_t system, double kinetic) {
     enum { MAX_FORCES = 20 };
@@ -130,10 +194,7 @@ void motion_rows(PetriSession *session, size_t number, const PetriSystem *system
                  MotionRow *row, void *user_data) {
     const Rows rows = {session, system, digits, row, user_data};
     uint32_t n = system->dimensions, components = n < max_components ? n : max_components;
-    Motion motion = {.momentum = memory_calloc(n * sizeof(double)), .fastest = -1};
-    for (uint32_t i = 0; i < system->particle_count; i++)
-        if (!is_anchor(system, i))
-            add_particle(&motion, system, i);
+    Motion motion = measure_motion(system);
     if (motion.fastest >= 0) {
         SCOPED_TEXT fastest = {0};
         add_vector_row(&rows, "kinetic energy", &motion.kinetic_energy, 1, true);

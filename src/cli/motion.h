@@ -1,6 +1,7 @@
 // motion.h: energies and momenta of a system.
 #pragma once
 
+#include "base/str.h"
 #include "petri.h"
 
 #include <stdint.h>
@@ -16,3 +17,21 @@ typedef void MotionRow(void *user_data, const char *name, const char *value);
 // there are several, and total energy. Numbers have `digits` digits. Does nothing if all particles are anchors.
 void motion_rows(PetriSession *session, size_t number, const PetriSystem *system, int digits, uint32_t max_components,
                  MotionRow *row, void *user_data);
+
+// A quantity of all systems together, for tables.
+typedef enum MotionQuantity {
+    MOTION_ENERGY, // kinetic and potential energy of all systems; forces without a potential count as 0
+    MOTION_KINETIC_ENERGY,
+    MOTION_POTENTIAL_ENERGY,
+    MOTION_MOMENTUM,         // a vector with as many elements as the system with the most dimensions
+    MOTION_ANGULAR_MOMENTUM, // about the origin: in two dimensions one number, in three a vector; otherwise nothing
+    MOTION_QUANTITIES
+} MotionQuantity;
+
+// Names of the quantities, such as "kinetic_energy".
+extern const char *const motion_quantity_names[MOTION_QUANTITIES];
+// Returns the quantity with a name, or MOTION_QUANTITIES if there is none.
+MotionQuantity motion_quantity(const char *name);
+// Appends the present value of a quantity, with 17 digits and elements separated by ';'. Returns the status of
+// petri_potential_energy, or PETRI_OK.
+PetriStatus motion_add_quantity(PetriSession *session, MotionQuantity quantity, Text *out);

@@ -20,7 +20,7 @@ FIELD(const char *, sample,       NULL)           // sweep: sampling; NULL: all 
 FIELD(int64_t,      seeds,        0)
 FIELD(const char *, where,        NULL)
 FIELD(const char *, until,        NULL)
-FIELD(TextList,     metrics,      {0})            // sweep: each "NAME=EXPR"
+FIELD(TextList,     metrics,      {0})            // sweep: each "NAME=EXPR" or the name of a quantity (motion.h)
 FIELD(int64_t,      row_every,    0)              // sweep: number of frames from one row to the next; 0: a row for the last frame only
 FIELD(const char *, summary,      NULL)
 FIELD(const char *, plot,         NULL)
@@ -98,7 +98,7 @@ OPTION(FOR_SWEEP, "define", 'D', "NAME=VALUES", read_definition, axes, "set the 
 OPTION(FOR_SWEEP, "sample", 0, "latin:N", read_text, sample, "choose N runs by Latin hypercube sampling instead of all combinations; latin:N:SEED sets its seed")
 OPTION(FOR_SWEEP, "seeds", 0, "N", WHOLE(1, 1000000), seeds, "repeat each combination N times, with SEED from 1 to N")
 OPTION(FOR_SWEEP, "where", 0, "EXPR", read_text, where, "run only combinations for which EXPR is true, such as 'A < B'")
-OPTION(FOR_SWEEP, "metric", 0, "NAME=EXPR", read_definition, metrics, "measure EXPR as column NAME; may be repeated")
+OPTION(FOR_SWEEP, "metric", 0, "NAME=EXPR", read_metric, metrics, "measure EXPR as column NAME, or one of: energy, kinetic_energy, potential_energy, momentum, angular_momentum; may be repeated")
 OPTION(FOR_SWEEP, "frames", 0, "N", WHOLE(0, INT64_MAX), frames, "end each run after N frames (default: 600)")
 OPTION(FOR_SWEEP, "until", 0, "EXPR", read_text, until, "end each run after the first frame in which EXPR is true")
 OPTION(FOR_SWEEP, "every", 0, "K", WHOLE(1, INT64_MAX), row_every, "also write a row for every K-th frame (default: only the last)")

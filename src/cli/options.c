@@ -5,6 +5,7 @@
 #include "cli/archive.h"
 #include "cli/args.h"
 #include "cli/memory.h"
+#include "cli/motion.h"
 #include "cli/progress.h"
 #include "cli/script.h"
 #include "petri-draw.h"
@@ -173,6 +174,17 @@ static bool read_colour(const Args *args, void *field) {
 static bool read_definition(const Args *args, void *field) {
     const char *equals = strchr(args->value, '=');
     if (!equals || equals == args->value)
+        return report_invalid_value(args, args->option->value);
+    texts_add(field, args->value);
+    return true;
+}
+
+// Reads NAME=EXPR or the name of a quantity (motion.h).
+static bool read_metric(const Args *args, void *field) {
+    if (motion_quantity(args->value) == MOTION_QUANTITIES && !strchr(args->value, '='))
+        return report_invalid_value(
+            args, "NAME=EXPR, energy, kinetic_energy, potential_energy, momentum or angular_momentum");
+    if (strchr(args->value, '=') == args->value)
         return report_invalid_value(args, args->option->value);
     texts_add(field, args->value);
     return true;

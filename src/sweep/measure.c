@@ -123,9 +123,11 @@ static void add_cell(Text *rows, const char *text, size_t length) {
 static PetriStatus add_metric(Measure *measure, const Metric *metric) {
     SCOPED_TEXT value = {0};
     PetriEvaluation result = {0};
+    text_add_format(&measure->rows, "\t");
+    if (!metric->expression)
+        return motion_add_quantity(measure->session, metric->quantity, &measure->rows);
     PetriStatus status = petri_evaluate(measure->session, metric->expression, PETRI_NUL_TERMINATED, &result,
                                         sizeof result, text_collect, &value);
-    text_add_format(&measure->rows, "\t");
     if (status == PETRI_OK && result.length > 0)
         add_cell(&measure->rows, value.bytes, value.len);
     return status;
@@ -274,7 +276,8 @@ int measure_dry_run(Measure *measure) {
         return STATUS_DONE; // a failed run becomes a row of the table
     bool good = !sweep->options->until || try_expression(measure, "until", sweep->options->until);
     for (size_t i = 0; i < sweep->metric_count; i++)
-        good = try_expression(measure, "metric", sweep->metrics[i].expression) && good;
+        good =
+            (!sweep->metrics[i].expression || try_expression(measure, "metric", sweep->metrics[i].expression)) && good;
     return good ? STATUS_DONE : STATUS_USAGE;
 }
 

@@ -43,15 +43,19 @@ static bool add_values(const Plan *plan, Text *word, const yaml_node_t *value) {
     return true;
 }
 
-// Adds the options of `define:` or `metric:`, which contain lines `NAME: VALUE`.
+// Adds the options of `define:` or `metric:`, which contain lines `NAME: VALUE`. Without a value, `energy:` is a
+// quantity.
 static bool add_names(const Plan *plan, const char *option, const yaml_node_t *names) {
     if (names->type != YAML_MAPPING_NODE)
         return report_error(plan, names->start_mark, "expected indented lines `NAME: VALUE` below ", option);
     for (yaml_node_pair_t *pair = names->data.mapping.pairs.start; pair < names->data.mapping.pairs.top; pair++) {
         const yaml_node_t *key = yaml_document_get_node(plan->document, pair->key);
+        const yaml_node_t *value = yaml_document_get_node(plan->document, pair->value);
         SCOPED_TEXT word = {0};
-        text_add_format(&word, "--%s=%s=", option, !text_of(key) ? "" : text_of(key));
-        if (!add_values(plan, &word, yaml_document_get_node(plan->document, pair->value)))
+        text_add_format(&word, "--%s=%s", option, !text_of(key) ? "" : text_of(key));
+        bool quantity = strcmp(option, "metric") == 0 && text_of(value) && !*text_of(value);
+        text_add_c(&word, quantity ? "" : "=");
+        if (!quantity && !add_values(plan, &word, value))
             return false;
         texts_add(plan->words, word.bytes);
     }

@@ -24,7 +24,9 @@ static bool read_metrics(Sweep *sweep) {
         const char *text = texts->items[sweep->metric_count];
         Metric *metric = &sweep->metrics[sweep->metric_count];
         size_t name = strcspn(text, "=");
-        *metric = (Metric){memory_strndup(text, name), text + name + 1};
+        *metric = (Metric){.name = memory_strndup(text, name),
+                           .expression = text[name] ? text + name + 1 : NULL,
+                           .quantity = motion_quantity(text)};
         if (is_column(sweep, metric->name, sweep->metric_count)) {
             message("--metric %s: the table already has a column with this name", metric->name);
             sweep->metric_count++;

@@ -248,7 +248,8 @@ const Command SWEEP_COMMAND = {
     .details =
         "Runs a script for each combination of values and seeds, several runs in parallel, and writes one table with\n"
         "columns run, values, frame, metrics, error. Without --every it has one row per run, for the last frame. A\n"
-        "metric is an expression that can use the script's top-level names and, with $, the state after the frame.\n"
+        "metric is an expression that can use the script's top-level names and, with $, the state after the frame,\n"
+        "or a quantity of all systems: energy, kinetic_energy, potential_energy, momentum, angular_momentum.\n"
         "\n"
         "-D NAME=1..10 means 1, 2 ... 10; 0..1|0.05 is a range with a step; 1;5;20 is a list. Mix them: 1;5..20|5.\n"
         "Write a vector in parentheses, (1;2), and a list of vectors as (1;2);(3;4). The first name changes most\n"

@@ -3,6 +3,7 @@
 
 #include "base/sha256.h"
 #include "cli/memory.h"
+#include "cli/motion.h"
 #include "cli/options.h"
 
 // A name given with -D and its values, as strings that `petri run -D` accepts.
@@ -25,7 +26,8 @@ typedef struct Design {
 
 typedef struct Metric {
     char *name;
-    const char *expression;
+    const char *expression;  // NULL: a quantity
+    MotionQuantity quantity; // for metrics without an expression
 } Metric;
 
 // The result of a run.

@@ -50,7 +50,7 @@ static void print_results(Sweep *sweep) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const CommandContext context = {.program = "petri", .invoked_as = "petri"};
     static Options options = {.script = "s.fl"};
-    static Metric metrics[] = {{"speed", "1"}, {"size", "2"}};
+    static Metric metrics[] = {{.name = "speed", .expression = "1"}, {.name = "size", .expression = "2"}};
     Sweep sweep = {.host = &context, .options = &options, .metrics = metrics, .metric_count = 2, .shards = 1};
     Journal journal = {.file = -1};
     options.seeds = RUNS;

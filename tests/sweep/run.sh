@@ -75,6 +75,22 @@ check "steps are decimal, seeds change fastest" out_is 'run,A,SEED,frame,a,s,err
 4,0.2,2,0,0.2,2,
 5,0.3,1,0,0.3,1,
 6,0.3,2,0,0.3,2,'
+cat >orbit.fl <<'END'
+let SPEED=SPEED or 1
+!physics state=:sun dimensions=2 resolution=1/1000
+    !particle id=:a position=1;0 velocity=0;SPEED mass=2
+    !anchor id=:centre mass=1
+    !gravity strength=1
+!physics state=:other dimensions=1
+    !particle id=:b velocity=3
+END
+sweep orbit.fl -D 'SPEED=1;2' --frames 61 --every 60 --metric energy --metric kinetic_energy --metric potential_energy \
+    --metric momentum --metric angular_momentum
+check "quantities need no expression" [ "$(sed -n 2p out)" = "1,1,0,3.5,5.5,-2,3;2,2," ]
+check "energy is conserved" eval "awk -F, 'NR > 1 && NR % 2 { d = \$4 - e; if (d * d > 1e-6) exit 1 } { e = \$4 }' out"
+check "angular momentum is conserved" eval "awk -F, 'NR > 1 && NR % 2 { d = \$8 - l; if (d * d > 1e-12) exit 1 } { l = \$8 }' out"
+refused "an unknown quantity is rejected" "expects NAME=EXPR, energy, kinetic_energy" sum.fl -D A=1 --metric enery
+
 sweep sum.fl -D 'V=(3;4)' --frames 1 --metric length=len\(V\) --metric 'text="a,b"' --metric 'nothing=null'
 check "parentheses make a vector; cells are quoted if necessary" out_is "run,V,frame,length,text,nothing,error
 1,3;4,0,2,\"'a,b'\",,"
