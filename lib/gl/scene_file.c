@@ -3,8 +3,8 @@
 // Sizes that are stored in a file are never trusted, but checked against the length of the file.
 #include "base/hash_index.h"
 #include "base/number.h"
+#include "gl/scene_file_text.h"
 #include "gl/scene_matrix.h"
-#include "gl/scene_mesh.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -54,8 +54,7 @@ static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-// Removes the next word from a line and returns it. Returns an empty string at the end of the line.
-static Str next_word(Str *line) {
+Str mesh_next_word(Str *line) {
     while (line->len > 0 && is_blank(*line->bytes))
         *line = (Str){line->bytes + 1, line->len - 1};
     size_t len = 0;
@@ -66,7 +65,7 @@ static Str next_word(Str *line) {
     return word;
 }
 
-static Str next_line(Str *text) {
+Str mesh_next_line(Str *text) {
     const char *end = memchr(text->bytes, '\n', text->len);
     size_t len = end ? (size_t)(end - text->bytes) : text->len;
     Str line = {text->bytes, len};
@@ -84,8 +83,7 @@ static size_t skip_one_of(Str word, size_t at, const char *which) {
     return at < word.len && strchr(which, word.bytes[at]) ? at + 1 : at;
 }
 
-// Reads a decimal number, with optional sign, point and exponent.
-static bool read_float(Str word, float *out) {
+bool mesh_read_number(Str word, float *out) {
     size_t start = skip_one_of(word, 0, "+-"), whole = skip_digits(word, start), point = skip_one_of(word, whole, ".");
     size_t end = skip_digits(word, point), mark = skip_one_of(word, end, "eE");
     if ((whole == start && end == point) || word.len > 60)
@@ -101,10 +99,10 @@ static bool read_float(Str word, float *out) {
 
 static bool read_floats(Str line, int min, int max, float *out) {
     for (int k = 0; k < max; k++) {
-        Str word = next_word(&line);
+        Str word = mesh_next_word(&line);
         if (word.len == 0)
             return k >= min;
-        if (!read_float(word, &out[k]))
+        if (!mesh_read_number(word, &out[k]))
             return false;
     }
     return true;
@@ -181,7 +179,7 @@ static void add_corner(Obj *obj, Corner corner) {
 static bool read_face(Obj *obj, Str line) {
     Corner first = {{0}}, before = {{0}}, corner;
     int count = 0;
-    for (Str word; (word = next_word(&line)).len > 0; count++) {
+    for (Str word; (word = mesh_next_word(&line)).len > 0; count++) {
         if (!read_corner(obj, word, &corner))
             return false;
         if (obj->count > MESH_MAX_CORNERS)
@@ -207,7 +205,7 @@ static bool read_obj_line(Obj *obj, Str line) {
     } lists[] = {{"v", 3, 3, "'v' needs three numbers"},
                  {"vt", 1, 2, "'vt' needs one or two numbers"},
                  {"vn", 3, 3, "'vn' needs three numbers"}};
-    Str word = next_word(&line);
+    Str word = mesh_next_word(&line);
     for (int i = 0; i < 3; i++) {
         if (!str_equal(word, str_from(lists[i].name)))
             continue;
@@ -235,7 +233,7 @@ static void set_vertex(const Obj *obj, const Corner *corner, MeshVertex *vertex)
 static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     Obj obj = {.arena = arena, .normals = true};
     for (uint32_t line = 1; bytes.len > 0; line++)
-        if (!read_obj_line(&obj, next_line(&bytes))) {
+        if (!read_obj_line(&obj, mesh_next_line(&bytes))) {
             *fault = (MeshError){obj.problem, line};
             return false;
         }
@@ -284,7 +282,7 @@ static bool read_stl_text(Arena *arena, Str bytes, Floats *list, MeshError *faul
     float corners[9];
     int count = 0;
     for (fault->line = 1; bytes.len > 0; fault->line++) {
-        Str line = next_line(&bytes), word = next_word(&line);
+        Str line = mesh_next_line(&bytes), word = mesh_next_word(&line);
         if (str_equal(word, STR("vertex"))) {
             fault->text = "'vertex' needs three numbers, and a loop needs three vertices";
             if (count == 3 || !read_floats(line, 3, 3, corners + 3 * count))
@@ -330,6 +328,14 @@ static bool read_stl_binary(Arena *arena, Str bytes, Floats *list) {
 
 bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     Floats list = {0};
+    *fault = (MeshError){
+        "glTF is not supported; convert it to OBJ, for example with 'assimp export MODEL.glb MODEL.obj'", 0};
+    if (str_starts_with(bytes, STR("glTF")) || str_starts_with(bytes, STR("{")))
+        return false;
+    if (str_starts_with(bytes, STR("ply\n")) || str_starts_with(bytes, STR("ply\r\n")))
+        return mesh_read_ply(arena, bytes, mesh, fault);
+    if (str_starts_with(bytes, STR("OFF")) || str_starts_with(bytes, STR("COFF")))
+        return mesh_read_off(arena, bytes, mesh, fault);
     bool binary = is_binary_stl(bytes), text = !binary && str_starts_with(bytes, STR("solid"));
     if (!binary && !text)
         return read_obj(arena, bytes, mesh, fault);

@@ -45,8 +45,8 @@ typedef struct MeshError {
     uint32_t line; // line of the file; 0: unknown
 } MeshError;
 
-// Reads a mesh from the bytes of an OBJ file, or of a text or binary STL file. On failure, sets *fault and returns
-// false.
+// Reads a mesh from the bytes of an OBJ, STL, PLY or OFF file; STL and PLY files can be text or binary. On failure,
+// sets *fault and returns false.
 bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
 // Returns the faces of the convex hull of `count` points. Each point is three numbers in `vertices`, and each face is
 // three indices of points. *numbers receives the number of all indices. Returns NULL if all points lie in a plane.

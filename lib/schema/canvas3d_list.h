@@ -140,7 +140,7 @@ NODE(CONE, "cone", SCENE3D, NOTHING, "a cone of radius 1 and height 1, its apex 
 ATTR(CONE, SEGMENTS, FINITE_INTEGER, NOWHERE, IS(64), "", "number of segments around the axis")
 MODEL_ROWS(CONE)
 
-NODE(MODEL, "model", SCENE3D, NOTHING, "triangles from an OBJ or STL file, or from vectors")
+NODE(MODEL, "model", SCENE3D, NOTHING, "triangles from an OBJ, STL, PLY or OFF file, or from vectors")
 ATTR(MODEL, FILENAME, TEXT, NOWHERE, NONE, "", "")
 ATTR(MODEL, VERTICES, LIST, NOWHERE, NONE, "", "x;y;z;x;y;z…")
 ATTR(MODEL, FACES, LIST, NOWHERE, NONE, "", "indices of vertices, three per triangle, counter-clockwise (default: the convex hull)")

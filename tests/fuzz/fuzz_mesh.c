@@ -1,5 +1,5 @@
-// fuzz_mesh.c: fuzzes models. The first byte of the input selects what is done with the rest, which is an OBJ or STL
-// file, or a list of numbers from which a convex hull is made.
+// fuzz_mesh.c: fuzzes models. The first byte of the input selects what is done with the rest, which is an OBJ, STL,
+// PLY or OFF file, or a list of numbers from which a convex hull is made.
 #include "mesh.h"
 
 #include <math.h>

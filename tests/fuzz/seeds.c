@@ -225,6 +225,17 @@ static void write_foreign(void) {
          "%csolid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
          "0\nendloop\nendfacet\nendsolid a\n",
          10);
+    seed("mesh", "off", "%cOFF\n3 1 0\n0 0 0\n1 0 0 # corner\n0 1 0\n3 0 1 2\n", 2);
+    seed("mesh", "ply",
+         "%cply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+         "property float nz\nproperty float s\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
+         "0 0 0 1 0\n1 0 0 1 1\n0 1 0 1 0\n3 0 1 2\n",
+         2);
+    seed("mesh", "binary_ply",
+         "%cply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty char x\nproperty short y\n"
+         "property double z\nelement face 1\nproperty list uchar int8 vertex_index\nend_header\n"
+         "a01aaaa1234b01aaaa1234c23aaaa123411",
+         2);
     seed("mesh", "hull", "%c\x01\x01\x01\x05\x01\x02\x01\x07\x03\x09\x03\x04\x02\x02\x06\x08\x03\x05", 99);
     seed("h5md", "changes", "\x03\x02\x05\x01\x04\x0a\x01\x03\x05\x07\x02\x01\x02\x0e\x0d\x06");
     seed("effects", "uniforms",

@@ -234,6 +234,113 @@ static void test_obj(void **state) {
         check_bad(*state, bad[i].text, bad[i].line, bad[i].problem);
 }
 
+static void test_off(void **state) {
+    Mesh mesh;
+    assert_true(
+        from_file(*state, "OFF\n# a square\n4 1 0\n\n0 0 0\n1 0 0\r\n1 1 0 # corner\n0 1 0\n4 0 1 2 3\n", &mesh));
+    assert_int_equal(mesh.index_count, 6);
+    assert_true(has_vertex(&mesh, (const float[]){1, 1, 0, 0, 0, 1, 0, 0}));
+    assert_true(from_file(*state, "COFF 3 1 3\n0 0 0 1 0 0 1\n2 0 0 0 1 0 1\n0 2 0 0 0 1 1\n3 0 1 2 255 0 0", &mesh));
+    assert_int_equal(mesh.index_count, 3);
+    static const struct {
+        const char *text;
+        uint32_t line;
+        const char *problem;
+    } bad[] = {
+        {"OFF", 1, "the numbers of vertices and faces are missing"},
+        {"OFF\n3\n", 2, "the numbers of vertices and faces are missing"},
+        {"OFF\n1 0 0\n0 0\n", 3, "a vertex needs three numbers"},
+        {"OFF\n1 1 0\n0 0 0\n", 3, "the file ends before the last face"},
+        {"OFF\n1 1 0\n0 0 0\n3 0 0\n", 4, "a face needs the number of its corners"},
+        {"OFF\n1 1 0\n0 0 0\n3 0 0 1\n", 4, "a vertex that does not exist"},
+        {"OFF\n1 1 0\n0 0 0\n3 0 0 -1\n", 4, "a vertex that does not exist"},
+        {"OFF\n1 1 0\n0 0 0\n1e29 0 0 0\n", 4, "a face needs the number of its corners"},
+        {"OFF\n1e29 1e29 0\n0 0 0\n", 3, "the file ends before the last face"},
+        {"OFF\n1 1 0\n0 0 0\n2 0 0\n", 0, "it contains no triangles"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        check_bad(*state, bad[i].text, bad[i].line, bad[i].problem);
+}
+
+#define PLY_HEAD "ply\nformat ascii 1.0\ncomment a square\n"
+#define PLY_VERTEX "element vertex 3\nproperty float x\nproperty float y\nproperty double z\n"
+#define PLY_FACE "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+
+static void test_ply(void **state) {
+    Mesh mesh;
+    assert_true(from_file(*state,
+                          PLY_HEAD "element vertex 4\nproperty uchar red\nproperty float x\nproperty float y\n"
+                                   "property float z\nproperty float nz\nproperty float s\nproperty float t\n"
+                                   "element other 2\nproperty list uchar float numbers\nelement nothing 4000000000\n"
+                                   "element face 1\nproperty uchar flags\nproperty list uchar int vertex_index\n"
+                                   "end_header\n9 0 0 0 1 0 0\n9 1 0 0 1 1 0\n9 1 1 0 1 1 1\n9 0 1 0 1 0 1\n"
+                                   "2 7 7\n0\n5 4 0 1 2 3\n",
+                          &mesh));
+    assert_int_equal(mesh.index_count, 6);
+    assert_int_equal(mesh.vertex_count, 4);
+    assert_true(has_vertex(&mesh, (const float[]){1, 1, 0, 0, 0, 1, 1, 1}));
+    assert_true(from_file(*state, PLY_HEAD PLY_VERTEX PLY_FACE "0 0 0\n1 0 0\n0 1\n0\n3 0 1 2", &mesh));
+    assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
+    static const struct {
+        const char *text;
+        uint32_t line;
+        const char *problem;
+    } bad[] = {
+        {"ply\n", 1, "'end_header' is missing"},
+        {"ply\nend_header\n", 2, "'format' is missing"},
+        {"ply\nformat latin 1.0\n", 2, "not valid"},
+        {PLY_HEAD "property float x\n", 4, "not valid"},
+        {PLY_HEAD "element vertex\n", 4, "not valid"},
+        {PLY_HEAD "element vertex 3\nproperty word x\n", 5, "not valid"},
+        {PLY_HEAD "element vertex 3\nproperty list uchar\n", 5, "not valid"},
+        {PLY_HEAD PLY_VERTEX PLY_FACE "0 0 0 1 0 0 0 1 0 3 0 1 3", 11, "a vertex that does not exist"},
+        {PLY_HEAD PLY_VERTEX PLY_FACE "0 0 0 1 0 0 0 1 0 3 0 1 -1", 11, "a vertex that does not exist"},
+        {PLY_HEAD PLY_VERTEX PLY_FACE "0 0 0\n1 0 z\n", 12, "a number is not valid"},
+        {PLY_HEAD PLY_VERTEX PLY_FACE "0 0 0\n1 0 0\n", 12, "the file ends before the last face"},
+        {PLY_HEAD PLY_VERTEX PLY_FACE "0 0 0 1 0 0 0 1 0 2 0 1", 0, "it contains no triangles"},
+        {PLY_HEAD "end_header\n", 0, "it contains no triangles"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        check_bad(*state, bad[i].text, bad[i].line, bad[i].problem);
+}
+
+// Binary files of both byte orders, with a list, a short and a double.
+static void test_binary_ply(void **state) {
+    static const char head[] = "ply\nformat binary_%s_endian 1.0\nelement vertex 3\nproperty short x\n"
+                               "property char y\nproperty double z\nelement face 1\n"
+                               "property list ushort uint vertex_indices\nend_header\n";
+    static const unsigned char body[2][47] = {
+        {0xff, 0xff, 0,    0, 0, 0, 0, 0, 0, 0, 0,    // -1;0;0
+         1,    0,    0,    0, 0, 0, 0, 0, 0, 0, 0,    // 1;0;0
+         0,    0,    0xff, 0, 0, 0, 0, 0, 0, 0, 0x40, // 0;-1;2
+         3,    0,    0,    0, 0, 0, 2, 0, 0, 0, 1,    0, 0, 0},
+        {0xff, 0xff, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+         0xff, 0x40, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 1},
+    };
+    for (int big = 0; big < 2; big++) {
+        char file[400];
+        size_t start = (size_t)snprintf(file, sizeof file, head, big ? "big" : "little");
+        memcpy(file + start, body[big], sizeof body[big]);
+        Mesh mesh;
+        MeshError problem;
+        assert_true(mesh_from_file(*state, (Str){file, start + sizeof body[big]}, &mesh, &problem));
+        assert_int_equal(mesh.index_count, 3);
+        float low[3], high[3];
+        mesh_bounds(&mesh, low, high);
+        assert_true(low[0] == -1 && high[0] == 1 && low[1] == -1 && high[1] == 0 && low[2] == 0 && high[2] == 2);
+        for (size_t size = 0; size < start + sizeof body[big]; size++) // no truncated file is accepted
+            assert_false(mesh_from_file(*state, (Str){file, size}, &mesh, &problem));
+        memset(file + start + 3, 0x7f, 8);
+        assert_int_equal(mesh_from_file(*state, (Str){file, start + sizeof body[big]}, &mesh, &problem), false);
+        assert_string_equal(problem.text, "a coordinate is out of range");
+    }
+}
+
+static void test_gltf_is_named(void **state) {
+    check_bad(*state, "glTF\2", 0, "glTF is not supported; convert it to OBJ");
+    check_bad(*state, "{\"asset\": {}}", 0, "glTF is not supported; convert it to OBJ");
+}
+
 static void test_stl(void **state) {
     Mesh mesh;
     assert_true(from_file(*state,
@@ -331,6 +438,10 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_snap, setup, teardown),
         cmocka_unit_test_setup_teardown(test_remap, setup, teardown),
         cmocka_unit_test_setup_teardown(test_obj, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_off, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_ply, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_binary_ply, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_gltf_is_named, setup, teardown),
         cmocka_unit_test_setup_teardown(test_stl, setup, teardown),
         cmocka_unit_test_setup_teardown(test_lists, setup, teardown),
         cmocka_unit_test_setup_teardown(test_hull, setup, teardown),
