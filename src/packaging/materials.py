@@ -43,15 +43,19 @@ def bundled_modules(folder, roots):
     """Yields the npm packages whose names match the pattern `roots`, and those on which they depend."""
     lock = json.loads((root / folder / "package-lock.json").read_text())["packages"]
     declared = {**lock[""].get("dependencies", {}), **lock[""].get("devDependencies", {})}
-    names = [name for name in declared if re.match(roots, name)]
+    paths = {"node_modules/" + name for name in declared if re.match(roots, name)}
     done = set()
-    while names:
-        name = names.pop()
-        if name in done:
-            continue
-        done.add(name)
-        entry = lock["node_modules/" + name]
-        names += entry.get("dependencies", {})
+    while paths - done:
+        path = min(paths - done)
+        done.add(path)
+        entry = lock[path]
+        name = path.split("node_modules/")[-1]
+        for dependency in entry.get("dependencies", {}):
+            folders = [path]  # a package is looked up in the folders of those that depend on it, the nearest first
+            while "/node_modules/" in folders[-1]:
+                folders.append(folders[-1].rpartition("/node_modules/")[0])
+            paths.add(next(found for found in [f"{folder}/node_modules/{dependency}" for folder in folders] +
+                           [f"node_modules/{dependency}"] if found in lock))
         module = package(name, entry["version"], "NOASSERTION", entry.get("license", "NOASSERTION"), f"bundled by {folder}")
         module["externalRefs"] = [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
                                    "referenceLocator": f"pkg:npm/{name.replace('@', '%40')}@{entry['version']}"}]

@@ -8,15 +8,15 @@
 petri=$(program "$1") || exit 2
 grammar=$(realpath "$2")
 folder=$root/src/editors/vscode
-[ -x "$folder/node_modules/.bin/esbuild" ] && command -v node >/dev/null || {
-    echo "skipped: esbuild and vscode-languageclient are not installed (run npm install in src/editors/vscode)"
+[ -x "$folder/node_modules/.bin/vsce" ] && command -v node >/dev/null || {
+    echo "skipped: esbuild, vsce and vscode-languageclient are not installed (run npm install in src/editors/vscode)"
     exit 77
 }
 scratch
 mkdir -p checkout/src/editors/vscode checkout/src/packaging
 ln -s checkout/src/editors/vscode extension
-cp "$root/meson.build" checkout/
-cp "$root/src/packaging/fill.sh" "$root/src/packaging/identity.ini" checkout/src/packaging/
+cp "$root/meson.build" "$root/LICENSE" "$root/CHANGELOG.md" checkout/
+cp "$root/src/packaging/fill.sh" "$root/src/packaging/identity.ini" "$root/src/packaging/icon.png" checkout/src/packaging/
 cp "$folder"/*.js "$folder"/*.json "$folder"/*.md "$folder"/*.py extension/
 ln -s "$folder/node_modules" extension/node_modules
 (cd extension && npm run bundle) >out 2>err
@@ -42,6 +42,10 @@ status=$?
 check "the package is complete and can be loaded" status_is 0
 version=$("$petri" --version)
 check "the extension has the version of petri" has unpacked/extension/package.json "\"version\": \"${version#petri }\""
+# Bytes 16 to 23 of a PNG file are width and height.
+check "the extension has an icon of 128 pixels" \
+    [ "$(od -An -tx1 -j16 -N8 unpacked/extension/icon.png)" = " 00 00 00 80 00 00 00 80" ]
+check "pictures of its page have complete addresses" [ "$(grep -o '](https*://[^)]*\.png)' unpacked/extension/[Rr][Ee][Aa][Dd][Mm][Ee].md | wc -l)" -ge 1 ]
 check "the extension has a publisher" has unpacked/extension/package.json '"publisher": "'
 NODE_PATH=$folder/node_modules node "$here/client.js" "$petri" >out 2>err
 status=$?

@@ -6,7 +6,7 @@ cd "$1"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-find grammar lib src tests -type f \( -name '*.[chy]' -o -name '*.re' -o -name '*.sh' -o -name '*.txt' -o -name 'meson.build' \) |
+find grammar lib src tests -name node_modules -prune -o -type f \( -name '*.[chy]' -o -name '*.re' -o -name '*.sh' -o -name '*.txt' -o -name 'meson.build' \) -print |
     grep -v -e '^lib/spec/' -e check_citations | sort >"$scratch/files"
 xargs grep -noE 'spec/?[ /](\(?[a-z0-9_]+\.(md|txt))' <"$scratch/files" >"$scratch/pages" || true
 xargs grep -noE '\b(spec|language\.md|builtins\.md)\b.*\b[LB][0-9]+(\.[0-9]+)?' <"$scratch/files" >"$scratch/lines" || true
