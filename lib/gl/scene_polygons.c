@@ -79,7 +79,7 @@ static Str next_off_line(Str *bytes, uint32_t *number) {
         if (word.len > 0 && word.bytes[0] != '#')
             return line;
     }
-    return (Str){0};
+    return STR("");
 }
 
 static bool read_counts(Str line, float counts[2]) {
@@ -334,7 +334,7 @@ static bool read_row(Ply *ply, const Element *element) {
 
 bool mesh_read_ply(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     Ply *ply = arena_alloc(arena, sizeof *ply);
-    *ply = (Ply){.polygons = {.arena = arena}, .bytes = bytes};
+    *ply = (Ply){.polygons = {.arena = arena}, .bytes = bytes, .row = STR("")};
     if (!read_header(ply)) {
         *fault = (MeshError){ply->polygons.problem, ply->line};
         return false;
