@@ -109,6 +109,7 @@ command -v dpkg-buildpackage: dpkg-dev
 command -v dh               : debhelper
 command -v dh_python3       : dh-python
 command -v xz               : xz-utils
+command -v lintian          : lintian
 '
 DIST_NEEDS='
 command -v git    : git

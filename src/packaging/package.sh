@@ -1,6 +1,7 @@
 #!/bin/sh
-# package.sh FOLDER BUILD: builds Debian packages (source and binary) in FOLDER from the archive that dist.sh makes with the
-# build folder BUILD. The debian/ folder is created there from src/packaging/debian.
+# package.sh FOLDER BUILD [--source]: builds Debian packages (source and binary; with --source only source) in FOLDER from the
+# archive that dist.sh makes with the build folder BUILD, and checks them with lintian. The debian/ folder is created there
+# from src/packaging/debian.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1"
@@ -18,16 +19,18 @@ rm -r "$folder/petri-$version.spdx.json" "$folder/SHA256SUMS" "$folder/petri.rb"
 tar -xf "$folder/petri_$version.orig.tar.xz" -C "$folder"
 cp -r src/packaging/debian "$source"
 cd "$source/debian"
-# Symbols files: the public functions, and all private ones, which only the libraries of the same version use.
+# Symbols files: the public functions, the names of versions, and all private functions, which only the libraries of the
+# same version use.
 for header in petri petri-draw petri-archive; do
     package=lib$header${version%.*}
     mv "lib$header.install" "$package.install"
     echo "lib$header.so.${version%.*} $package #MINVER#" >"$package.symbols"
+    echo "* Build-Depends-Package: libpetri-dev" >>"$package.symbols"
     awk -v header=$header -v series="${version%.*}" '
         !/^#/ { of = $1 ~ /-(draw|archive)$/ ? $1 : "petri" }
         !/^#/ && of == header { print " " $2 "@PETRI_" series " " series }' "$root/tests/lint/abi.txt" >>"$package.symbols"
+    printf ' (symver|optional)%s %s\n' "PETRI_${version%.*}" "${version%.*}" "PETRI_PRIVATE_$version" "$version" >>"$package.symbols"
 done
-echo " (symver)PETRI_PRIVATE_$version $version" >>"libpetri${version%.*}.symbols"
 # The licence in the format of debian/copyright: a space before each line, and a dot in empty lines.
 sed '1,/^Copyright/d' "$root/LICENSE" | sed '1d; s/^$/./; s/^/ /' >licence
 for file in changelog control copyright; do
@@ -38,4 +41,9 @@ done
 sed -i -e '/^LICENCE$/{r licence' -e 'd}' copyright
 rm licence
 cd ..
-dpkg-buildpackage --no-sign
+if [ "${3:-}" = --source ]; then
+    dpkg-buildpackage --no-sign --build=source --no-pre-clean --no-check-builddeps
+else
+    dpkg-buildpackage --no-sign
+fi
+lintian --fail-on error,warning "$folder/petri_$version-1"_*.changes

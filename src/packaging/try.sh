@@ -22,36 +22,15 @@ find "$folder" -name 'petri-*-static' | while read -r program; do
     echo "the static petri runs"
 done
 install "$(debs petri)"
-petri new dish
-petri run dish.fl --frames 10 --print hash --every 9
-petri render dish.fl -o dish.png --frames 1 --quiet
-petri run dish.fl --frames 10 --archive dish.petri
-petri verify dish.petri | grep -q '^verified: 10 of 10'
-head -c 8 dish.png | grep -q PNG
-petri help sin | grep -q Sine
-[ -s /usr/share/bash-completion/completions/petri ]
+tests=/root/petri/src/packaging/debian/tests # those of autopkgtest
+$tests/command
 echo "petri runs, draws and shows help"
 # shellcheck disable=SC2046 # file names without spaces
 install $(debs "libpetri[0-9]*") $(debs "libpetri-draw[0-9]*") $(debs "libpetri-archive[0-9]*") $(debs libpetri-dev) gcc libc6-dev pkg-config
-sed -n '/^```c where.c$/,/^```$/p' /root/petri/README.md | sed '1d;$d' >where.c
-# shellcheck disable=SC2046 # options are words
-cc where.c -o where $(pkg-config --cflags --libs petri)
-mkdir -p samples
-cp /usr/share/petri/samples/petri.fl samples
-./where | grep -q '^0 is at '
-ldd where | grep -q "libpetri.so.[0-9]"
+$tests/library
 echo "a program that uses libpetri builds and runs"
 install "$(debs python3-petri)"
-python3 - <<'END'
-import petri
-session = petri.Session("samples/petri.fl", CELLS=20)
-session.step(10)
-assert session.systems["cells"].position.shape == (21, 2)
-with session.archive("run.petri"):
-    session.step(10)
-petri.Archive("run.petri").verify()
-assert session.picture(20, 20).pixels.shape == (20, 20, 4)
-END
+$tests/python
 echo "python3-petri works"
 # shellcheck disable=SC2046 # names without spaces
 apt-get -qqy purge petri $(dpkg-query --show --showformat='${Package} ' "libpetri*[0-9]") >install.log 2>&1

@@ -12,7 +12,7 @@ git rev-parse --git-dir >/dev/null 2>&1 || {
 }
 values=$(mktemp)
 trap 'rm -f "$values"' EXIT
-sed -n 's/^[a-z_]* = //p' $identity | sort -u >"$values"
+sed -n 's/^[a-z_]* = \(.*[^0-9].*\)/\1/p' $identity | sort -u >"$values"
 if git grep --untracked -niF -f "$values" -- . ":!$identity" ':!LICENSE'; then
     echo "these names belong in $identity only; write @NAME@ instead, and print the file with src/packaging/fill.sh"
     bad=1
