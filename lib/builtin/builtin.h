@@ -10,8 +10,9 @@
 #include "value/node.h"
 #include "value/value.h"
 
-typedef struct FileCache FileCache;   // builtin/files.h
-typedef struct NoiseCache NoiseCache; // builtin/noise.h
+typedef struct FileCache FileCache;             // builtin/files.h
+typedef struct NoiseCache NoiseCache;           // builtin/noise.h
+typedef struct BuiltinPictures BuiltinPictures; // builtin/pictures.h
 
 // The context of a call. All pointers are borrowed for the duration of the call.
 typedef struct BuiltinContext {
@@ -21,6 +22,7 @@ typedef struct BuiltinContext {
     FileCache *files;                                // cache of file contents; NULL: file functions find no file
     NoiseCache *noise;                               // cache of permutations; NULL: they are computed in each call
     const FileAccess *file_access;                   // rules for file access; NULL: unrestricted
+    BuiltinPictures *pictures;                       // fonts and rendered pictures; NULL: none
     Str directory;                                   // base of relative file names (L13.3); "": the working directory
     void (*report_error)(void *user_data, Str text); // receives the text of an error in the call
     void (*log)(void *user_data, Str text);          // receives a line from debug()

@@ -48,8 +48,8 @@ BUILTIN(map, "xs, ys, zs", 3, 3, false, true, true, 1, "Each x, from 0 to 1, map
 BUILTIN(max, "xs, ...", 1, 1, true, true, true, 0, "Greatest element, or greatest of several vectors.")
 BUILTIN(maxindex, "xs, ...", 1, 1, true, true, true, 0, "Index of the greatest element, or of the greatest argument.")
 BUILTIN(mean, "xs, zs=1", 1, 2, false, true, true, 0, "Mean of xs, or of each of zs series that are interleaved in xs.")
-BUILTIN(measure_text, "text, family, size, weight, width, slant", 1, 6, false, true, true, 0,
-        "Always null, because petri measures text only when !text draws it.")
+BUILTIN(measure_text, "text, family, size, weight, width, slant", 1, 6, false, true, false, 0,
+        "Width of a text that !text draws with these attributes of !font; null in commands that do not draw.")
 BUILTIN(min, "xs, ...", 1, 1, true, true, true, 0, "Least element, or least of several vectors.")
 BUILTIN(minindex, "xs, ...", 1, 1, true, true, true, 0, "Index of the least element, or of the least argument.")
 BUILTIN(noise, "seed, ...", 1, 1, true, true, true, BUILTIN_EACH_POINT,
@@ -74,7 +74,8 @@ BUILTIN(read, "filename", 1, 1, false, true, false, 0, "Text of a file as one st
 BUILTIN(read_bytes, "filename", 1, 1, false, true, false, 0, "Bytes of a file as numbers.")
 BUILTIN(round, "xs, ys=0", 1, 2, false, true, true, 1, "Each x rounded to ys decimals; halves are rounded away from 0.")
 BUILTIN(sample, "texture_id, coord, default=null", 2, 3, false, true, false, 0,
-        "Always the argument default, because petri cannot sample rendered images.")
+        "Colour r;g;b;a of each point x;y, from 0;0 (bottom left) to 1;1, of the previous picture of the node with "
+        "this id.")
 BUILTIN(sawtooth, "x", 1, 1, false, false, true, 1, "Wave that rises from 0 to 1 in each cycle.")
 BUILTIN(sharkfin, "x", 1, 1, false, false, true, 1, "Wave that rises and falls along quarter sines.")
 BUILTIN(shuffle, "source, xs", 2, 2, false, true, true, 0,

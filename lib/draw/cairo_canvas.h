@@ -28,6 +28,7 @@ typedef struct CanvasPicture {
     double numbers[PICTURE_NAMES];
     uint32_t name_count;
     uint64_t serial; // unique number of the picture
+    int64_t frame;   // number of the frame
     const AutoPicture *automatic;
     double width; // size in the script's units
     double height;

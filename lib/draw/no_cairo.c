@@ -168,3 +168,11 @@ Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture,
     }
     return draw_sized_image(painter, node, pixels, width, height, (size_t)width * sizeof *pixels, true, faults);
 }
+
+const char *draw_measure_text(void *user_data, const BuiltinText *text, double *width, bool *loaded) {
+    (void)user_data;
+    (void)text;
+    (void)width;
+    (void)loaded;
+    return "not supported: this build has no fonts";
+}

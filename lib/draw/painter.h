@@ -2,10 +2,13 @@
 #pragma once
 
 #include "base/host_struct.h"
+#include "builtin/pictures.h"
 #include "draw/display_list.h"
 #include "draw/render_graph.h"
 
 enum { DRAW_MAX_SIDE = 16384, DRAW_MAX_PIXELS = 1 << 26 }; // maximum side and area of an image, in pixels
+
+enum { RECENT_FONTS = 16 };
 
 typedef struct TextContext TextContext; // defined in text.c
 typedef struct CachedImage CachedImage; // an image file; defined in images.c
@@ -27,8 +30,13 @@ struct PetriPainter {
     bool on_window;   // true if `gl` is the context of the host's window
     uint32_t *window; // pixel buffer for the window
     size_t window_capacity;
-    uint64_t made;  // serial number of the last picture whose render graph was rendered
-    Texture *shown; // the window's picture, as rendered in picture `made`; NULL: none
+    uint64_t recent_fonts[RECENT_FONTS]; // hashes of fonts that measured texts; 0: none
+    uint32_t font_count;                 // number of fonts that were not recent when they were used
+    BuiltinPictures pictures;            // for the session that the painter serves (petri_painter_serve)
+    PetriSession *served;                // NULL: none
+    int64_t made_frame;                  // number of the frame of the last picture whose render graph was rendered
+    uint64_t made;                       // serial number of the last picture whose render graph was rendered
+    Texture *shown;                      // the window's picture, as rendered in picture `made`; NULL: none
 };
 
 // Returns a label from an array of a host, in which each label has `size` bytes.
@@ -73,6 +81,10 @@ Texture *draw_sized_image(PetriPainter *painter, const DrawNode *node, const uin
 const double *draw_canvas_display_list(PetriPainter *painter, const DrawNode *canvas, double width, double height,
                                        size_t *count);
 const double *draw_picture_display_list(Arena *arena, const CanvasPicture *picture, double scale, size_t *count);
+
+// text.c, or no_cairo.c
+// A BuiltinPictures.measure. `user_data` is the painter.
+const char *draw_measure_text(void *user_data, const BuiltinText *text, double *width, bool *loaded);
 
 // cairo_canvas.c, or no_cairo.c
 void draw_tools_close(PetriPainter *painter);

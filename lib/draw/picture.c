@@ -128,7 +128,8 @@ static void copy_windows(Request *request, const Node *shown) {
             picture->shown = (int)count;
     }
     canvases->tops = tops;
-    canvases->needs_history = any_needs_history(&request->shown);
+    canvases->needs_history = request->shown.samples || any_needs_history(&request->shown);
+    canvases->frame = request->shown.number;
     canvases->detail = scalable && !canvases->needs_history ? request->options->detail : 1;
     canvases->serial = ++serial;
 }
@@ -180,7 +181,7 @@ bool petri_needs_history(PetriSession *session) {
     if (!session)
         return false;
     DrawAccess access = session_draw_access(session);
-    return any_needs_history(&access);
+    return access.samples || any_needs_history(&access);
 }
 
 // Fills request->picture. If there is nothing to draw, stores the reason in request->problem and returns false.

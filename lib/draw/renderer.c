@@ -165,6 +165,7 @@ static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *pic
     painter->shown = NULL;
     PetriStatus result = render_graph_run(painter, picture, faults, &painter->shown);
     painter->made = result == PETRI_OK ? picture->serial : 0;
+    painter->made_frame = picture->frame;
     painter->total_work += painter->budget.work + (painter->gl ? gl_call.shader_work(painter->gl) : 0);
     return result;
 }

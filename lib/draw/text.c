@@ -1,14 +1,17 @@
 // text.c: text layout with Pango.
 //
 // Glyphs are not hinted, so they look the same under every transform and desktop setting.
+#include "base/hash_index.h"
 #include "base/heap.h"
 #include "draw/draw.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 enum { MAX_TEXT_LENGTH = 10000 };         // maximum length of a text in bytes
+enum { MAX_FONTS = 5000 };                // maximum number of fonts that a painter loads to measure texts
 static const double MAX_FONT_SIZE = 4000; // maximum font size in pixels
 
 // Creates the fonts on first use, not earlier, because Pango then starts a background thread that loads the list of
@@ -83,10 +86,10 @@ static const char *find_substitute(const char *name) {
 
 // Returns the family to request from Pango for a list of family names. Finds the first name that is installed or has an
 // installed substitute. If this name has an installed substitute, returns the substitute; otherwise, returns the whole
-// list, from which Pango chooses. If no name is found, returns the list, and reports this unless the list is the
-// default.
-static const char *find_family(Canvas *canvas, const char *list) {
+// list, from which Pango chooses. If no name is found, returns the list and sets *known to false.
+static const char *find_family(PetriPainter *painter, const char *list, bool *known) {
     char name[128];
+    *known = true;
     for (const char *at = list;;) {
         at += strspn(at, " ,");
         if (!*at)
@@ -98,16 +101,14 @@ static const char *find_family(Canvas *canvas, const char *list) {
             memcpy(name, at, trimmed);
             name[trimmed] = 0;
             const char *other = find_substitute(name);
-            if (other && is_installed(canvas->painter, other))
+            if (other && is_installed(painter, other))
                 return other;
-            if (is_installed(canvas->painter, name))
+            if (is_installed(painter, name))
                 return list;
         }
         at += length;
     }
-    if (strcmp(list, schema_row(KIND_CANVAS, ATTR_FONT_FAMILY)->default_value.string) != 0)
-        draw_report_canvas(canvas, DIAG_WARNING, "unknown-font", "!font: font '%.100s' is not installed; using another",
-                           list);
+    *known = false;
     return list;
 }
 
@@ -129,13 +130,8 @@ static void disable_ligatures(PangoLayout *layout) {
     pango_attr_list_unref(attributes);
 }
 
-static void set_font(Canvas *canvas, const DisplayText *text) {
+static void use_font(TextContext *text_context, const DisplayText *text, const char *family) {
     static const PangoStyle styles[] = {PANGO_STYLE_NORMAL, PANGO_STYLE_OBLIQUE, PANGO_STYLE_ITALIC};
-    TextContext *text_context = canvas->painter->text_context;
-    if (text_context->family && same_font(&text_context->font, text))
-        return;
-    // Finds the family before Pango objects are allocated, because the report can abort the drawing.
-    const char *family = find_family(canvas, text->family);
     PangoFontDescription *font = pango_font_description_new();
     pango_font_description_set_family(font, family);
     pango_font_description_set_absolute_size(font, text->size * PANGO_SCALE);
@@ -145,6 +141,20 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
     pango_layout_set_font_description(text_context->layout, font);
     pango_font_description_free(font);
     disable_ligatures(text_context->layout);
+}
+
+// Sets the font of a drawing. A family that is not installed is reported unless it is the default.
+static void set_font(Canvas *canvas, const DisplayText *text) {
+    TextContext *text_context = canvas->painter->text_context;
+    bool known;
+    if (text_context->family && same_font(&text_context->font, text))
+        return;
+    // Finds the family before Pango objects are allocated, because the report can abort the drawing.
+    const char *family = find_family(canvas->painter, text->family, &known);
+    if (!known && strcmp(text->family, schema_row(KIND_CANVAS, ATTR_FONT_FAMILY)->default_value.string) != 0)
+        draw_report_canvas(canvas, DIAG_WARNING, "unknown-font", "!font: font '%.100s' is not installed; using another",
+                           text->family);
+    use_font(text_context, text, family);
     text_context->family = text->family;
     text_context->font = *text;
 }
@@ -202,4 +212,72 @@ void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint
     outline.path.fill_type = FILL_WINDING;
     draw_current_path(canvas, &outline, &smooth);
     draw_forget_path(canvas);
+}
+
+// Reads a word or, for the weight, a number. An empty word leaves the default in *value.
+static bool read_word(AttrType type, Str word, double *value) {
+    int found;
+    char text[32], *end;
+    if (word.len == 0)
+        return true;
+    if (schema_find_word(type, word, &found)) {
+        *value = found;
+        return true;
+    }
+    if (type != TYPE_WEIGHT || word.len >= sizeof text)
+        return false;
+    memcpy(text, word.bytes, word.len);
+    text[word.len] = 0;
+    *value = strtod(text, &end);
+    return *end == 0 && *value >= 0 && *value <= 1000;
+}
+
+// Returns true if the font was measured recently. Otherwise, adds it to the recent fonts and counts it.
+static bool is_recent_font(PetriPainter *painter, uint64_t hash) {
+    for (uint32_t i = 0; i < RECENT_FONTS; i++)
+        if (painter->recent_fonts[i] == hash)
+            return true;
+    painter->recent_fonts[painter->font_count++ % RECENT_FONTS] = hash;
+    return false;
+}
+
+const char *draw_measure_text(void *user_data, const BuiltinText *text, double *width, bool *loaded) {
+    PetriPainter *painter = user_data;
+    char family[1000];
+    double weight = 400, stretch = 4, slant = SLANT_UPRIGHT;
+    Str list =
+        text->family.len > 0 ? text->family : str_from(schema_row(KIND_CANVAS, ATTR_FONT_FAMILY)->default_value.string);
+    if (!read_word(TYPE_WEIGHT, text->weight, &weight))
+        return "weight should be 0 to 1000, or a word such as :bold";
+    if (!read_word(TYPE_FONT_WIDTH, text->width, &stretch))
+        return "width should be a word such as :condensed";
+    if (!read_word(TYPE_SLANT, text->slant, &slant))
+        return "slant should be :upright, :oblique or :italic";
+    if (text->text.len > MAX_TEXT_LENGTH || list.len >= sizeof family)
+        return "text longer than 10000 bytes, or family longer than 999";
+    const double default_size = 20;
+    double size = isnan(text->size) ? default_size : text->size;
+    if (size > MAX_FONT_SIZE)
+        return "size should be at most 4000";
+    TextContext *text_context = draw_text_context(painter);
+    if (!text_context)
+        return "out of memory";
+    memcpy(family, list.bytes, list.len);
+    family[list.len] = 0;
+    const double style[] = {weight, stretch, slant};
+    *loaded = !is_recent_font(painter, hash_bytes(hash_bytes(0, family, strlen(family)), style, sizeof style));
+    if (painter->font_count > MAX_FONTS)
+        return "a run can measure text in at most 5000 fonts"; // the font library keeps each in memory
+    bool known;
+    // Advances are proportional to the size. A fixed size is more precise than a small one.
+    const double measured_size = 1000;
+    use_font(text_context,
+             &(DisplayText){.size = measured_size, .weight = weight, .width = (int)stretch, .slant = (int)slant},
+             find_family(painter, family, &known));
+    text_context->family = NULL; // the next text that is drawn sets its own font
+    PangoRectangle logical;
+    pango_layout_set_text(text_context->layout, text->text.bytes, (int)text->text.len);
+    pango_layout_get_extents(text_context->layout, NULL, &logical);
+    *width = logical.width / (double)PANGO_SCALE * (size / measured_size);
+    return NULL;
 }

@@ -70,7 +70,8 @@ PETRI_API bool petri_picture_ready(PetriSession *session, const PetriPictureOpti
 // Returns -1 if there is none.
 PETRI_API int petri_find_window(PetriSession *session, const char *id);
 
-// Returns true if pictures of the last frame depend on those of earlier frames, or are saved by a `!record` node. The
+// Returns true if pictures of the last frame depend on those of earlier frames or are read by sample()
+// (petri_samples_pictures), or are saved by a `!record` node. The
 // host must then render the pictures of all frames with one painter, in order, even of frames that it does not show
 // (petri_picture_render).
 PETRI_API bool petri_needs_history(PetriSession *session);
@@ -122,6 +123,17 @@ PETRI_API PetriPainter *petri_painter_open(void);
 
 // Frees a painter and sets the handle to NULL. NULL handles are ignored.
 PETRI_API void petri_painter_close(PetriPainter **painter);
+
+// Lets the scripts of a session call measure_text(), and sample(), which reads the picture that the painter has
+// rendered of the previous frame. If `painter` is NULL, these functions have no effect, as in sessions that are not
+// drawn. The painter must be used by the thread of the session, and must not be closed before the session, or before
+// another painter replaces it. Returns PETRI_INVALID if `session` is NULL.
+PETRI_API PetriStatus petri_painter_serve(PetriPainter *painter, PetriSession *session);
+
+// Returns true if the script has called sample() since petri_painter_serve. Pictures then need history
+// (petri_needs_history), and each must be rendered by the painter of petri_painter_serve before the next frame
+// (petri_picture_render).
+PETRI_API bool petri_samples_pictures(PetriSession *session);
 
 // Why a shader program cannot be used.
 typedef struct PetriShaderProblem {

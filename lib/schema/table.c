@@ -59,6 +59,15 @@ const WordRow schema_words[WORD_COUNT] = {
 #include "schema/mix_list.h"
 };
 
+bool schema_find_word(AttrType type, Str word, int *value) {
+    for (int i = 0; i < WORD_COUNT; i++)
+        if (schema_words[i].type == type && str_equal(schema_words[i].text, word)) {
+            *value = schema_words[i].value;
+            return true;
+        }
+    return false;
+}
+
 const char *schema_word(AttrType type, int value) {
     for (int i = 0; i < WORD_COUNT; i++)
         if (schema_words[i].type == type && schema_words[i].value == value)

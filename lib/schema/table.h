@@ -160,6 +160,8 @@ extern const WordRow schema_words[WORD_COUNT];
 
 // Returns the preferred word with a value, or "" if there is none.
 const char *schema_word(AttrType type, int value) PRIVATE_API(schema_word);
+// Stores the value of a word in *value. Returns false if the type does not have this word.
+bool schema_find_word(AttrType type, Str word, int *value) PRIVATE_API(schema_find_word);
 // Returns the row of an attribute, or NULL if the kind has no such attribute.
 const SchemaRow *schema_row(NodeKind kind, AttrName name) PRIVATE_API(schema_row);
 // Returns the force that nodes of a kind describe, or PHYS_FORCE_KINDS if the kind is not a force.

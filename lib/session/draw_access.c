@@ -14,7 +14,12 @@ DrawAccess session_draw_access(PetriSession *session) {
                         .directory = program ? program->source->directory : STR(""),
                         .reach = &session->reach,
                         .memory_limit = session->options.memory_limit,
+                        .samples = session->vm.builtins.pictures && session->vm.builtins.pictures->samples,
                         .budget = &session->budget};
+}
+
+void session_set_pictures(PetriSession *session, BuiltinPictures *pictures) {
+    session->vm.builtins.pictures = pictures;
 }
 
 uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[],

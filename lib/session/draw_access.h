@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/private_api.h"
+#include "builtin/pictures.h"
 #include "canvas/read.h"
 #include "petri.h"
 #include "scene/scene.h"
@@ -18,11 +19,16 @@ typedef struct DrawAccess {
     Str directory;           // folder that relative file names start from
     const FileAccess *reach; // file access of the script
     size_t memory_limit;     // maximum bytes of a picture, which is a copy of the frame
+    bool samples;            // true if the script has called sample()
     Budget *budget;          // budget that the memory of a picture is charged to
 } DrawAccess;
 
 // Returns access to the last frame.
 DrawAccess session_draw_access(PetriSession *session) PRIVATE_API(session_draw_access);
+
+// Sets the functions through which scripts access fonts and pictures; NULL: none. They must live until they are
+// replaced.
+void session_set_pictures(PetriSession *session, BuiltinPictures *pictures) PRIVATE_API(session_set_pictures);
 
 // Stores the names that have numeric values in `names`, and these values in `numbers`, for shaders. The names of the
 // engine, such as `beat`, come first, then those of the definitions. If a name is defined more than once, its newest

@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "cli/memory.h"
 #include "cli/script.h"
+#include "cli/shader_test.h"
 #include "cli/stdout_file.h"
 #include "render/frame_writer.h"
 #include "render/output_names.h"
@@ -26,6 +27,8 @@ typedef struct Render {
     OutputKind kind;
     PetriPictureOptions picture;
     FrameWriter *writer;
+    PetriPainter *sampler;    // renders the pictures that the script samples
+    ShaderTester tester;      // of `sampler`
     int64_t drawn;            // number of frames drawn for the output
     bool thread_running;      // true if a thread is still drawing an abandoned picture
     int64_t last_drawn;       // number of the frame that was drawn last; -1: none
@@ -137,6 +140,8 @@ static void draw_frame(Render *render, bool wanted) {
     render->last_drawn = number;
     OutputList list = {.count = 0};
     render->failed = status != PETRI_OK || (wanted && !list_outputs(render, picture, &list));
+    if (!render->failed && petri_samples_pictures(render->frames.session))
+        petri_picture_render(picture, render->sampler);
     if (render->failed)
         petri_picture_free(&picture);
     else
@@ -273,6 +278,9 @@ static int render_script(Render *render) {
     render->picture.height = options->size.height;
     render->picture.scale = options->scale;
     render->picture.automatic = options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    render->tester.pending_signal = frames_signal;
+    render->sampler = painter_open_tested(&render->tester);
+    petri_painter_serve(render->sampler, render->frames.session);
     if (!check_folder(options->output) || !frames_load(&render->frames))
         return render->frames.invalid_definition ? STATUS_USAGE : STATUS_FAILED;
     return render_frames(render);
@@ -291,6 +299,7 @@ static int render_run(const CommandContext *context, Options *options) {
         _exit(status); // frees no memory, because threads may still use it
     }
     petri_close(&render.frames.session);
+    petri_painter_close(&render.sampler);
     return status;
 }
 

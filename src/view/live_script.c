@@ -114,6 +114,7 @@ int live_script_open(LiveScript *live, const CommandContext *host, const Options
         message("out of memory");
         return STATUS_FAILED;
     }
+    petri_painter_serve(live->painter, live->session);
     status = load_initial(live);
     clear_error_text(live);
     return status;
@@ -127,10 +128,10 @@ void live_script_close(LiveScript *live) {
     recording_free(&live->recording);
     petri_picture_free(&live->picture);
     petri_picture_free(&live->last_complete);
-    petri_painter_close(&live->painter);
     history_free(&live->history);
     archiving_end(&live->archiving);
     petri_close(&live->session);
+    petri_painter_close(&live->painter);
     file_watch_free(live->watch);
     text_free(&live->log);
     text_free(&live->error_text);

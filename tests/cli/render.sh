@@ -179,6 +179,72 @@ END
     check "more than 64 windows are an error" has err "a frame has more than 64 windows"
     check "a frame with too many windows writes no file" [ ! -e many-0.png ]
 
+    # built-ins that depend on the picture
+    cat >samples.fl <<'END'
+!window size=60;20
+    !canvas id=:pic
+        !rect size=60;20 color=0.2;0.4;0.6 fill=true antialias=false
+        !rect size=6;2 color=1;0;0 fill=true antialias=false
+    !canvas id=:odd size=1;1
+let far=sample(:pic, 2;2, 7)
+let points=sample(:pic, 0.05;0.95;0.5;0.5;3;3) few=sample(:pic, 3;3;0.5;0.5, 1;2;3;4)
+!counter state=(:far;frame) rate=0 initial=far
+!counter state=(:points;frame) rate=0 initial=points
+!counter state=(:few;frame) rate=0 initial=few
+!counter state=(:edge;frame) rate=0 initial=sample(:pic, -0.01;0, 7)
+!counter state=(:over;frame) rate=0 initial=sample(:pic, 1;0, 7)
+!counter state=(:none;frame) rate=0 initial=sample(:foo, 0;0, 7)
+!counter state=(:text;frame) rate=0 initial=sample(:pic, "a", 7)
+!counter state=:wide rate=0 initial=measure_text('iiii', 'DejaVu Sans Mono', 40)
+!counter state=:part rate=0 initial=2*measure_text('ii', 'DejaVu Sans Mono', 40)
+!counter state=:half rate=0 initial=2*measure_text('iiii', 'DejaVu Sans Mono')
+!counter state=:nothing rate=0 initial=measure_text('', size=10)
+END
+    value() { sed -n "s/^\$($1) = //p" samples.state; }
+    petri render samples.fl -o 'samples%d.png' --frames 3 --state samples.state
+    check "render of sampled pictures succeeds" status_is 0
+    check "in the first frame, sample() has no picture" [ "$(value ':far;0'),$(value ':edge;0')" = "7,7" ]
+    check "sample() reads colours of the previous frame, with y from the bottom" [ "$(value ':points;1')" = \
+        "1;0;0;1;0.20000000298023224;0.4000000059604645;0.6000000238418579;1;0;0;0;0" ]
+    check "sample() of several points uses a default of four numbers" [ "$(value ':few;2')" = \
+        "1;2;3;4;0.20000000298023224;0.4000000059604645;0.6000000238418579;1" ]
+    check "sample() rounds coordinates toward 0" [ "$(value ':edge;1')" = \
+        "0.20000000298023224;0.4000000059604645;0.6000000238418579;1" ]
+    check "sample() outside the picture returns the default" [ "$(value ':far;1'),$(value ':over;1')" = "7,7" ]
+    check "sample() of an unknown id returns the default" [ "$(value ':none;2')" = 7 ]
+    check "sample() of coordinates that are no numbers returns the default" [ "$(value ':text;2')" = 7 ]
+    check "measure_text() adds the widths of characters" [ "$(value :wide)" = "$(value :part)" ]
+    check "measure_text() is proportional to the size, 20 by default" [ "$(value :wide)" = "$(value :half)" ]
+    check "measure_text() of no text is 0" [ "$(value :nothing)" = 0 ]
+    check "measure_text() is positive" [ "$(value :wide | cut -d. -f1)" -gt 20 ]
+    cp samples.state first.state
+    rm samples.state
+    petri render samples.fl -o samples.mp4 --frames 3 --state samples.state
+    [ "$status" -eq 1 ] || check "sampled values do not depend on the output" cmp -s samples.state first.state
+    cat >later.fl <<'END'
+!window size=20;20
+    !canvas id=:pic
+        !rect size=20;20 color=1;1;1 fill=true
+if frame > 2
+    !counter state=(:seen;frame) rate=0 initial=sample(:pic, 0.5;0.5, 7)
+END
+    rm -f samples.state
+    petri render later.fl -o later.png --frames 6 --state samples.state
+    check "sample() in a later frame has values from the next frame on" \
+        [ "$(value ':seen;3') $(value ':seen;4') $(value ':seen;5')" = "7 1;1;1;1 1;1;1;1" ]
+    for call in "'a', weight=:fat" "'a', width=:wide" "'a', slant=:left" "'a', size=-1" "'a', size=1e9" "..20000"; do
+        printf '!window size=2;2\n    !canvas\n        !text text=measure_text(%s)\n' "$call" >bad.fl
+        petri render bad.fl -o bad.png --frames 1
+        check "measure_text($call) is reported with its position" has err "bad.fl:3:20: warning: measure_text: "
+        check "measure_text($call) does not end the run" status_is 0
+    done
+    printf '!window\n    !canvas\n        !text text=sum(measure_text("abc", ("f";i), weight=i%%1000) for i in ..100000)\n' >bad.fl
+    petri render bad.fl -o bad.png --frames 1 --work 200M
+    check "measuring texts is charged to the work limit" has err "work-limit"
+    petri run samples.fl --frames 2 --print state
+    check "run has no pictures to sample" has out '$(:far;1) = 7'
+    check "run reports once that it cannot measure texts" count_is err "measure_text: not supported: only render and view have fonts" 4
+
     # record
     cat >record.fl <<'END'
 !window size=20;20

@@ -315,6 +315,36 @@ else
     echo "skipped: full screen, for there is no openbox"
 fi
 
+# Built-ins that read the picture have values.
+cat >sampled.fl <<'END'
+!window size=200;100 title='sampled'
+    !canvas id=:pic
+        let seen=sample(:pic, 0.5;0.5)
+        !rect size=200;100 color=((0;1;0) if seen else (1;0;0)) if measure_text('a') > 2 else 1 fill=true
+END
+view sampled sampled.fl
+check "sample() and measure_text() have values" point 100 50 00ff00
+press q
+check "a script that samples ends" ended 0
+check "a script that samples writes nothing to standard error" [ ! -s err ]
+
+# Ignored nodes are reported once.
+cat >ignored.fl <<'END'
+!osc
+!window size=200;100 title='ignored'
+    !video
+    !canvas
+        !rect size=200;100 color=0;1;0 fill=true
+    if frame > 5
+        !shade
+        !video
+END
+short() { timeout 60 "$petri" view "$@" >out 2>err </dev/null; }
+check "a script with ignored nodes runs" short ignored.fl --frames 30
+check "an ignored node at the top level is reported once" [ "$(grep -c "ignored.fl:1:1: warning: .*'*!osc" err)" -eq 1 ]
+check "an ignored node in the window is reported once" [ "$(grep -c 'ignored.fl:3:5: warning: ' err)" -eq 1 ]
+check "an unknown node of later frames is reported once" [ "$(grep -c 'ignored.fl:7:9: warning: ' err)" -eq 1 ]
+
 # Each window of the script has a window on the screen.
 cat >two.fl <<'END'
 !window size=300;200 title='left'
