@@ -25,7 +25,7 @@
 #define HEADER "petri-state 1\n"
 // Highest frame number that can be restored. It is low enough that later frame numbers cannot overflow.
 #define MAX_FRAMES INT64_C(100000000000000000)
-#define MAX_STATE_BYTES ((size_t)8 << 30)
+#define MAX_STATE_BYTES (SIZE_MAX > UINT32_MAX ? (size_t)(UINT64_C(8) << 30) : (size_t)1 << 30)
 
 static void add_key(Text *out, const PetriSession *session, Value key) {
     text_add_c(out, "$(");
