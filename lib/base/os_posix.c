@@ -111,9 +111,22 @@ bool os_socket_pair(int ends[2]) {
     return socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0 && close_on_exec(ends);
 }
 
+#ifdef __EMSCRIPTEN__
+// Sets columns and rows, and returns 0 on success. JavaScript provides it (src/web/engine/system.mjs).
+__attribute__((import_module("petri"), import_name("terminal_size"))) int host_terminal_size(int terminal,
+                                                                                             int extent[2]);
+
+bool os_terminal_size(int terminal, OsTerminalSize *size) {
+    int extent[2] = {0};
+    bool good = host_terminal_size(terminal, extent) == 0;
+    *size = (OsTerminalSize){.columns = extent[0], .rows = extent[1]};
+    return good;
+}
+#else
 bool os_terminal_size(int terminal, OsTerminalSize *size) {
     (void)terminal;
     (void)size;
     errno = ENOTSUP;
     return false;
 }
+#endif

@@ -12,6 +12,9 @@
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifdef __EMSCRIPTEN__
+#include "cli/wasm_host.h"
+#endif
 
 int subprocess_temporary_file(void) {
     const char *folder = getenv("TMPDIR");
@@ -25,6 +28,34 @@ int subprocess_temporary_file(void) {
     return fd;
 }
 
+#ifdef __EMSCRIPTEN__ // there are no processes, so that JavaScript runs each command to its end
+bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv) {
+    (void)program;
+    *child = (Subprocess){.output = subprocess_temporary_file(), .errors = subprocess_temporary_file()};
+    child->pid = child->output < 0 || child->errors < 0 ? -1 : host_start(folder, argv, child->output, child->errors);
+    return child->pid > 0;
+}
+
+pid_t subprocess_spawn(const char *program, const char *const *words, const int *files, int count, bool own_group) {
+    (void)program;
+    (void)words;
+    (void)files;
+    (void)count;
+    (void)own_group;
+    errno = ENOSYS;
+    return -1;
+}
+
+pid_t subprocess_wait(int *status) {
+    return host_wait(-1, status);
+}
+
+int subprocess_wait_for(pid_t pid) {
+    int status = -1;
+    host_wait(pid, &status);
+    return status;
+}
+#else
 // Runs in the child after fork. Must not take locks or allocate memory, because another thread may have
 // held a lock during fork.
 static void exec_program(const Subprocess *child, const char *program, const char *folder, char **argv) {
@@ -94,6 +125,7 @@ int subprocess_wait_for(pid_t pid) {
     }
     return status;
 }
+#endif
 
 static void read_output(int fd, Text *text) {
     text_add_c(text, "");

@@ -117,6 +117,14 @@ static void *run_job(void *context) {
     return NULL;
 }
 
+#ifdef __EMSCRIPTEN__
+// In WebAssembly, the stack has a fixed size (src/web/meson.build), and there are no threads.
+static bool run_on_large_stack(Job *job) {
+    job->host.stack_bytes = (size_t)PETRI_STACK_BYTES - ((size_t)1 << 20);
+    run_job(job);
+    return true;
+}
+#else
 // Scripts can nest thousands of calls, so evaluation gets a much larger stack than the main thread has. Unused pages
 // take no memory. If the address space is limited, tries smaller stacks.
 static bool run_on_large_stack(Job *job) {
@@ -139,6 +147,7 @@ static bool run_on_large_stack(Job *job) {
     }
     return false;
 }
+#endif
 
 // Returns the path of this program. argv[0] is only a fallback, because it may be a name that the shell found in PATH.
 static const char *program_path(const char *name, char *resolved) {

@@ -388,7 +388,11 @@ FrameWriter *frame_writer_start(bool films, double film_fps, double fps) {
         writer->worker_count++;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (writer->worker_count == 0) {
+#ifdef __EMSCRIPTEN__
+        message("cannot draw pictures: petri for Node.js has no drawing library; use the native petri");
+#else
         message("cannot start a thread");
+#endif
         frame_writer_free(writer);
         return NULL;
     }

@@ -1,0 +1,59 @@
+#!/usr/bin/env node
+// cli.mjs: the command `petri` in Node.js. It runs in a thread, because the main thread's stack is too small, and receives signals.
+import fs from 'node:fs';
+import { constants } from 'node:os';
+import { isatty } from 'node:tty';
+import { Worker } from 'node:worker_threads';
+import { posixPaths, windowsPaths } from './paths.mjs';
+
+// petri-command.wasm has a stack of 64 MiB for data; that of Node.js grows at most twice as fast.
+const STACK_MEBIBYTES = 192;
+
+const windows = process.platform === 'win32';
+const paths = windows ? windowsPaths : posixPaths;
+const toBytes = text => Buffer.from(text).toString('latin1');
+
+// Runs petri-command.wasm.
+function runCommand(words) {
+    const signals = new Int32Array(new SharedArrayBuffer(4));
+    const worker = new Worker(new URL('./command.mjs', import.meta.url), {
+        resourceLimits: { stackSizeMb: STACK_MEBIBYTES },
+        workerData: {
+            petri: {
+                signals,
+                args: ['petri', ...words.map(argument => paths.fromArgument(argument, fs.existsSync))],
+                environment: Object.entries(process.env).map(([name, value]) => toBytes(`${name}=${value}`)),
+                folder: paths.fromSystem(process.cwd()),
+                terminal: [1, 2].some(isatty) ? (isatty(1) ? process.stdout : process.stderr).getWindowSize() : [0, 0],
+            },
+        },
+    });
+    // Compiled while the thread starts.
+    worker.postMessage(new WebAssembly.Module(fs.readFileSync(new URL('./petri-command.wasm', import.meta.url))));
+    for (const name of ['SIGINT', 'SIGTERM', 'SIGHUP'])
+        process.on(name, () => {
+            // The second signal ends a command that does not react.
+            if (Atomics.exchange(signals, 0, constants.signals[name]) !== 0)
+                process.exit(128 + constants.signals[name]);
+        });
+    worker.on('error', error => {
+        console.error(`petri: the program failed: ${error.message}`);
+        process.exitCode = 1;
+    });
+    worker.on('exit', status => {
+        process.exitCode ||= status;
+        process.exit();
+    });
+}
+
+const words = process.argv.slice(2);
+if (words[0] === 'view' && !words.some(word => word === '--help' || word === '-h')) {
+    for (const name of ['SIGINT', 'SIGTERM', 'SIGHUP'])
+        process.on(name, () => process.exit(128 + constants.signals[name]));
+    const { view } = await import('./view.mjs');
+    const status = await view(words.slice(1));
+    if (status !== null)
+        process.exit(status);
+} else {
+    runCommand(words);
+}

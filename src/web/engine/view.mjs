@@ -1,0 +1,135 @@
+// view.mjs: `petri view SCRIPT.fl` in Node.js: serves the page from the package, shows the script there and reloads it when it changes.
+//
+// The server listens on 127.0.0.1, and its URLs begin with a random token, so that other users and other pages cannot read the script.
+import { spawn } from 'node:child_process';
+import { randomBytes } from 'node:crypto';
+import fs from 'node:fs';
+import { createServer } from 'node:http';
+import { basename, dirname, extname, join, relative, sep } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { deflateRawSync } from 'node:zlib';
+
+const PACKAGE = dirname(fileURLToPath(import.meta.url));
+const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json',
+    '.wasm': 'application/wasm' };
+// The page runs untrusted scripts, so it must not exchange data with other sites. The stop button needs cross-origin isolation.
+const HEADERS = {
+    'Content-Security-Policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
+        + "img-src 'self' data: blob:; connect-src 'self'; object-src 'none'; base-uri 'none'",
+    'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp',
+    'Referrer-Policy': 'no-referrer', 'X-Content-Type-Options': 'nosniff', 'Cache-Control': 'no-store',
+};
+const MAX_LINK = 100000, MAX_FILES = 200, MAX_BYTES = 1 << 20, MAX_DEPTH = 3;
+const POLL_MS = 200;
+
+// Returns the text files below a folder that a script can read, by their paths relative to the folder. Follows no symbolic links.
+export function filesBelow(folder, top = folder, depth = 0, found = {}) {
+    for (const entry of fs.readdirSync(folder, { withFileTypes: true })) {
+        const path = join(folder, entry.name);
+        if (entry.name.startsWith('.') || entry.name === 'node_modules' || Object.keys(found).length >= MAX_FILES)
+            continue;
+        if (entry.isDirectory() && depth < MAX_DEPTH) {
+            filesBelow(path, top, depth + 1, found);
+        } else if (entry.isFile() && fs.statSync(path).size <= MAX_BYTES) {
+            const bytes = fs.readFileSync(path), text = bytes.toString();
+            if (!bytes.includes(0) && Buffer.from(text).equals(bytes))
+                found[relative(top, path).replaceAll(sep, '/')] = text;
+        }
+    }
+    return found;
+}
+
+// Returns the link of the page to a script.
+export function linkTo(text, name) {
+    const link = `#${deflateRawSync(JSON.stringify({ v: 1, t: text, n: name, c: [] }), { level: 9 }).toString('base64url')}`;
+    if (link.length > MAX_LINK)
+        throw new Error(`the script is too long for the page: ${link.length} characters when compressed, at most ${MAX_LINK}`);
+    return link;
+}
+
+// Serves the page for a script. Returns { url, close }. `report` receives messages about later changes.
+export function serveScript(script, report = () => {}) {
+    const token = randomBytes(16).toString('hex'), prefix = `/${token}/`, name = basename(script), pages = new Set();
+    const read = () => linkTo(fs.readFileSync(script, 'utf8'), name);
+    let link = read();
+    const page = fs.readdirSync(join(PACKAGE, 'page'));
+    const contents = file => {
+        if (file === 'index.html')
+            return fs.readFileSync(join(PACKAGE, 'page/index.html'), 'utf8').replace('<script', '<script src="view.js"></script>\n<script')
+                .replace(/<a href="manual[^]*?<\/a>/, '');
+        if (file === 'view.js')
+            return `history.replaceState(null, '', ${JSON.stringify(link)});\n`
+                + 'new EventSource("events").onmessage = event => { location.hash = event.data; };\n';
+        if (file === 'samples.json') {
+            const given = JSON.parse(fs.readFileSync(join(PACKAGE, 'page/samples.json'), 'utf8'));
+            return JSON.stringify({ ...given, files: { ...given.files, ...filesBelow(dirname(fs.realpathSync(script))) } });
+        }
+        return file === 'petri/engine.wasm' ? fs.readFileSync(join(PACKAGE, 'engine.wasm'))
+            : page.includes(file) && file !== 'offline.js' ? fs.readFileSync(join(PACKAGE, 'page', file)) : null;
+    };
+    const server = createServer((request, response) => {
+        const path = request.url.split(/[?#]/)[0], file = path === prefix ? 'index.html' : path.slice(prefix.length);
+        if (!path.startsWith(prefix) || request.headers.host !== `127.0.0.1:${server.address().port}`) {
+            response.writeHead(404, HEADERS).end();
+        } else if (file === 'events') {
+            response.writeHead(200, { ...HEADERS, 'Content-Type': 'text/event-stream' }).flushHeaders();
+            pages.add(response);
+            response.on('close', () => pages.delete(response));
+        } else {
+            const content = contents(file);
+            const type = TYPES[extname(file)] ?? 'text/plain';
+            response.writeHead(content === null ? 404 : 200, { ...HEADERS, 'Content-Type': type }).end(content);
+        }
+    });
+    const update = () => {
+        try {
+            const next = read();
+            if (next !== link)
+                for (const response of pages)
+                    response.write(`data: ${next}\n\n`);
+            link = next;
+        } catch (error) {
+            report(`cannot reload '${script}': ${error.message}`);
+        }
+    };
+    fs.watchFile(script, { interval: POLL_MS }, update);
+    const close = () => {
+        fs.unwatchFile(script, update);
+        server.close();
+        server.closeAllConnections?.();
+    };
+    return new Promise((resolve, reject) => server.on('error', reject).listen(0, '127.0.0.1', () =>
+        resolve({ url: `http://127.0.0.1:${server.address().port}${prefix}`, close })));
+}
+
+// Opens a URL in the browser if there is one.
+function openBrowser(url) {
+    const command = process.platform === 'win32' ? ['rundll32', 'url.dll,FileProtocolHandler'] : process.platform === 'darwin' ? ['open']
+        : process.env.BROWSER ? [process.env.BROWSER] : process.env.DISPLAY || process.env.WAYLAND_DISPLAY ? ['xdg-open'] : null;
+    if (command)
+        spawn(command[0], [...command.slice(1), url], { stdio: 'ignore', detached: true }).on('error', () => {}).unref();
+}
+
+// Runs `petri view` with its arguments. Returns the exit status if it fails.
+export async function view(args) {
+    const message = text => console.error(`petri: ${text}`);
+    const option = args.find(word => word.startsWith('-'));
+    if (option || args.length !== 1) {
+        message(option ? `petri view in Node.js has no option '${option}'; it takes a script only`
+            : 'petri view in Node.js takes one script');
+        return 2;
+    }
+    if (!fs.existsSync(join(PACKAGE, 'page'))) {
+        message('cannot show pictures: this package was built without the page');
+        return 1;
+    }
+    try {
+        const { url } = await serveScript(args[0], message);
+        console.log(`petri shows ${args[0]} at ${url}; press Ctrl-C to stop`);
+        openBrowser(url);
+    } catch (error) {
+        message(error.code === 'ENOENT' ? `cannot read '${args[0]}': No such file or directory` : error.message);
+        return 1;
+    }
+    return null;
+}

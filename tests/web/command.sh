@@ -1,0 +1,42 @@
+#!/bin/sh
+# command.sh FOLDER: tests the command of the npm package, which `./dev web` has built in FOLDER, with the suites of the native command:
+# corpora, goldens, samples, sessions of the prompt and tests/cli. command_differences.txt lists the checks that differ.
+set -eu
+root=$(cd "$(dirname "$0")/../.." && pwd)
+folder=$(cd "$1" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+cat >"$work/petri" <<END
+#!/bin/sh
+exec node "$folder/petri/cli.mjs" "\$@"
+END
+chmod +x "$work/petri"
+cd "$root"
+
+# The parts of tests/cli that need neither drawing nor SQLite, except those that test messages only (suggest, syntax_hints). Some need files
+# of the parts before them.
+tests/cli/run.sh "$work/petri" command streams parameters check bad_input state record golden diff new fmt link complete \
+    >"$work/cli" 2>&1 &
+cli=$!
+failed=0
+"$work/petri" test tests/golden tests/conformance samples >"$work/corpora" 2>&1 || failed=1
+grep '^FAIL' "$work/corpora" | sort -u || true
+echo "petri test in Node.js: $(tail -n 1 "$work/corpora")"
+tests/repl/run.sh "$work/petri" >"$work/repl" 2>&1 || {
+    failed=1
+    cat "$work/repl"
+}
+echo "petri repl in Node.js: $(tail -n 1 "$work/repl")"
+wait "$cli" || true
+grep -q '^[0-9]* passed, [0-9]* failed$' "$work/cli" || failed=1
+sed -n 's/^FAIL \([^:]*\).*/\1/p' "$work/cli" | sort -u >"$work/found"
+grep -v '^#' "$(dirname "$0")/command_differences.txt" | sort -u >"$work/expected"
+diff "$work/expected" "$work/found" >"$work/diff" || {
+    failed=1
+    echo "FAIL tests/cli differs from command_differences.txt (<: passes now, >: fails now):"
+    cat "$work/diff"
+    grep -A 4 '^FAIL' "$work/cli" | head -n 60
+}
+echo "tests/cli in Node.js: $(tail -n 1 "$work/cli"), of which $(wc -l <"$work/expected") are expected"
+exit "$failed"

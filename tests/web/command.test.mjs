@@ -1,0 +1,185 @@
+// command.test.mjs: the command of the npm package: paths of Windows, the sandbox, signals, size and start. PETRI_WEB is build/web.
+// command.sh runs the suites of the native command.
+import assert from 'node:assert/strict';
+import { spawn, spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { test } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { gzipSync } from 'node:zlib';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
+const folder = join(process.env.PETRI_WEB, 'petri');
+const load = name => import(pathToFileURL(join(folder, name)));
+const { posixPaths, windowsPaths } = await load('paths.mjs');
+const { System } = await load('system.mjs');
+
+const cli = join(folder, 'cli.mjs');
+const petri = (args, options) => spawnSync('node', [cli, ...args], { encoding: 'utf8', ...options });
+
+// Calls `use` with a new folder.
+function within(use) {
+    const work = fs.realpathSync(fs.mkdtempSync(join(tmpdir(), 'petri-command-')));
+    try {
+        return use(work);
+    } finally {
+        fs.rmSync(work, { recursive: true });
+    }
+}
+
+test('paths of Windows become POSIX paths and back', () => {
+    for (const [system, path] of [['C:\\dir\\a.fl', '/C:/dir/a.fl'], ['C:\\', '/C:/'], ['\\\\server\\share\\a', '//server/share/a']]) {
+        assert.equal(windowsPaths.fromSystem(system), path);
+        assert.equal(windowsPaths.toSystem(path), system);
+    }
+    assert.equal(windowsPaths.fromSystem('\\\\?\\C:\\dir'), '/C:/dir');
+    assert.equal(windowsPaths.fromSystem('\\\\?\\UNC\\server\\share\\a'), '//server/share/a');
+    assert.equal(windowsPaths.toSystem(Buffer.from('/C:/é.fl').toString('latin1')), 'C:\\é.fl');
+    assert.equal(windowsPaths.toSystem('/dev/null'), '\\\\.\\nul');
+    assert.deepEqual(posixPaths.toSystem('/a\xff'), Buffer.from([0x2f, 0x61, 0xff]));
+});
+
+test('arguments of Windows that are paths are converted, others are not', () => {
+    const known = ['dir\\a.fl', 'dir', 'out'];
+    const convert = argument => windowsPaths.fromArgument(argument, path => known.includes(path));
+    assert.equal(convert('dir\\a.fl'), 'dir/a.fl');
+    assert.equal(convert('dir\\new.csv'), 'dir/new.csv');
+    assert.equal(convert('C:\\x.fl'), '/C:/x.fl');
+    assert.equal(convert('C:/x.fl'), '/C:/x.fl');
+    assert.equal(convert('--output=out\\x.csv'), '--output=out/x.csv');
+    assert.equal(convert('--output=D:\\x.csv'), '--output=/D:/x.csv');
+    assert.equal(convert('NAME="a\\b"'), 'NAME="a\\b"');
+    assert.equal(convert('a:b'), 'a:b');
+    assert.equal(convert('--quiet'), '--quiet');
+});
+
+const O_NOFOLLOW = 0x20000, O_DIRECTORY = 0x10000, ELOOP = 'ELOOP';
+const systemIn = (work, procfs) => new System({ args: [], environment: [], folder: work, windows: false, procfs });
+
+for (const procfs of fs.existsSync('/proc/self/fd') ? [true, false] : [false]) {
+    test(`no link leads out of an open folder (${procfs ? 'with' : 'without'} /proc)`, () => within(work => {
+        fs.mkdirSync(join(work, 'inside/sub'), { recursive: true });
+        fs.mkdirSync(join(work, 'outside'));
+        fs.writeFileSync(join(work, 'inside/a'), 'a');
+        fs.writeFileSync(join(work, 'outside/a'), 'secret');
+        fs.symlinkSync('../outside/a', join(work, 'inside/link'));
+        fs.symlinkSync('../outside', join(work, 'inside/folder'));
+        const system = systemIn(work, procfs), open = (at, name, flags) => system.open(at, name, flags, 0);
+        const inside = open(-100, 'inside', O_DIRECTORY);
+        assert.ok(open(inside, 'a', O_NOFOLLOW) > inside);
+        assert.throws(() => open(inside, 'link', O_NOFOLLOW), { code: ELOOP });
+        assert.throws(() => open(inside, 'folder', O_NOFOLLOW | O_DIRECTORY), error => ['ELOOP', 'ENOTDIR'].includes(error.code));
+        assert.throws(() => open(-100, '', 0), { code: 'ENOENT' });
+        // The folder is replaced with a link after it was opened.
+        fs.renameSync(join(work, 'inside'), join(work, 'moved'));
+        fs.symlinkSync('outside', join(work, 'inside'));
+        if (procfs)
+            assert.equal(fs.readFileSync(system.find(open(inside, 'a', O_NOFOLLOW)).real, 'utf8'), 'a');
+        else
+            assert.throws(() => open(inside, 'a', O_NOFOLLOW), { code: ELOOP });
+        system.closeAll();
+    }));
+}
+
+test('scripts read files only below their folder', () => within(work => {
+    fs.mkdirSync(join(work, 'scripts'));
+    fs.writeFileSync(join(work, 'secret'), 'secret');
+    fs.writeFileSync(join(work, 'scripts/near'), 'near');
+    fs.symlinkSync('../secret', join(work, 'scripts/link'));
+    const script = join(work, 'scripts/a.fl');
+    fs.writeFileSync(script, '!n a=read("near") b=read("../secret") c=read("link")\n');
+    const run = petri(['run', script, '--frames', '1', '--print', 'tree']);
+    assert.match(run.stdout, /!n a='near'\n/);
+    assert.doesNotMatch(run.stdout, /secret/);
+    assert.match(run.stderr, /scripts are not allowed to read there/);
+    assert.match(petri(['run', script, '--frames', '1', '--print', 'tree', '--allow-read', work]).stdout, /b='secret' c='secret'/);
+}));
+
+test('deep recursion is reported as in the native command', () => within(work => {
+    fs.writeFileSync(join(work, 'deep.fl'), 'func f(n)\n    f(n+1) if n < 1000000 else n\ndebug(f(0))\n');
+    const run = petri(['run', 'deep.fl', '--frames', '1'], { cwd: work });
+    assert.notEqual(run.status, 134, run.stderr);
+}));
+
+test('SIGTERM ends a run with its summary', async () => {
+    const options = ['--frames', '100000000', '--stats', '--print', 'hash'];
+    const child = spawn('node', [cli, 'run', join(root, 'samples/dish.fl'), ...options], { stdio: ['ignore', 'pipe', 'pipe'] });
+    let errors = '';
+    child.stderr.on('data', data => { errors += data; });
+    await new Promise(resolve => { child.stdout.once('data', resolve); });
+    child.stdout.resume();
+    child.kill('SIGTERM');
+    const status = await new Promise(resolve => { child.on('close', resolve); });
+    assert.equal(status, 143);
+    assert.match(errors, /frames/);
+});
+
+test('the command is small and starts quickly', () => {
+    assert.ok(gzipSync(fs.readFileSync(join(folder, 'petri-command.wasm')), { level: 9 }).length <= 800e3);
+    const seconds = command => Math.min(...Array.from({ length: 5 }, () => {
+        const start = performance.now();
+        assert.equal(spawnSync('node', command).status, 0);
+        return performance.now() - start;
+    }));
+    // The machine may be busy, so that the time is compared with that of Node.js alone.
+    const empty = seconds(['-e', '0']), run = seconds([cli, 'run', join(root, 'samples/hello.fl'), '--frames', '3']);
+    assert.ok(run < 5 * empty, `${run} ms, of which Node.js takes ${empty} ms`);
+});
+
+test('npm installs the command', () => within(work => {
+    const npm = args => spawnSync('npm', args, { cwd: work, encoding: 'utf8', env: { ...process.env, npm_config_offline: 'true' } });
+    if (npm(['--version']).error)
+        return;
+    const [{ filename }] = JSON.parse(npm(['pack', '--json', folder]).stdout);
+    assert.equal(npm(['install', '--no-audit', '--no-fund', `./${filename}`]).status, 0);
+    const run = spawnSync(join(work, 'node_modules/.bin/petri'), ['--version'], { encoding: 'utf8' });
+    assert.match(run.stdout, /^petri \d/);
+}));
+
+test('petri view serves the script below a token, and reloads it', async () => {
+    const { filesBelow, linkTo, serveScript } = await load('view.mjs');
+    const work = fs.mkdtempSync(join(tmpdir(), 'petri-view-'));
+    fs.mkdirSync(join(work, 'scripts/lib'), { recursive: true });
+    fs.writeFileSync(join(work, 'secret'), 'secret');
+    fs.symlinkSync('../secret', join(work, 'scripts/link'));
+    fs.writeFileSync(join(work, 'scripts/lib/m.fl'), 'let a=1\n');
+    const script = join(work, 'scripts/a.fl');
+    fs.writeFileSync(script, '!n a=1\n');
+    assert.deepEqual(filesBelow(join(work, 'scripts')), { 'a.fl': '!n a=1\n', 'lib/m.fl': 'let a=1\n' });
+    const { url, close } = await serveScript(script);
+    try {
+        assert.match(url, /^http:\/\/127\.0\.0\.1:\d+\/[0-9a-f]{32}\/$/);
+        const status = async path => (await fetch(new URL(path, url))).status;
+        const text = async path => (await fetch(new URL(path, url))).text();
+        assert.equal(await status('/'), 404);
+        assert.equal(await status(`/${'0'.repeat(32)}/`), 404);
+        for (const path of ['../../package.json', '%2e%2e/cli.mjs', 'offline.js', 'a.fl'])
+            assert.equal(await status(path), 404, path);
+        for (const path of ['', 'page.js', 'worker.js', 'petri/engine.wasm'])
+            assert.equal(await status(path), 200, path);
+        assert.ok((await text('')).includes('<script src="view.js">'));
+        assert.ok((await text('view.js')).includes(linkTo('!n a=1\n', 'a.fl')));
+        assert.equal(JSON.parse(await text('samples.json')).files['lib/m.fl'], 'let a=1\n');
+        const events = await fetch(new URL('events', url)), reader = events.body.getReader();
+        fs.writeFileSync(script, '!n a=2\n');
+        const { value } = await reader.read();
+        assert.equal(Buffer.from(value).toString(), `data: ${linkTo('!n a=2\n', 'a.fl')}\n\n`);
+        await reader.cancel();
+    } finally {
+        close();
+        fs.rmSync(work, { recursive: true });
+    }
+});
+
+test('petri view ends with Ctrl-C, and rejects other arguments', async () => {
+    assert.equal(petri(['view']).status, 2);
+    assert.equal(petri(['view', '--frames=1', 'a.fl']).status, 2);
+    assert.match(petri(['view', 'missing.fl']).stderr, /^petri: cannot read 'missing.fl': No such file or directory\n$/);
+    assert.match(petri(['view', '--help']).stdout, /^usage: petri view/);
+    const child = spawn('node', [cli, 'view', join(root, 'samples/hello.fl')], { env: { ...process.env, DISPLAY: '', BROWSER: '' } });
+    const text = await new Promise(resolve => { child.stdout.once('data', resolve); });
+    assert.match(String(text), /^petri shows .*hello\.fl at http:\/\/127\.0\.0\.1:/);
+    child.kill('SIGINT');
+    assert.equal(await new Promise(resolve => { child.on('close', resolve); }), 130);
+});
