@@ -1,12 +1,18 @@
 """Tests of the Python module, after its docstrings."""
 
+import base64
+import copy
 import gc
 import os
+import pickle
+import re
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
+import traceback
 import types
 import unittest
 import unittest.mock
@@ -631,6 +637,174 @@ class Archives(unittest.TestCase):
         session.step()
         with self.assertRaisesRegex(petri.ArchiveError, "functions of the host"):
             recording.close()
+
+
+class Notebooks(unittest.TestCase):
+    """What one uses in notebooks: parameters, copies, trajectories, films."""
+
+    KNOBS = ("let COUNT=COUNT or 3 -- 1..9|1 how many\nlet SPEED=SPEED or 0.5 -- 0..1 of each\n"
+             "!physics state=:a dimensions=2 run=1\n    for i in ..COUNT\n        !particle id=i velocity=SPEED;i\n    !random\n")
+
+    def test_parameters_are_listed_and_set(self):
+        session = petri.Session(self.KNOBS, SPEED=0.25)
+        self.assertEqual(list(session.parameters), ["COUNT", "SPEED"])
+        count, speed = session.parameters.values()
+        self.assertEqual((count.number, count.min, count.max, count.step, count.comment), (3, 1, 9, 1, "how many"))
+        self.assertEqual((speed.value, speed.default, speed.step, speed.settable), ("0.25", "0.5", None, True))
+        session.parameters["COUNT"] = 5
+        session.step()
+        self.assertEqual(len(session.systems["a"]), 5)
+        session.parameters["COUNT"] = None
+        self.assertEqual(session.parameters["COUNT"].number, 3)
+        with self.assertRaises(KeyError):
+            session.parameters["OTHER"]
+        with self.assertRaises(petri.ScriptError):
+            session.parameters["OTHER"] = 1
+
+    def test_copies_continue_bit_for_bit(self):
+        session = petri.Session(self.KNOBS, COUNT=4, given={"wind": 2}, functions={"twice": twice})
+        session.step(5)
+        session.set_parameter("SPEED", 0.75)
+        session.set_global("wind", 3)
+        session.step(5)
+        for other in (session.copy(), copy.copy(session), copy.deepcopy(session), pickle.loads(pickle.dumps(session))):
+            self.assertEqual(other.frame.number, session.frame.number)
+            self.assertEqual(other.text("state"), session.text("state"))
+            self.assertEqual(other.parameters["SPEED"].number, 0.75)
+            self.assertEqual(other.evaluate("wind"), 3)
+            self.assertEqual(other.evaluate("twice(4)"), 8)
+        ahead = session.copy()
+        ahead.step(7)
+        session.step(7)
+        self.assertEqual(ahead.text("digest"), session.text("digest"))
+        session.step()  # the copy is independent
+        self.assertEqual(ahead.frame.number, session.frame.number - 1)
+
+    def test_exceptions_of_functions_have_their_traceback(self):
+        def divide(x):
+            return x / 0
+
+        session = petri.Session("!x y=divide(1)\n", functions={"divide": divide})
+        try:
+            session.step()
+            names = []
+        except ZeroDivisionError as error:  # assertRaises would remove the traceback
+            names = [frame.name for frame in traceback.extract_tb(error.__traceback__)]
+        self.assertIn("divide", names)
+
+    def test_closed_sessions_say_so(self):
+        session = petri.Session(self.KNOBS)
+        session.close()
+        for use in (session.step, lambda: session.evaluate("1"), lambda: list(session.parameters), session.copy):
+            with self.assertRaisesRegex(ValueError, "closed"):
+                use()
+
+    def test_number_returns_a_number(self):
+        session = petri.Session(self.KNOBS)
+        session.step()
+        self.assertEqual(session.number("COUNT+1"), 4.0)
+        with self.assertRaises(ValueError):
+            session.number("1;2")
+
+    def test_trajectories_have_every_frame(self):
+        script = ("let N=(2 if frame < 2 else 3)\n!physics state=:t dimensions=2\n    for i in ..N\n"
+                  "        !particle id=i position=i;0 velocity=0;1 mass=2\n    !constant acceleration=0;-1\n")
+        path, session = petri.Session(script).record("t", 6), petri.Session(script)
+        self.assertEqual(path.position.shape, (6, 3, 2))
+        self.assertEqual(path.ids, [0, 1, 2])
+        for t in range(6):
+            session.step()
+            system = session.systems["t"]
+            self.assertEqual((path.frame[t], path.time[t]), (session.frame.number, session.frame.time))
+            numpy.testing.assert_array_equal(path.position[t, :len(system)], system.position)
+            numpy.testing.assert_array_equal(path.velocity[t, :len(system)], system.velocity)
+            self.assertEqual(path.potential_energy[t], system.potential_energy)
+            self.assertEqual(path.kinetic_energy[t], system.kinetic_energy)
+            self.assertEqual(numpy.isnan(path.position[t, 2]).all(), len(system) == 2)
+        sparse = petri.Session(script).record("t", 6, every=2, energies=False)
+        numpy.testing.assert_array_equal(sparse.frame, path.frame[::2])
+        self.assertTrue(numpy.isnan(sparse.potential_energy).all())
+
+    def test_pictures_keep_their_shape(self):
+        session = petri.Session(RED)
+        session.step()
+        self.assertEqual(session.picture(width=40).pixels.shape, (20, 40, 4))
+        self.assertEqual(session.picture(height=5).pixels.shape, (5, 10, 4))
+
+    def test_animations_play_in_notebooks(self):
+        animation = petri.Session(RED).animate(4, every=2, width=8)
+        self.assertEqual(len(animation.pictures), 2)
+        self.assertEqual(animation.fps, 30)
+        self.assertTrue(all(picture.startswith(b"\x89PNG") for picture in animation.pictures))
+        self.assertIn(base64.b64encode(animation.pictures[1]).decode(), animation._repr_html_())
+
+    @unittest.skipUnless(shutil.which("ffmpeg") and shutil.which("ffprobe"), "ffmpeg is not installed")
+    def test_films_have_their_frames(self):
+        for name in ("film.mp4", "film.gif"):
+            with tempfile.TemporaryDirectory() as folder:
+                file = os.path.join(folder, name)
+                petri.Session(RED).film(file, 12, every=2, fps=25, width=64)
+                probe = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                                        "stream=width,height,nb_read_frames,r_frame_rate", "-of", "csv=p=0", file],
+                                       stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
+                self.assertEqual(probe, "64,32,25/1,6")
+        with self.assertRaises(OSError):
+            petri.Session(RED).film("/nowhere/film.mp4", 2, width=64)
+
+    def test_widgets_have_sliders(self):
+        widgets = types.SimpleNamespace(**{name: unittest.mock.MagicMock() for name in
+                                           ("Image", "Label", "IntSlider", "FloatSlider", "Button", "VBox", "HBox")})
+        session = petri.Session(self.KNOBS)
+        with unittest.mock.patch.dict(sys.modules, ipywidgets=widgets):
+            session.widget(3)
+        self.assertEqual(session.frame.number, 2)
+        self.assertEqual(widgets.IntSlider.call_args.kwargs["description"], "COUNT")
+        self.assertEqual(widgets.FloatSlider.call_args.kwargs["max"], 1)
+        moved = widgets.IntSlider.return_value.observe.call_args.args[0]
+        moved({"new": 7})
+        self.assertEqual(session.parameters["COUNT"].number, 7)
+
+    def test_reset_and_reload(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "a.fl"
+            file.write_text("!counter state=:n rate=60\n")
+            session = petri.Session(file)
+            session.step(3)
+            file.write_text("!counter state=:n rate=-60\n")
+            session.reload()
+            session.step()
+            self.assertEqual((session.frame.number, round(session.number("$:n"), 9)), (3, 1))
+            session.reset()
+            self.assertEqual(len(session.state), 0)
+            session.step()
+            self.assertEqual(session.frame.number, 0)
+
+    def test_all_functions_are_wrapped_or_left_out(self):
+        root = Path(__file__).parents[2]
+        names = set(re.findall(r"^PETRI_API .*?\b(petri_[a-z0-9_]+)\(", (root / "lib/include/petri.h").read_text(), re.M))
+        lines = [line.split(None, 1) for line in (root / "tests/python/left_out.txt").read_text().splitlines() if line[0] != "#"]
+        used = {name for file in (root / "src/python").rglob("*") if file.suffix in (".py", ".c")
+                for name in re.findall(r"\bpetri_[a-z0-9_]+\b", file.read_text())}
+        self.assertGreater(len(names), 40)
+        self.assertEqual(sorted(names - used), sorted(name for name, reason in lines))
+
+    def test_sweeps_measure_every_frame_and_select(self):
+        table = petri.sweep("let A=A or 1\nlet B=B or 1\n!x y=A\n", {"A": [1, 2], "B": [1, 2]},
+                            {"sum": "A+B+frame+wind+twice(1)"}, frames=5, every=2, where=lambda run: run["A"] < run["B"],
+                            given={"wind": 10}, functions={"twice": twice})
+        self.assertEqual(table, {"A": [1, 1, 1], "B": [2, 2, 2], "frame": [0, 2, 4], "sum": [15, 17, 19], "error": [None] * 3})
+
+    def test_ctrl_c_aborts_sweeps(self):
+        program = ("import os, petri, signal, threading\n"
+                   "threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
+                   "try:\n    petri.sweep('let A=A or 1\\n!x y=sum(i for i in ..10000000)\\n', {'A': range(1, 9)}, {'a': 'A'}, frames=10**6)\n"
+                   "except KeyboardInterrupt:\n    print('aborted')\n")
+        done = subprocess.run([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(done.stdout, "aborted\n")
+
+
+def twice(x):
+    return 2 * x
 
 
 if __name__ == "__main__":

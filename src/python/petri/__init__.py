@@ -14,16 +14,20 @@ from ._petri import ffi as _ffi, lib as _lib
 from .archive import Archive, ArchivedFile, ArchiveError, Keyframe, Recording
 from .errors import (Diagnostic, InterruptedStep, LimitError, MissingLibraryError, OutOfMemoryError, PetriError,
                      PetriWarning, ScriptError)
+from .films import Animation
+from .parameters import Parameter, Parameters
 from .picture import Picture
 from .session import Frame, Options, Session, Snapshot
 from .state import State
 from .sweeps import sweep
 from .systems import Contribution, Explanation, System, Systems
+from .trajectories import Trajectory
 from .values import Text
 
 __version__ = _ffi.string(_lib.petri_version()).decode()
-__all__ = ["Archive", "ArchiveError", "ArchivedFile", "Contribution", "Diagnostic", "Explanation", "Frame", "InterruptedStep", "Keyframe", "LimitError", "MissingLibraryError", "Options", "OutOfMemoryError",
-           "PetriError", "PetriWarning", "Picture", "Recording", "ScriptError", "Session", "Snapshot", "State", "System", "Systems",
-           "Text", "sweep"]
+__all__ = ["Animation", "Archive", "ArchiveError", "ArchivedFile", "Contribution", "Diagnostic", "Explanation",
+           "Frame", "InterruptedStep", "Keyframe", "LimitError", "MissingLibraryError", "Options",
+           "OutOfMemoryError", "Parameter", "Parameters", "PetriError", "PetriWarning", "Picture", "Recording",
+           "ScriptError", "Session", "Snapshot", "State", "System", "Systems", "Text", "Trajectory", "sweep"]
 for _name in __all__:
     globals()[_name].__module__ = "petri"  # the public location

@@ -67,7 +67,7 @@ def _failed(_: Any, error: BaseException, trace: Any) -> None:
     arguments = trace.tb_frame.f_locals
     owner = ffi.from_handle(arguments["user_data"])[0]
     lib.petri_call_error(arguments["call"], f"{type(error).__name__}: {error}".encode())
-    owner.raised.append(error)
+    owner.raised.append(error.with_traceback(trace))
     owner.stop[0] = True
     owner.lend(False)
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import os
+import tempfile
 import threading
 from dataclasses import dataclass
 from itertools import count
 from typing import Any, Callable, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Union
 
-from . import values
+from . import films, trajectories, values
 from ._petri import ffi, lib
 from .archive import Recording, _check
 from .errors import Diagnostic, ScriptError, finish
 from .functions import Functions
+from .parameters import Parameters
 from .picture import Picture
 from .state import State
 from .systems import Systems
@@ -89,14 +91,16 @@ class Session:
                  given: Optional[Mapping[str, Any]] = None, functions: Optional[Mapping[str, Callable]] = None,
                  **defines: Any):
         self._prepare(options)
+        self._made_of = {"source": source, "options": options, "functions": dict(functions or {})}
         for name, value in defines.items():
             text = value if isinstance(value, str) else self._printed(value)
             self._call(lib.petri_define, f"{name}={text}".encode(),
                        message=f"cannot define {name!r}: the name or the value is invalid")
+            self._defined[name] = text
         if functions:
             self._functions = Functions(self, functions)
             self._stop = self._functions.stop
-        self._given: set[str] = set(given or ())
+        self._given = dict(given or {})
         for name, value in (given or {}).items():
             self.set_global(name, value)
         if isinstance(source, str) and "\n" in source:
@@ -114,14 +118,17 @@ class Session:
         self._stop: Any = ffi.NULL
         self._shown: List[None] = []  # one element per array that refers to the session's memory
         self._c = self._open(options or Options(), archive)
+        self._made_of: dict[str, Any] = {}  # arguments of the session; empty if it replays an archive
+        self._defined: dict[str, str] = {}
+        self._given: dict[str, Any] = {}
         self.state = State(self._c, self._lock)
         self.systems = Systems(self)
+        self.parameters = Parameters(self)
 
     @classmethod
     def _replay(cls, archive: Any, frame: int, options: Optional[Options], loads: bool = False) -> "Session":
         session = cls.__new__(cls)
         session._prepare(options, archive)
-        session._given = set()
         with session._lock:
             status = (lib.petri_archive_load if loads else lib.petri_archive_replay)(archive, session._c, frame)
         _check(archive)
@@ -175,13 +182,20 @@ class Session:
         if status or self._told or self._stop and self._stop[0]:
             self._finish(status, message)
 
+    def _open_c(self) -> Any:
+        """Returns the C session. Raises ValueError if it is closed."""
+        if not self._c:
+            self._check_not_calling()
+            raise ValueError("the session is closed")
+        return self._c
+
     def _check_not_calling(self) -> None:
         if self._functions and self._functions.calling:
             raise RuntimeError("a Python function cannot use the session that is calling it")
 
     def _finish(self, status: int, message: Optional[str] = None) -> None:
         """Raises the error of a call, or the exception that a Python function raised during the call."""
-        self._check_not_calling()
+        self._open_c()
         if self._functions and self._functions.raised:
             error = self._functions.raised[0]
             self._functions.raised.clear()
@@ -229,6 +243,13 @@ class Session:
         result = ffi.new("PetriEvaluation *")
         return values.parse(self._collect(lib.petri_evaluate, data, len(data), result, ffi.sizeof(result[0])))
 
+    def number(self, text: str) -> float:
+        """Returns the value of an expression that is a single number."""
+        value = self.evaluate(text)
+        if not isinstance(value, (int, float)):
+            raise ValueError(f"the value of {text!r} is not a number but {value!r}")
+        return float(value)
+
     def interrupt(self) -> None:
         """Aborts the frame that another thread is computing; its step raises InterruptedStep. Thread-safe."""
         lib.petri_interrupt(self._c)
@@ -254,11 +275,27 @@ class Session:
             raise FileNotFoundError(file)
         self._call(lib.petri_restore, os.fsencode(file))
 
+    def reload(self) -> None:
+        """Loads the script again after a change of its file. State, frame number and clocks continue."""
+        source = self._made_of.get("source", "\n")
+        if isinstance(source, str) and "\n" in source:
+            raise ValueError("the script is not a file")
+        self._call(lib.petri_reload, os.fsencode(source))
+
+    def reset(self) -> None:
+        """Clears the state. The next frame is frame 0."""
+        with self._lock:
+            lib.petri_reset(self._open_c())
+
     def set_parameter(self, name: str, value: Any) -> None:
         """Sets a parameter (`let SIZE=SIZE or 20`) from the next frame on. None restores its default."""
-        text = ffi.NULL if value is None else (value if isinstance(value, str) else self._printed(value)).encode()
-        self._call(lib.petri_set_parameter, name.encode(), text,
+        text = None if value is None else value if isinstance(value, str) else self._printed(value)
+        self._call(lib.petri_set_parameter, name.encode(), ffi.NULL if text is None else text.encode(),
                    message=f"cannot set {name!r}: the script has no such parameter, or the value is invalid")
+        if text is None:
+            self._defined.pop(name, None)
+        else:
+            self._defined[name] = text
 
     def set_global(self, name: str, value: Any) -> None:
         """Changes the value of a global that was passed in `given`, from the next frame on."""
@@ -267,6 +304,60 @@ class Session:
         with self._lock:
             encoded, keep = values.encode(self._c, value)
         self._call(lib.petri_set_global, name.encode(), encoded, message=f"cannot set {name!r} to {value!r}")
+        self._given[name] = value
+
+    def __getstate__(self) -> dict:
+        if not self._made_of:
+            raise TypeError("cannot copy or pickle a session that replays an archive")
+        with tempfile.TemporaryDirectory(prefix="petri-") as folder:
+            file = os.path.join(folder, "state")
+            self.save(file)
+            with open(file, "rb") as saved:
+                state = saved.read()
+        return {**self._made_of, "given": dict(self._given), "defines": dict(self._defined), "state": state}
+
+    def __setstate__(self, saved: dict) -> None:
+        Session.__init__(self, saved["source"], options=saved["options"], given=saved["given"],
+                         functions=saved["functions"], **saved["defines"])
+        with tempfile.TemporaryDirectory(prefix="petri-") as folder:
+            file = os.path.join(folder, "state")
+            with open(file, "wb") as stored:
+                stored.write(saved["state"])
+            self.restore(file)
+
+    def copy(self) -> Session:
+        """Returns an independent session with the same script, parameters, globals, functions and state. Its frames are
+        bit-identical to those of this session. The script is read again. pickle works in the same way, if the
+        functions can be pickled."""
+        other = Session.__new__(Session)
+        other.__setstate__(self.__getstate__())
+        return other
+
+    __copy__ = copy
+
+    def __deepcopy__(self, _: Any) -> Session:
+        return self.copy()
+
+    def record(self, name: str, frames: int, *, every: int = 1, energies: bool = True) -> trajectories.Trajectory:
+        """Computes the next `frames` frames and returns positions, velocities and energies of a system, of the first
+        frame and every `every`-th after it. Potential energies of forces of unlimited range take time that grows with
+        N²; `energies=False` leaves them out."""
+        return trajectories.record(self, name, frames, every, energies)
+
+    def film(self, path: Union[str, os.PathLike], frames: int, *, fps: float = 0, every: int = 1, **picture: Any) -> None:
+        """Computes the next `frames` frames and writes them to a film: .mp4, .webm, .gif, or another file that ffmpeg
+        knows by its name. `fps` is the rate of the film; 0: that of the session. Other arguments are those of
+        picture."""
+        films.write(self, path, frames, fps, every, picture)
+
+    def animate(self, frames: int, *, fps: float = 0, every: int = 1, **picture: Any) -> films.Animation:
+        """Computes the next `frames` frames and returns an animation that notebooks play. Arguments as for film."""
+        return films.animate(self, frames, fps, every, picture)
+
+    def widget(self, frames: int = 10, **picture: Any) -> Any:
+        """Returns an ipywidgets widget for notebooks: the picture, a button that computes `frames` frames, and a slider
+        for each parameter with a range. Other arguments are those of picture."""
+        return films.widget(self, frames, picture)
 
     def text(self, *sections: str) -> str:
         """Returns output like `petri run --print`. Sections are "tree", "state", "log", "error", "hash"
@@ -280,8 +371,13 @@ class Session:
                 automatic: Optional[bool] = None) -> Picture:
         """Returns the picture of the last frame.
 
-        The picture shows the window. If there is no window or `automatic` is True, it shows the particles.
+        The picture shows the window. If there is no window or `automatic` is True, it shows the particles. If only one
+        of `width` and `height` is given, the other keeps the shape of the picture.
         """
+        if (width > 0) != (height > 0):
+            shape = self.picture(window=window, automatic=automatic)
+            width = width or max(1, round(height * shape.width / shape.height))
+            height = height or max(1, round(width * shape.height / shape.width))
         options = ffi.new("PetriPictureOptions *")
         lib.petri_python_picture_options(options)
         options.width, options.height, options.scale, options.window = width, height, scale, window

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Iterator, List, Optional
 
 import numpy
+import numpy.typing
 
 from . import values
 from ._petri import ffi, lib
@@ -56,11 +57,7 @@ class Explanation:
     velocity: numpy.ndarray            #: Velocity at the start of the step: float64, d.
 
 
-def _column(letter: str, doc: str) -> property:
-    def get(self: System) -> numpy.ndarray:
-        return self._array(letter)
-
-    return property(get, doc=doc)
+Array = numpy.typing.NDArray[numpy.float64]
 
 
 class System:
@@ -79,7 +76,7 @@ class System:
         self._view = ffi.new("PetriPythonView *")
         self._arrays: dict[str, tuple] = {}
 
-    def _array(self, letter: str) -> numpy.ndarray:
+    def _array(self, letter: str) -> Array:
         view = self._view
         with self._owner._lock:
             session = self._owner._c
@@ -114,16 +111,39 @@ class System:
     def _missing_error(self) -> LookupError:
         return LookupError(f"no system {self.name!r} in the last frame")
 
-    position = _column("p", "Positions of the particles: float64, N×d, read-only.")
-    velocity = _column("v", "Velocities of the particles: float64, N×d, read-only.")
-    force = _column("f", "Total force on each particle in the frame's last step: float64, N×d, read-only; 0 for "
-                         "anchors. NaN if there was no step or without Options.keep_forces.")
-    radius = _column("r", "Radii of the particles: float64, N, read-only.")
-    mass = _column("m", "Masses of the particles: float64, N, read-only.")
-    charge = _column("c", "Charges of the particles: float64, N, read-only.")
+    @property
+    def position(self) -> Array:
+        """Positions of the particles: float64, N×d, read-only."""
+        return self._array("p")
 
     @property
-    def anchor(self) -> numpy.ndarray:
+    def velocity(self) -> Array:
+        """Velocities of the particles: float64, N×d, read-only."""
+        return self._array("v")
+
+    @property
+    def force(self) -> Array:
+        """Total force on each particle in the frame's last step: float64, N×d, read-only; 0 for anchors. NaN if there was
+        no step or without Options.keep_forces."""
+        return self._array("f")
+
+    @property
+    def radius(self) -> Array:
+        """Radii of the particles: float64, N, read-only."""
+        return self._array("r")
+
+    @property
+    def mass(self) -> Array:
+        """Masses of the particles: float64, N, read-only."""
+        return self._array("m")
+
+    @property
+    def charge(self) -> Array:
+        """Charges of the particles: float64, N, read-only."""
+        return self._array("c")
+
+    @property
+    def anchor(self) -> numpy.typing.NDArray[numpy.bool_]:
         """True for particles that are anchors: bool, N, read-only."""
         struct = self._fetch()
         if struct.particle_count == 0:
