@@ -398,7 +398,7 @@ check "package installs the packaging tools" grep -q 'apt-get .*install.* dpkg-d
 check "package installs the build dependencies" has calls libsdl2-dev
 check "package reports the folder" has err "packages are in $project/build/package"
 dev package --dynamic
-check "package rejects unknown options" has err "unknown option: '--dynamic'; package takes --test, --wheel, --static or --vscode"
+check "package rejects unknown options" has err "unknown option: '--dynamic'; package takes --test, --wheel, --manylinux, --static or --vscode"
 
 machine
 dev install "$work/some where"
