@@ -272,7 +272,8 @@ static int check_scenes(void) {
         if (strcmp(kind.area, "canvas3d") != 0)
             continue;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++) {
-            bool found = strcmp(attribute.name, "hidden") == 0; // every node has this attribute
+            // Every node has the attribute `hidden`.
+            bool found = strcmp(attribute.name, "hidden") == 0 || strncmp(attribute.help, "ignored", 7) == 0;
             for (size_t o = 0; !found && petri_node_kind(o, &other, sizeof other); o++)
                 found = strcmp(other.area, "canvas3d") == 0 && was_seen(other.name, attribute.name);
             if (!found)
