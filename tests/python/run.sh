@@ -20,4 +20,5 @@ export PYTHONPATH PYTHONDONTWRITEBYTECODE
 "$2" "$here/test_lexer.py" "$root/samples"
 cd "$root/samples" # the tutorial uses these scripts
 "$2" -m doctest "$root/src/python/TUTORIAL.md"
+"$2" "$here/notebooks.py" "$root"/samples/notebooks/*.ipynb
 "$2" "$root/tests/bench/python.py" petri.fl 1
