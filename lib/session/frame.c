@@ -339,7 +339,8 @@ static PetriStatus update_frame(PetriSession *session) {
     SessionFrame *frame = &session->frame;
     uint64_t evaluation_work = session->budget.work;
     if (frame->no_frame_yet)
-        session_lint_windows(session);
+        frame->seen.count = 0;
+    session_lint_windows(session);
     frame->no_frame_yet = false;
     session->spent = evaluation_work; // evaluation and systems share one budget
     PetriStatus status = session_protect(session, NULL, update_systems, NULL);

@@ -6,6 +6,12 @@
 #include "state/state.h"
 #include "value/value.h"
 
+// The pairs of a node's kind and its parent's kind that occurred in windows since the script was loaded.
+typedef struct SeenNodes {
+    const Symbol *pairs[64][2]; // parent (NULL: a window), child
+    uint32_t count;
+} SeenNodes;
+
 typedef struct SessionFrame {
     Arena arena;         // values of the frame, kept until the next step; limited by PetriOptions.memory_limit
     Arena systems_arena; // data of the systems; not limited, so that no system stops in the middle of an update
@@ -21,6 +27,7 @@ typedef struct SessionFrame {
     bool names_current;
     bool evaluating;   // true while an evaluation is in progress
     bool no_frame_yet; // no frame of the loaded script has been computed
+    SeenNodes seen;
     uint64_t physics_steps;
     double evaluation_seconds;
     double physics_seconds;

@@ -169,8 +169,9 @@ ClockRates session_pragma_rates(PetriSession *session, const Program *program);
 void session_set_globals(const PetriSession *session, Vm *vm);
 // Warns about top-level nodes that have no effect, once for each kind. Called within a protected call.
 void session_lint_top_nodes(PetriSession *session);
-// Reads the windows of the frame, to report nodes and attributes that are ignored in them. A limit that this exceeds is
-// reported only when the windows are drawn.
+// Reads the windows of the frame, to report nodes and attributes that are ignored in them. Does nothing if earlier
+// frames of the script had nodes of the same kinds with the same parents. A limit that this exceeds is reported only
+// when the windows are drawn.
 void session_lint_windows(PetriSession *session);
 
 // Text output to a callback of the host, in chunks (text_sink.c).

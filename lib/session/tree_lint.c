@@ -65,9 +65,42 @@ static PetriStatus read_windows(PetriSession *session, void *context) {
     return PETRI_OK;
 }
 
+// Adds a pair of kinds. Returns true if it is new. If there are too many pairs, all count as known.
+static bool add_pair(SeenNodes *seen, const Symbol *parent, const Symbol *child) {
+    enum { CAPACITY = sizeof seen->pairs / sizeof *seen->pairs };
+    for (uint32_t i = 0; i < seen->count; i++)
+        if (seen->pairs[i][1] == child && seen->pairs[i][0] == parent)
+            return false;
+    if (seen->count == CAPACITY)
+        return false;
+    seen->pairs[seen->count][0] = parent;
+    seen->pairs[seen->count++][1] = child;
+    return true;
+}
+
+// Adds the pairs below a node. Visits at most *left nodes. Returns true if there are new pairs.
+static bool add_pairs(SeenNodes *seen, const Node *parent, const Symbol *kind, int depth, uint32_t *left) {
+    enum { MAX_DEPTH = 100 };  // deeper nodes are not drawn
+    const Symbol *last = NULL; // kind of the previous child
+    bool found = false;
+    for (uint32_t i = 0; i < parent->child_count && depth<MAX_DEPTH && * left> 0; i++) {
+        const Node *child = parent->children[i];
+        --*left;
+        found |= child->kind != last && add_pair(seen, kind, child->kind);
+        last = child->kind;
+        found |= child->child_count > 0 && add_pairs(seen, child, child->kind, depth + 1, left);
+    }
+    return found;
+}
+
 void session_lint_windows(PetriSession *session) {
-    uint32_t at = 0;
-    if (!canvas_next_window(&session->schema, session->frame.tree, &at))
+    enum { MAX_NODES = 1 << 14 }; // the search takes at most 0.1 ms per frame, so it is not charged
+    uint32_t at = 0, left = MAX_NODES;
+    bool found = false;
+    const Node *window;
+    while ((window = canvas_next_window(&session->schema, session->frame.tree, &at)))
+        found |= session->frame.no_frame_yet | add_pairs(&session->frame.seen, window, NULL, 0, &left);
+    if (!found)
         return;
     Arena arena;
     session_arena(session, &arena, "windows", session->options.memory_limit);

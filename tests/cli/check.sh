@@ -172,6 +172,26 @@ for command in check "run --frames 3" "render -o out.png --frames 3"; do
     grep '^ignored' err | sort -t: -k2n -k3n | sed 's/^ignored.fl://' >reported
     check "$command reports everything that is ignored, once" cmp expected reported
 done
+cat >later.fl <<'END'
+!window size=8;8
+    !canvas
+        for i in ..frame*20
+            !rect size=i
+        if frame > 2
+            !video
+            !rect size=3
+                !bar
+    if frame > 3
+        !video
+        !shade
+if frame == 5
+    !window
+        !vidoe
+END
+petri run later.fl --frames 8
+grep -o '^later.fl:[0-9:]*: warning' err >reported
+printf 'later.fl:%s: warning\n' 6:13 8:17 10:9 11:9 14:9 >expected
+check "a run reports ignored nodes that first appear in later frames, once" cmp expected reported
 printf '!outer a=1\n!windows3d\n' >output.fl
 petri check --werror output.fl
 check "without a window, unknown nodes are output" status_is 0
