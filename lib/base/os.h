@@ -1,7 +1,7 @@
 // os.h: the differences between operating systems.
 //
-// One of os_linux.c, os_macos.c and os_posix.c is compiled. os_posix.c uses POSIX.1-2008 alone. It has a substitute for
-// each function, or fails with the error ENOTSUP.
+// One of os_linux.c, os_macos.c and os_posix.c is compiled, the last two with os_not_linux.c. os_posix.c uses
+// POSIX.1-2008 alone. It has a substitute for each function, or fails with the error ENOTSUP.
 #pragma once
 
 #include <limits.h>

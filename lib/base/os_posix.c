@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 int os_processor_count(void) {
@@ -29,14 +28,6 @@ const int OS_SEARCH = O_SEARCH;
 const int OS_SEARCH = O_RDONLY;
 #endif
 
-int os_open_below(int folder, const char *path, int flags) {
-    (void)folder;
-    (void)path;
-    (void)flags;
-    errno = ENOSYS;
-    return -1;
-}
-
 // POSIX locks belong to the process, and closing any descriptor of the file releases them.
 bool os_lock(int file) {
     (void)file;
@@ -46,20 +37,6 @@ bool os_lock(int file) {
 
 bool os_sync(int file) {
     return fsync(file) == 0;
-}
-
-int os_open_unnamed(int folder) {
-    (void)folder;
-    errno = ENOTSUP;
-    return -1;
-}
-
-bool os_link_unnamed(int file, int folder, const char *name) {
-    (void)file;
-    (void)folder;
-    (void)name;
-    errno = ENOTSUP;
-    return false;
 }
 
 bool os_folder_path(int folder, char path[PATH_MAX]) {
@@ -93,22 +70,6 @@ bool os_program_path(char path[PATH_MAX]) {
 const char *os_program(char path[PATH_MAX]) {
     (void)path;
     return NULL;
-}
-
-void os_signal_after_parent(int signal) {
-    (void)signal;
-}
-
-static bool close_on_exec(const int ends[2]) {
-    return fcntl(ends[0], F_SETFD, FD_CLOEXEC) == 0 && fcntl(ends[1], F_SETFD, FD_CLOEXEC) == 0;
-}
-
-bool os_pipe(int ends[2]) {
-    return pipe(ends) == 0 && close_on_exec(ends);
-}
-
-bool os_socket_pair(int ends[2]) {
-    return socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0 && close_on_exec(ends);
 }
 
 #ifdef __EMSCRIPTEN__
