@@ -4,6 +4,33 @@
 #include "cli/json.h"
 #include "cli/output.h"
 
+#include <string.h>
+
+static const struct {
+    const char *code;
+    const char *text;
+} rules[] = {
+#define RULE(code, text) {code, text},
+#include "check/rule_list.h"
+};
+
+// Adds a rule of SARIF: a code, its meaning, and the page that lists all codes.
+static void add_rule(Text *out, const char *code) {
+    const char *text = NULL;
+    for (size_t i = 0; !text && i < sizeof rules / sizeof rules[0]; i++)
+        if (strcmp(rules[i].code, code) == 0)
+            text = rules[i].text;
+    text_add_c(out, "{");
+    JSON_ADD(out, "id", code);
+    if (text) {
+        text_add_c(out, ", \"shortDescription\": {");
+        JSON_ADD(out, "text", text);
+        text_add_c(out, "}");
+        JSON_ADD(out, "helpUri", PETRI_HOMEPAGE "/manual/diagnostics.html");
+    }
+    text_add_c(out, "}");
+}
+
 // Adds text and hint as one message.
 static void add_message_text(const PetriDiagnostic *diagnostic, Text *out) {
     text_add_format(out, "%s%s%s", diagnostic->text, diagnostic->hint[0] != '\0' ? "; " : "", diagnostic->hint);
@@ -67,8 +94,10 @@ static void frame_sarif(const Report *report, Text *out) {
         "{\n  \"$schema\": \"https://json.schemastore.org/sarif-2.1.0.json\",\n  \"version\": \"2.1.0\",\n"
         "  \"runs\": [{\n    \"tool\": {\"driver\": {\"name\": \"petri\", \"version\": \"%s\", \"rules\": [",
         petri_version());
-    for (size_t i = 0; i < report->codes.count; i++)
-        text_add_format(out, "%s{\"id\": \"%s\"}", i == 0 ? "" : ", ", report->codes.items[i]);
+    for (size_t i = 0; i < report->codes.count; i++) {
+        text_add_c(out, i == 0 ? "" : ", ");
+        add_rule(out, report->codes.items[i]);
+    }
     text_add_format(out, "]}},\n    \"invocations\": [{\"executionSuccessful\": %s}],\n",
                     report->incomplete ? "false" : "true");
     text_add_c(out, "    \"columnKind\": \"unicodeCodePoints\",\n    \"results\": [");

@@ -35,6 +35,8 @@ export const GROUPS = [
     ['Using petri', [
         { name: 'command', title: 'The command', about: 'Commands, examples, messages, exit status', parts: [['src/manual/command.md']] },
         { name: 'options', title: 'All commands and options', about: 'The text of petri help', made: 'options' },
+        { name: 'diagnostics', title: 'Diagnostics', about: 'What the codes of errors and warnings mean',
+            parts: [['src/manual/diagnostics.md']] },
         { name: 'view', title: 'Watching a script',
             about: 'Keys of the window; scripts that react to the pointer and keys; code sent from an editor',
             parts: [['src/manual/view.md']] },
