@@ -194,6 +194,9 @@ static bool check_schema(PetriArchive *archive) {
     sqlite3_finalize(statement);
     if (result != SQLITE_DONE)
         return archive_fail_sqlite(archive, result);
+    // The transaction that creates the tables was undone.
+    if (found == 0)
+        return archive_fail(archive, "it has no frames");
     return found == SCHEMA_COUNT ||
            archive_fail(archive, "the archive is damaged: its tables are not those of an archive");
 }

@@ -70,8 +70,13 @@ static void window_close(Display *display) {
         SDL_DestroyTexture(display->texture);
     if (display->renderer)
         SDL_DestroyRenderer(display->renderer);
-    if (display->window)
+    if (display->window) {
+        // When SDL waits, it wakes itself by an event that it sends to a window over another connection. The X server
+        // reports an error, which ends the process, if that event arrives after the window is destroyed. SDL reads the
+        // size hints before it changes them, so this waits until the server has handled what was sent earlier.
+        SDL_SetWindowResizable(display->window, SDL_FALSE);
         SDL_DestroyWindow(display->window);
+    }
     if (is_first)
         SDL_Quit();
     Display **at = &display->first->next;

@@ -372,36 +372,36 @@ for driver in software ''; do
     if [ -n "$driver" ]; then
         SDL_RENDER_DRIVER=$driver
         export SDL_RENDER_DRIVER
-        name="a second window"
+        which="a second window"
     else
         unset SDL_RENDER_DRIVER
-        name="a second window with OpenGL"
+        which="a second window with OpenGL"
     fi
     view left two.fl
-    check "$name opens" switch_to right
+    check "$which opens" switch_to right
     xdotool windowmove "$window" 0 0 # without a window manager, all windows are centred
     switch_to left
-    check "$name: the first window shows its picture" point 150 100 336699
+    check "$which: the first window shows its picture" point 150 100 336699
     switch_to right
-    check "$name has the size of its !window" size_is 200 100
-    check "$name shows its picture" point 100 50 00ff00
+    check "$which has the size of its !window" size_is 200 100
+    check "$which shows its picture" point 100 50 00ff00
     check "a window without content does not open" has_no_window empty
     switch_to right
     xdotool mousemove --window "$window" 50 50
-    check "$name has the pointer relative to its picture" point 50 50 ff0000
+    check "$which has the pointer relative to its picture" point 50 50 ff0000
     xdotool windowsize "$window" 400 200
-    check "$name is drawn in its own size" point 300 190 00ff00
+    check "$which is drawn in its own size" point 300 190 00ff00
     sed 's/color=0;1;0/color=0;0;1/' two.fl >two.tmp
     cp two.fl two.old
     mv two.tmp two.fl
-    check "$name shows changes" point 300 190 0000ff
+    check "$which shows changes" point 300 190 0000ff
     cp two.old two.fl
-    check "$name can be closed alone" eval '"$closer" "$window"; soon has_no_window right'
+    check "$which can be closed alone" eval '"$closer" "$window"; soon has_no_window right'
     switch_to left
-    check "$name: the first window remains" point 150 100 336699
+    check "$which: the first window remains" point 150 100 336699
     "$closer" "$window"
-    check "$name: closing the last window ends the view" ended 0
-    check "$name: nothing is written to standard error" [ ! -s err ]
+    check "$which: closing the last window ends the view" ended 0
+    check "$which: nothing is written to standard error" [ ! -s err ]
 done
 SDL_RENDER_DRIVER=software
 export SDL_RENDER_DRIVER
