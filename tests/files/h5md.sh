@@ -111,7 +111,7 @@ with h5py.File("linked.h5", "r+") as file:
         status=$?
         [ $ended -eq 0 ]
     }
-    ends() { timeout 2 tail --pid="$1" -s 0.05 -f /dev/null; }
+    ends() { timeout 20 tail --pid="$1" -s 0.05 -f /dev/null; }
     if command -v pgrep >/dev/null; then
         number=130
         for signal in INT TERM; do
