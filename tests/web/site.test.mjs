@@ -76,7 +76,7 @@ test('the differences from Flitter are documented, and the example runs', ways, 
     await page.locator('main .cards a', { hasText: 'Flitter' }).click();
     await page.waitForURL(/flitter\.html$/);
     const text = await page.textContent('main');
-    for (const part of ['What runs the same', 'What is missing', 'What differs'])
+    for (const part of ['Language', 'Three dimensions', 'What differs'])
         assert.ok(text.includes(part), part);
     const told = [];
     assert.equal(await eachDish(page, ({ message, colours }) => told.push([message.split('\n')[0], colours > 1])), 1);
