@@ -15,8 +15,9 @@ chmod +x "$work/petri"
 cd "$root"
 
 # The parts of tests/cli that need neither drawing nor SQLite, except those that test messages only (suggest, syntax_hints). Some need files
-# of the parts before them.
-tests/cli/run.sh "$work/petri" command streams parameters check bad_input state record golden diff new fmt link complete \
+# of the parts before them. `state` follows `record`, because it kills a run: without locks of files, the run's temporary
+# file remains, and `record` checks that there is none.
+tests/cli/run.sh "$work/petri" command streams parameters check bad_input record state golden diff new fmt link complete \
     >"$work/cli" 2>&1 &
 cli=$!
 failed=0
@@ -30,9 +31,7 @@ tests/repl/run.sh "$work/petri" >"$work/repl" 2>&1 || {
 echo "petri repl in Node.js: $(tail -n 1 "$work/repl")"
 wait "$cli" || true
 grep -q '^[0-9]* passed, [0-9]* failed$' "$work/cli" || failed=1
-# The two checks after -v fail in some runs only: a temporary file of a trajectory remains. The cause is not known yet.
-sed -n 's/^FAIL \([^:]*\).*/\1/p' "$work/cli" | sort -u |
-    grep -v -e '^a trajectory leaves no temporary files$' -e '^a full disk leaves no partial trajectory$' >"$work/found"
+sed -n 's/^FAIL \([^:]*\).*/\1/p' "$work/cli" | sort -u >"$work/found"
 grep -v '^#' "$(dirname "$0")/command_differences.txt" | sort -u >"$work/expected"
 diff "$work/expected" "$work/found" >"$work/diff" || {
     failed=1
