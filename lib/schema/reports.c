@@ -167,10 +167,9 @@ void reader_report_lint(const Reader *reader, const char *code, const SchemaRow 
 }
 
 static bool has_attr(const Schema *schema, NodeKind kind, const Symbol *name) {
-    for (int row = schema->first_row[kind]; row < schema->first_row[kind + 1]; row++)
-        if (schema->slots[row].name == name)
-            return true;
-    return false;
+    const SchemaSlot *first = schema->slots + schema->first_row[kind],
+                     *end = schema->slots + schema->first_row[kind + 1];
+    return reader_find_slot(first, end, first, name) < end;
 }
 
 void reader_report_inside(const Reader *reader) {

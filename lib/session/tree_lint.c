@@ -83,7 +83,7 @@ static bool add_pairs(SeenNodes *seen, const Node *parent, const Symbol *kind, i
     enum { MAX_DEPTH = 100 };  // deeper nodes are not drawn
     const Symbol *last = NULL; // kind of the previous child
     bool found = false;
-    for (uint32_t i = 0; i < parent->child_count && depth<MAX_DEPTH && * left> 0; i++) {
+    for (uint32_t i = 0; i < parent->child_count && depth < MAX_DEPTH && *left != 0; i++) {
         const Node *child = parent->children[i];
         --*left;
         found |= child->kind != last && add_pair(seen, kind, child->kind);

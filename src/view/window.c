@@ -169,6 +169,18 @@ static bool start_video(void) {
     return started || (!tried && driver && SDL_Init(SDL_INIT_VIDEO) == 0);
 }
 
+// Shows a window. If it is not open, writes a message, frees the display and returns NULL.
+static Display *show_opened(Display *display, bool open) {
+    if (!open) {
+        message("cannot open a window: %s", SDL_GetError());
+        window_close(display);
+        return NULL;
+    }
+    SDL_ShowWindow(display->window);
+    release_context(display);
+    return display;
+}
+
 static Display *window_open(const char *title, int width, int height, PetriPainter *painter, bool colour) {
     (void)colour;
     Display *display = memory_calloc(sizeof *display);
@@ -186,14 +198,9 @@ static Display *window_open(const char *title, int width, int height, PetriPaint
         display->renderer = new_renderer(display->window, true);
         open = display->renderer;
     }
-    if (!open) {
-        message("cannot open a window: %s", SDL_GetError());
-        window_close(display);
-        return NULL;
-    }
-    SDL_ShowWindow(display->window);
-    release_context(display);
-    window_manager_watch(display->window, &display->gone);
+    display = show_opened(display, open);
+    if (display)
+        window_manager_watch(display->window, &display->gone);
     return display;
 }
 
@@ -206,15 +213,11 @@ static Display *window_open_another(Display *first, const char *title, int width
         display->renderer = new_renderer(display->window, false);
         open = display->renderer;
     }
-    if (!open) {
-        message("cannot open a window: %s", SDL_GetError());
-        window_close(display);
-        return NULL;
+    display = show_opened(display, open);
+    if (display) {
+        display->next = first->next;
+        first->next = display;
     }
-    display->next = first->next;
-    first->next = display;
-    SDL_ShowWindow(display->window);
-    release_context(display);
     return display;
 }
 

@@ -9,6 +9,7 @@ import subprocess
 from typing import TYPE_CHECKING, Any, List, Union
 
 from .errors import MissingLibraryError
+from .systems import _optional
 
 if TYPE_CHECKING:
     from .session import Session
@@ -19,16 +20,12 @@ def write(session: Session, path: Union[str, os.PathLike], frames: int, fps: flo
     program = shutil.which("ffmpeg")
     if not program:
         raise MissingLibraryError("cannot write films: there is no program ffmpeg (Debian: ffmpeg)")
-    if frames < 1 or every < 1:
-        raise ValueError("frames and every must be at least 1")
     name = os.fspath(path)
     filters = "split[a][b];[a]palettegen[p];[b][p]paletteuse" if name.endswith(".gif") else \
         "crop=trunc(iw/2)*2:trunc(ih/2)*2,format=yuv420p"
     process = None
     try:
-        for i, frame in enumerate(session.frames(frames)):
-            if i % every:
-                continue
+        for frame in session._every(frames, every):
             pixels = session.picture(**picture).pixels[..., :3]
             if process is None:
                 rate = fps or frame.fps / every
@@ -85,20 +82,16 @@ class Animation:
 
 def animate(session: Session, frames: int, fps: float, every: int, picture: dict) -> Animation:
     """See Session.animate."""
-    if frames < 1 or every < 1:
-        raise ValueError("frames and every must be at least 1")
     pictures: List[bytes] = []
     rate = fps
-    for i, frame in enumerate(session.frames(frames)):
-        if i % every == 0:
-            rate = rate or frame.fps / every
-            pictures.append(session.picture(**picture)._repr_png_())
+    for frame in session._every(frames, every):
+        rate = rate or frame.fps / every
+        pictures.append(session.picture(**picture)._repr_png_())
     return Animation(pictures, rate)
 
 
 def widget(session: Session, frames: int, picture: dict) -> Any:
     """See Session.widget."""
-    from .systems import _optional
     widgets = _optional("ipywidgets", "widget")
     image = widgets.Image(format="png")
     status = widgets.Label()

@@ -6,7 +6,7 @@ import os
 import tempfile
 import threading
 from dataclasses import dataclass
-from itertools import count
+from itertools import count, islice
 from typing import Any, Callable, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Union
 
 from . import films, trajectories, values
@@ -228,6 +228,12 @@ class Session:
         for _ in range(n):
             self.step()
             yield self.frame
+
+    def _every(self, n: int, every: int) -> Iterator[Frame]:
+        """Computes the next n frames and yields the first and every `every`-th after it."""
+        if n < 1 or every < 1:
+            raise ValueError("frames and every must be at least 1")
+        return islice(self.frames(n), 0, None, every)
 
     @property
     def frame(self) -> Frame:

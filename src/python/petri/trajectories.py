@@ -53,13 +53,9 @@ class Trajectory:
 
 def record(session: Session, name: str, frames: int, every: int, energies: bool) -> Trajectory:
     """See Session.record."""
-    if frames < 1 or every < 1:
-        raise ValueError("frames and every must be at least 1")
     rows: dict[Any, int] = {}
     number, time, kinetic, potential, parts = [], [], [], [], []
-    for i, frame in enumerate(session.frames(frames)):
-        if i % every:
-            continue
+    for frame in session._every(frames, every):
         system = session.systems[name]
         ids = [rows.setdefault(id, len(rows)) for id in system.ids]
         parts.append((ids, system.position.copy(), system.velocity.copy()))

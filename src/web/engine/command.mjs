@@ -2,45 +2,27 @@
 import fs from 'node:fs';
 import { isMainThread, parentPort, workerData } from 'node:worker_threads';
 import { linkFunctions } from './links.mjs';
+import { runtime } from './runtime.mjs';
 import { Exit, System } from './system.mjs';
 
-const LEFT = Symbol('longjmp');
 const ENOSYS = 52;
 
 // Runs the command until it ends. `options` are those of System. Returns { status, signal }.
 export function runCommand(module, options) {
-    let wasm, high = 0;
     const system = new System(options);
-    // Functions that use setjmp call other functions through this wrapper, which catches longjmp.
-    const invoke = (index, ...values) => {
-        const stack = wasm.stackSave();
-        try {
-            return wasm.__indirect_function_table.get(index)(...values);
-        } catch (error) {
-            if (error !== LEFT)
-                throw error;
-            wasm.stackRestore(stack);
-            wasm.setThrew(1, 0);
-        }
-    };
+    const find = runtime(() => system.wasm);
     const functions = {
         ...system.functions(),
         ...linkFunctions(system),
         gl_ready: () => 0, // there is no OpenGL
         gl_has: () => 0,
-        getTempRet0: () => high,
-        setTempRet0: value => (high = value),
-        emscripten_notify_memory_growth: () => {},
-        _emscripten_throw_longjmp: () => {
-            throw LEFT;
-        },
     };
     const imports = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module))
-        (imports[from] ??= {})[name] = name.startsWith('invoke_') ? invoke : functions[name] ?? (() => -ENOSYS);
-    wasm = system.wasm = new WebAssembly.Instance(module, imports).exports;
+        (imports[from] ??= {})[name] = find(name) ?? functions[name] ?? (() => -ENOSYS);
+    system.wasm = new WebAssembly.Instance(module, imports).exports;
     try {
-        wasm._start();
+        system.wasm._start();
         return { status: 0 };
     } catch (error) {
         if (error instanceof Exit)

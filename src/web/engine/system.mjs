@@ -271,22 +271,18 @@ export class System {
             throw new SystemError('EISDIR');
         if (file.random)
             return this.transfer(list, count, bytes => createRequire(import.meta.url)('node:crypto').randomFillSync(bytes).length);
-        return this.transfer(list, count, bytes => {
-            const at = position ?? file.position;
-            const moved = this.patiently(() => fs.readSync(file.real, bytes, 0, bytes.length, at));
-            if (position !== null && position !== undefined)
-                position += moved;
-            else if (file.position !== null)
-                file.position += moved;
-            return moved;
-        });
+        return this.move(fs.readSync, file, list, count, position);
     }
 
     write(descriptor, list, count, position) {
-        const file = this.find(descriptor);
+        return this.move(fs.writeSync, this.find(descriptor), list, count, position);
+    }
+
+    // Reads or writes at `position`; null or undefined: at the position of the file, which then advances.
+    move(operation, file, list, count, position) {
         return this.transfer(list, count, bytes => {
             const at = position ?? file.position;
-            const moved = this.patiently(() => fs.writeSync(file.real, bytes, 0, bytes.length, at));
+            const moved = this.patiently(() => operation(file.real, bytes, 0, bytes.length, at));
             if (position !== null && position !== undefined)
                 position += moved;
             else if (file.position !== null)

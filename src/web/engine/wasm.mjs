@@ -1,12 +1,11 @@
 // wasm.mjs: loads engine.wasm in pages, workers and Node.js without emscripten's runtime. The engine needs only a clock from the system,
 // and calls JavaScript through the functions of src/web/host.h.
+import { runtime } from './runtime.mjs';
 import { Screen } from './webgl.mjs';
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 
-// Thrown by longjmp, which the engine uses to abort a frame.
-const LEFT = Symbol('longjmp');
 const ENOSYS = 52, EBADF = 8;
 
 // Compiles the engine from bytes, a WebAssembly.Module, a URL or a Response. Default: engine.wasm next to this file.
@@ -40,26 +39,8 @@ export function instantiate(module, host) {
         const all = bytes();
         return decoder.decode(all.subarray(at, length === undefined ? all.indexOf(0, at) : at + length));
     };
-    // Functions that use setjmp call other functions through this wrapper, which catches longjmp.
-    const invoke = (index, ...args) => {
-        const stack = wasm.stackSave();
-        try {
-            return wasm.__indirect_function_table.get(index)(...args);
-        } catch (error) {
-            if (error !== LEFT)
-                throw error;
-            wasm.stackRestore(stack);
-            wasm.setThrew(1, 0);
-        }
-    };
-    let high = 0;
+    const find = runtime(() => wasm);
     const system = {
-        getTempRet0: () => high,
-        setTempRet0: value => (high = value),
-        emscripten_notify_memory_growth: () => {},
-        _emscripten_throw_longjmp: () => {
-            throw LEFT;
-        },
         proc_exit: code => {
             throw new Error(`it exited with status ${code}`);
         },
@@ -82,7 +63,7 @@ export function instantiate(module, host) {
     const imports = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module)) {
         const none = from === 'env' ? () => -ENOSYS : () => EBADF; // there is no file system
-        const given = from === 'petri' ? host[name] : name.startsWith('invoke_') ? invoke : system[name] ?? screen.functions[name];
+        const given = from === 'petri' ? host[name] : find(name) ?? system[name] ?? screen.functions[name];
         (imports[from] ??= {})[name] = given ?? none;
     }
     wasm = new WebAssembly.Instance(module, imports).exports;
