@@ -50,4 +50,4 @@ Str diag_text(const Diag *diag);
 // ends with a newline.
 void diag_format(Text *out, const Diag *diag, bool colour);
 // Returns `text (FILE:LINE)`, the format used in the `?` section of a printed frame.
-Str diag_one_line(Arena *arena, const Diag *diag);
+Str diag_one_line(Arena *arena, const Diag *diag) PRIVATE_API(diag_one_line);

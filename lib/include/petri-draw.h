@@ -392,6 +392,12 @@ PETRI_API PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *pa
 PETRI_API PetriStatus petri_picture_encode(PetriPicture *picture, PetriPainter *painter, const char *suffix,
                                            PetriWriteCallback *write, void *user_data);
 
+// Writes how many triangles the solids, distance fields and `!model` nodes of the last frame's 3-D scenes have: a line
+// with the sum, then one line for each different model, with its position in the script and its problems. Writes
+// nothing if there are none. Returns PETRI_INVALID if no frame has been computed or if `write` returned false, and
+// PETRI_LIMIT_EXCEEDED, with a diagnostic, if the script's limits do not suffice.
+PETRI_API PetriStatus petri_print_meshes(PetriSession *session, PetriWriteCallback *write, void *user_data);
+
 // Returns true if a shader was left out of the picture because it is invalid, crashed the driver or exceeded a limit.
 PETRI_API bool petri_picture_lacks_shader(const PetriPicture *picture);
 

@@ -45,6 +45,8 @@ static int check_scripts(Check *check, const CommandContext *host, const Options
             counts->rejected += replay_check(options, session) != PETRI_OK;
         else if (!petri_archive_is(path)) // check_archives checks archives
             counts->rejected += script_check(session, path) != PETRI_OK;
+        if (options->stats && host->print_meshes && (options->replayed || !petri_archive_is(path)))
+            host->print_meshes(host, options, path);
     }
     counts->errors += petri_diagnostic_count(session, PETRI_ERROR);
     counts->warnings += petri_diagnostic_count(session, PETRI_WARNING);
@@ -124,6 +126,7 @@ const Command CHECK_COMMAND = {
                "without drawing, printing or storing anything. Exits with 1 if there are errors.",
     .examples = "  petri check dish.fl\n"
                 "  petri check --werror .                          all scripts in this folder, for CI\n"
+                "  petri check --stats solids.fl                   also count the triangles of solids\n"
                 "  petri check --format=sarif . >petri.sarif       a report for code hosting sites\n",
     .missing_operand = "nothing to check",
     .options = FOR_CHECK,

@@ -51,6 +51,8 @@ struct CommandContext {
     const char *invoked_as;                 // argv[0], for hints that show commands
     const char *cpu;                        // PetriOptions.cpu
     const struct PlotSupport *plot_support; // plans and plots of petri sweep; NULL: this program has none
+    // Prints the triangles of a checked script (check/meshes.c). NULL: this program cannot draw.
+    void (*print_meshes)(const CommandContext *context, const struct Options *options, const char *path);
     // Runs petri lsp. NULL in all programs except petri-lsp.
     int (*run_lsp)(const CommandContext *context, struct Options *options);
     const struct PetriRanks *ranks;   // the processes (ranks) that mpirun has started; NULL: a single process

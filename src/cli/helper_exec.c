@@ -20,6 +20,11 @@ enum { HAS_ALL = true };
 #else
 enum { HAS_ALL = false };
 #endif
+#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
+enum { HAS_LIBRARIES = true }; // this program draws, and reads and writes archives
+#else
+enum { HAS_LIBRARIES = false };
+#endif
 
 bool helper_exec_is_pictures_command(const char *first) {
 #ifdef PETRI_RANKS
@@ -35,16 +40,18 @@ bool helper_exec_is_pictures_command(const char *first) {
 }
 
 bool helper_exec_needs_archives(char **argv) {
-#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
-    (void)argv;
-    return false;
-#else
-    for (char **word = argv + 1; *word; word++)
+    for (char **word = argv + 1; *word && !HAS_LIBRARIES; word++)
         if (strcmp(*word, "--archive") == 0 || strncmp(*word, "--archive=", strlen("--archive=")) == 0 ||
             petri_archive_is(*word))
             return true;
     return false;
-#endif
+}
+
+bool helper_exec_needs_meshes(char **argv) {
+    for (char **word = argv + 1; *word && !HAS_LIBRARIES; word++)
+        if (strcmp(*word, "--stats") == 0)
+            return true;
+    return false;
 }
 
 bool helper_exec_forwards_unknown(void) {

@@ -151,6 +151,7 @@ OPTION(FOR_DIFF | FOR_TEST | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_R
 OPTION(FOR_DIFF | FOR_TEST | FOR_RUN, "no-batches", 0, NULL, read_flag, no_batches, "execute the iterations of loops one by one; does not change results")
 OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "show the picture in the terminal for 10 seconds, or for the length that --runtime or --frames sets; ignored without a terminal or with text output such as --print")
 OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "print timings and each system's energy at the end")
+OPTION(FOR_CHECK, "stats", 0, NULL, read_flag, stats, "print how many triangles the solids, distance fields and models of the first frame have")
 OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write all particles to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state, append to FILE")
 OPTION(FOR_RUN | FOR_VIEW, "archive", 0, "FILE", read_text, archive, "write an archive of the run, which 'petri verify' can verify, to FILE.petri")
 OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW | FOR_REPL, "from", 0, "FRAME", WHOLE(0, INT64_MAX - 1), from, "start the replay of an archive with this frame (default: the first)")

@@ -17,6 +17,7 @@
 #include "mpi/ranks.h"
 #endif
 #if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
+#include "check/meshes.h"
 #include "sweep/plot_support.h"
 #endif
 #ifdef PETRI_LSP
@@ -84,7 +85,7 @@ static int dispatch(const CommandContext *host, int argc, char **argv) {
 #endif
     bool replays = is_script || command == &RUN_COMMAND || command == &DIFF_COMMAND || command == &CHECK_COMMAND ||
                    command == &SWEEP_COMMAND;
-    if (replays && helper_exec_needs_archives(argv))
+    if ((replays && helper_exec_needs_archives(argv)) || (command == &CHECK_COMMAND && helper_exec_needs_meshes(argv)))
         return helper_exec_pictures(argv);
     if (command)
         return command_run(command, host, argc - 2, argv + 2);
@@ -179,6 +180,7 @@ int main(int argc, char **argv) {
 #endif
 #if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
     job.host.plot_support = &PLOT_SUPPORT;
+    job.host.print_meshes = check_print_meshes;
 #endif
     if (!run_on_large_stack(&job)) {
         message("cannot start a thread");

@@ -52,6 +52,33 @@ END
 petri check --werror library.fl
 check "a file that only binds names is a module, whose names count as used" status_is 0
 
+# The triangles of models.
+cat >carved.fl <<'END'
+!window size=64;64
+    !canvas3d
+        for x in ..3
+            !difference position=x;0;0
+                !box
+                !box position=0.5
+        !sdf resolution=0.5 function=(func (p) hypot(p)-0.8)
+        !trim
+            !box
+        !sphere
+END
+petri check --stats carved.fl
+check "the check of a script with models succeeds" status_is 0
+check "--stats counts the triangles of solids" has err "  !difference: 24 triangles, in 3 nodes (carved.fl:4)"
+check "--stats counts the triangles of distance fields" grep -q '^  !sdf: [1-9][0-9]* triangles (carved.fl:7)' err
+check "--stats reports problems of solids" has err "  !trim: 'normal' is missing; nothing is cut away (carved.fl:8)"
+sum=$(awk '/^  !.* triangles/ { sum += $2 * ($4 == "in" ? $5 : 1) } END { print sum }' err)
+check "--stats adds up the triangles of all nodes" has err "triangles: $sum in 5 nodes"
+petri check carved.fl
+check "without --stats, triangles are not counted" lacks err triangles
+petri check --stats --work 2k carved.fl
+check "--stats keeps to the work limit" has err "counting triangles exceeded its limit of 2048 work units"
+petri check --stats clean.fl
+check "--stats prints nothing for a script without models" lines_are err 1
+
 # Far fields of few particles.
 cat >far.fl <<'END'
 let N=N or 100
