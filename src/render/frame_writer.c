@@ -389,7 +389,8 @@ FrameWriter *frame_writer_start(bool films, double film_fps, double fps) {
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (writer->worker_count == 0) {
 #ifdef __EMSCRIPTEN__
-        message("cannot draw pictures: petri for Node.js has no drawing library; use the native petri");
+        message("cannot draw pictures: petri for Node.js draws only PNG files, with the options -o, --frame, --frames, "
+                "--every, --fps, --auto, --quiet and -D; use the native petri");
 #else
         message("cannot start a thread");
 #endif

@@ -13,6 +13,8 @@ exec node "$folder/petri/cli.mjs" "\$@"
 END
 chmod +x "$work/petri"
 cd "$root"
+# Pictures are tested by render.test.mjs, if there is a browser.
+export CHROME_PATH=none
 
 # The parts of tests/cli that need neither drawing nor SQLite, except those that test messages only (suggest, syntax_hints). Some need files
 # of the parts before them. `state` follows `record`, because it kills a run: without locks of files, the run's temporary

@@ -55,5 +55,10 @@ if (words[0] === 'view' && !words.some(word => word === '--help' || word === '-h
     if (status !== null)
         process.exit(status);
 } else {
-    runCommand(words);
+    // Without a browser or with options that this package does not support, the program reports that it cannot draw.
+    const status = words[0] === 'render' ? await (await import('./render.mjs')).render(words.slice(1)) : null;
+    if (status === null)
+        runCommand(words);
+    else
+        process.exitCode = status;
 }

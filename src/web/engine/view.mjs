@@ -1,39 +1,33 @@
 // view.mjs: `petri view SCRIPT.fl` in Node.js: serves the page from the package, shows the script there and reloads it when it changes.
-//
-// The server listens on 127.0.0.1, and its URLs begin with a random token, so that other users and other pages cannot read the script.
 import { spawn } from 'node:child_process';
-import { randomBytes } from 'node:crypto';
 import fs from 'node:fs';
-import { createServer } from 'node:http';
-import { basename, dirname, extname, join, relative, sep } from 'node:path';
+import { basename, dirname, join, relative, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { deflateRawSync } from 'node:zlib';
+import { HEADERS, startServer } from './local_server.mjs';
 
 const PACKAGE = dirname(fileURLToPath(import.meta.url));
-const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.json': 'application/json',
-    '.wasm': 'application/wasm' };
-// The page runs untrusted scripts, so it must not exchange data with other sites. The stop button needs cross-origin isolation.
-const HEADERS = {
-    'Content-Security-Policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
-        + "img-src 'self' data: blob:; connect-src 'self'; object-src 'none'; base-uri 'none'",
-    'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp',
-    'Referrer-Policy': 'no-referrer', 'X-Content-Type-Options': 'nosniff', 'Cache-Control': 'no-store',
-};
 const MAX_LINK = 100000, MAX_FILES = 200, MAX_BYTES = 1 << 20, MAX_DEPTH = 3;
 const POLL_MS = 200;
 
-// Returns the text files below a folder that a script can read, by their paths relative to the folder. Follows no symbolic links.
-export function filesBelow(folder, top = folder, depth = 0, found = {}) {
+const textOf = bytes => {
+    const text = bytes.toString();
+    return !bytes.includes(0) && Buffer.from(text).equals(bytes) ? text : null;
+};
+
+// Returns the text files below a folder that a script can read, by their paths relative to the folder. Follows no symbolic links. `read`
+// returns the value for a file's bytes and name, or null to omit the file.
+export function filesBelow(folder, read = textOf, top = folder, depth = 0, found = {}) {
     for (const entry of fs.readdirSync(folder, { withFileTypes: true })) {
         const path = join(folder, entry.name);
         if (entry.name.startsWith('.') || entry.name === 'node_modules' || Object.keys(found).length >= MAX_FILES)
             continue;
         if (entry.isDirectory() && depth < MAX_DEPTH) {
-            filesBelow(path, top, depth + 1, found);
+            filesBelow(path, read, top, depth + 1, found);
         } else if (entry.isFile() && fs.statSync(path).size <= MAX_BYTES) {
-            const bytes = fs.readFileSync(path), text = bytes.toString();
-            if (!bytes.includes(0) && Buffer.from(text).equals(bytes))
-                found[relative(top, path).replaceAll(sep, '/')] = text;
+            const value = read(fs.readFileSync(path), entry.name);
+            if (value !== null)
+                found[relative(top, path).replaceAll(sep, '/')] = value;
         }
     }
     return found;
@@ -48,8 +42,8 @@ export function linkTo(text, name) {
 }
 
 // Serves the page for a script. Returns { url, close }. `report` receives messages about later changes.
-export function serveScript(script, report = () => {}) {
-    const token = randomBytes(16).toString('hex'), prefix = `/${token}/`, name = basename(script), pages = new Set();
+export async function serveScript(script, report = () => {}) {
+    const name = basename(script), pages = new Set();
     const read = () => linkTo(fs.readFileSync(script, 'utf8'), name);
     let link = read();
     const page = fs.readdirSync(join(PACKAGE, 'page'));
@@ -67,19 +61,13 @@ export function serveScript(script, report = () => {}) {
         return file === 'petri/engine.wasm' ? fs.readFileSync(join(PACKAGE, 'engine.wasm'))
             : page.includes(file) && file !== 'offline.js' ? fs.readFileSync(join(PACKAGE, 'page', file)) : null;
     };
-    const server = createServer((request, response) => {
-        const path = request.url.split(/[?#]/)[0], file = path === prefix ? 'index.html' : path.slice(prefix.length);
-        if (!path.startsWith(prefix) || request.headers.host !== `127.0.0.1:${server.address().port}`) {
-            response.writeHead(404, HEADERS).end();
-        } else if (file === 'events') {
-            response.writeHead(200, { ...HEADERS, 'Content-Type': 'text/event-stream' }).flushHeaders();
-            pages.add(response);
-            response.on('close', () => pages.delete(response));
-        } else {
-            const content = contents(file);
-            const type = TYPES[extname(file)] ?? 'text/plain';
-            response.writeHead(content === null ? 404 : 200, { ...HEADERS, 'Content-Type': type }).end(content);
-        }
+    const server = await startServer(contents, (file, request, response) => {
+        if (file !== 'events')
+            return false;
+        response.writeHead(200, { ...HEADERS, 'Content-Type': 'text/event-stream' }).flushHeaders();
+        pages.add(response);
+        response.on('close', () => pages.delete(response));
+        return true;
     });
     const update = () => {
         try {
@@ -96,10 +84,8 @@ export function serveScript(script, report = () => {}) {
     const close = () => {
         fs.unwatchFile(script, update);
         server.close();
-        server.closeAllConnections?.();
     };
-    return new Promise((resolve, reject) => server.on('error', reject).listen(0, '127.0.0.1', () =>
-        resolve({ url: `http://127.0.0.1:${server.address().port}${prefix}`, close })));
+    return { url: server.url, close };
 }
 
 // Opens a URL in the browser if there is one.
