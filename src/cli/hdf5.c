@@ -130,6 +130,10 @@ bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *af
     SCOPED_STRING as_after = !after ? NULL : memory_strdup(after);
     char *words[] = {program, as_kind, as_path, as_after, NULL};
     *writer = (Hdf5){.process = -1, .stream = -1, .cleanup_id = -1, .pending_signal = pending_signal};
+#ifdef __EMSCRIPTEN__ // there are no processes
+    message("cannot write %s: petri for Node.js does not write HDF5; use the suffix .csv", path);
+    return false;
+#endif
     bool started = fork_writer(writer, words);
     if (!started) {
         message("cannot write %s: %s", path, strerror(errno));

@@ -169,8 +169,12 @@ bool plan_read(const char *path, TextList *words) {
 
 bool plan_read(const char *path, TextList *words) {
     (void)words;
+#ifdef __EMSCRIPTEN__
+    message("cannot read %s: petri for Node.js cannot read plans; write the options on the command line", path);
+#else
     message("cannot read %s: petri was built without libyaml; on Debian, install libyaml-dev and build petri again",
             path);
+#endif
     return false;
 }
 

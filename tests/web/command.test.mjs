@@ -102,6 +102,18 @@ test('deep recursion is reported as in the native command', () => within(work =>
     assert.notEqual(run.status, 134, run.stderr);
 }));
 
+test('plans, archives and HDF5 are reported as not supported', () => within(work => {
+    const run = (...args) => petri(args, { cwd: work }).stderr;
+    fs.writeFileSync(join(work, 'a.fl'), '!physics state=:p dimensions=1\n    !particle id=0\n');
+    fs.writeFileSync(join(work, 'plan.yaml'), 'script: a.fl\n');
+    assert.match(run('sweep', '--plan', 'plan.yaml'), /^petri: cannot read plan\.yaml: petri for Node\.js cannot read plans/);
+    const archive = run('run', 'a.fl', '--frames', '1', '--archive', 'a.petri');
+    assert.match(archive, /: petri for Node\.js has no archives; use the native petri\n$/);
+    const table = /(^|\n)petri: cannot write a\.h5: petri for Node\.js does not write HDF5; use the suffix \.csv\n$/;
+    assert.match(run('sweep', 'a.fl', '-D', 'N=1..2', '--frames', '1', '--metric', 'energy', '-o', 'a.h5'), table);
+    assert.match(run('run', 'a.fl', '--frames', '1', '--trajectory', 'a.h5'), table);
+}));
+
 test('SIGTERM ends a run with its summary', async () => {
     const options = ['--frames', '100000000', '--stats', '--print', 'hash'];
     const child = spawn('node', [cli, 'run', join(root, 'samples/dish.fl'), ...options], { stdio: ['ignore', 'pipe', 'pipe'] });

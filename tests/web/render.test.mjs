@@ -16,7 +16,8 @@ const browserTest = { ...options, timeout: 180000 };
 
 // Runs the command in `work`. Returns its status and messages.
 const render = (args, env = {}) => new Promise(resolve => {
-    const child = spawn('node', [join(folder, 'petri/cli.mjs'), 'render', ...args], { cwd: work, env: { ...process.env, TMPDIR: work, ...env } });
+    const words = [join(folder, 'petri/cli.mjs'), 'render', ...args];
+    const child = spawn('node', words, { cwd: work, env: { ...process.env, TMPDIR: work, ...env } });
     let errors = '';
     child.stderr.on('data', text => { errors += text; });
     child.on('close', status => resolve({ status, errors }));

@@ -71,8 +71,8 @@ function startBrowser(path, url) {
 export const outputName = (pattern, frame) => pattern.replace(/%(0?)(\d?)d/, (match, zero, width) =>
     String(frame).padStart(Number(width), zero ? '0' : ' '));
 
-// Reads the arguments of `petri render`. Returns the script, the output and the settings for the page, or null if this file does not support
-// them. The program, which then runs, reports the reason.
+// Reads the arguments of `petri render`. Returns the script, the output and the settings for the page, or null if this file does not
+// support them. The program, which then runs, reports the reason.
 export function readArguments(args) {
     const option = { type: 'string' };
     let values, positionals;
@@ -109,7 +109,8 @@ export function readArguments(args) {
 function readScript({ script, settings }) {
     const name = process.platform === 'win32' ? script.replaceAll('\\', '/') : script;
     const folder = dirname(fs.realpathSync(script)), prefix = name.slice(0, name.lastIndexOf('/') + 1);
-    const below = (...read) => Object.fromEntries(Object.entries(filesBelow(folder, ...read)).map(([file, value]) => [prefix + file, value]));
+    const below = read => Object.fromEntries(Object.entries(filesBelow(folder, read))
+        .map(([file, value]) => [prefix + file, value]));
     const images = below((bytes, file) => (IMAGE.test(file) ? bytes : null));
     const job = { ...settings, text: fs.readFileSync(script, 'utf8'), name, files: below(), imageNames: Object.keys(images) };
     return { job: JSON.stringify(job), images: Object.values(images) };
