@@ -76,6 +76,7 @@ MEMORY_NEEDS='command -v clang-16: clang-16 libclang-rt-16-dev'
 EDITOR_NEEDS='
 command -v nvim: neovim
 command -v npm : npm
+pkg-config --exists tree-sitter : libtree-sitter-dev
 '
 COVERAGE_NEEDS='command -v llvm-cov: llvm'
 FORMAT_NEEDS='command -v clang-format: clang-format'
@@ -121,7 +122,7 @@ STATIC_NEEDS='command -v musl-gcc: musl-tools'
 WITHOUT='-Dauto_features=disabled -Dtests=false -Ddefault_library=static'
 CLEAN_INSTALL_NEEDS='command -v debootstrap: debootstrap'
 # Libraries that meson uses if they are installed. If this set changes, build folders are configured again.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 sqlite3 json-c cmocka x11 ompi-c mpfr python3'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 sqlite3 json-c cmocka x11 ompi-c mpfr python3 tree-sitter'
 
 # missing NEEDS: prints the packages whose test commands fail.
 missing() {
@@ -157,6 +158,7 @@ libpango1.0-dev      pango        pango-devel          pango
 libpng-dev           libpng       libpng-devel         libpng
 libsdl2-dev          sdl2         SDL2-devel           sdl2
 libsqlite3-dev       sqlite       sqlite-devel         sqlite
+libtree-sitter-dev   tree-sitter  libtree-sitter-devel tree-sitter
 libxxhash-dev        xxhash       xxhash-devel         xxhash
 libyaml-dev          libyaml      libyaml-devel        libyaml
 ninja-build          ninja        ninja-build          ninja

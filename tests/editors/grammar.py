@@ -31,17 +31,8 @@ NAMES = {"variable", "parameter", "function", "property"}
 
 def by_petri(client, path):
     """Yields the position and class of each token."""
-    uri = path.as_uri()
-    client.notify("textDocument/didOpen", {"textDocument": {
-        "uri": uri, "languageId": "flitter", "version": 1, "text": path.read_bytes().decode()}})
-    data = client.of("semanticTokens/full", uri)["data"]
-    client.close(uri)
-    legend = client.server["capabilities"]["semanticTokensProvider"]["legend"]["tokenTypes"]
-    line = start = 0
-    for i in range(0, len(data), 5):
-        line, start = line + data[i], data[i + 1] + (0 if data[i] else start)
-        kind = legend[data[i + 3]]
-        yield line, start, start + data[i + 2], "name" if kind in NAMES else kind
+    for line, start, end, kind in client.tokens(path):
+        yield line, start, end, "name" if kind in NAMES else kind
 
 
 def class_of(scope):

@@ -77,6 +77,19 @@ class Client:
             self.read()
         return self.published[uri]["diagnostics"]
 
+    def tokens(self, path):
+        """Yields the line, start, end and kind of each semantic token of a file."""
+        uri = path.as_uri()
+        self.notify("textDocument/didOpen", {"textDocument": {
+            "uri": uri, "languageId": "flitter", "version": 1, "text": path.read_bytes().decode()}})
+        data = self.of("semanticTokens/full", uri)["data"]
+        self.close(uri)
+        legend = self.server["capabilities"]["semanticTokensProvider"]["legend"]["tokenTypes"]
+        line = start = 0
+        for i in range(0, len(data), 5):
+            line, start = line + data[i], data[i + 1] + (0 if data[i] else start)
+            yield line, start, start + data[i + 2], legend[data[i + 3]]
+
     def close(self, uri):
         self.notify("textDocument/didClose", {"textDocument": {"uri": uri}})
 

@@ -1,0 +1,4 @@
+; Indentation for Helix.
+[(suite) (parenthesised) (arguments) (parameters) (index)] @indent
+(suite) @extend
+[")" "]"] @outdent

@@ -1,0 +1,3 @@
+; Indentation for Neovim.
+[(suite) (parenthesised) (arguments) (parameters) (index)] @indent.begin
+[")" "]"] @indent.branch

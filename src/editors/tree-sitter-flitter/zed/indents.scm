@@ -1,0 +1,4 @@
+; Indentation for Zed.
+(suite) @indent
+(_ "(" ")" @end) @indent
+(_ "[" "]" @end) @indent

@@ -1,0 +1,49 @@
+#!/bin/sh
+# neovim.sh: tests the module `petri` and the tree-sitter grammar in Neovim. Skipped without Neovim.
+# usage: tests/editors/neovim.sh PATH-OF-PETRI HIGHLIGHTS
+
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1") || exit 2
+highlights=$(realpath "$2")
+command -v nvim >/dev/null || {
+    echo "skipped: nvim is not installed (Debian: neovim)"
+    exit 77
+}
+scratch
+export HOME="$work" XDG_CONFIG_HOME="$work" XDG_DATA_HOME="$work" XDG_STATE_HOME="$work" XDG_CACHE_HOME="$work"
+grammar=$root/src/editors/tree-sitter-flitter
+mkdir -p site/parser site/queries/flitter
+cp -r "$root/src/editors/neovim/." site/
+cp "$grammar"/queries/*.scm "$highlights" site/queries/flitter/
+${CC:-cc} -shared -fPIC -I "$grammar/src" "$grammar/src/parser.c" "$grammar/src/scanner.c" -o site/parser/flitter.so
+printf 'let speed=coz(1)\n!particle x=speed\n' >script.fl
+cat >session.lua <<END
+vim.opt.runtimepath:append('site')
+local petri = require('petri')
+petri.setup({ cmd = { [[$petri]], 'lsp' } })
+vim.cmd('edit script.fl')
+vim.wait(20000, function() return #vim.diagnostic.get(0) > 0 end, 10)
+local lines = { vim.bo.filetype, vim.diagnostic.get(0)[1].message:match('[^\n]*'),
+    tostring(vim.treesitter.highlighter.active[vim.api.nvim_get_current_buf()] ~= nil) }
+local tree = vim.treesitter.get_parser(0, 'flitter'):parse()[1]
+for _, name in ipairs({ 'highlights', 'folds' }) do
+    local query = (vim.treesitter.query.get or vim.treesitter.get_query)('flitter', name)
+    for id, node in query:iter_captures(tree:root(), 0, 0, -1) do
+        local line, column = node:range()
+        table.insert(lines, query.captures[id] .. ' ' .. line .. ':' .. column)
+    end
+end
+table.insert(lines, dofile('site/lsp/petri.lua').cmd[2]) -- for Neovim 0.11
+vim.fn.writefile(lines, 'out')
+vim.cmd('qa!')
+END
+timeout 60 nvim --headless -u NONE -S session.lua >err 2>&1 </dev/null
+status=$?
+check "Neovim exits with 0" status_is 0
+check "the file type is set, the server runs and the parser colours the script" \
+    [ "$(head -n 3 out | tr '\n' '|')" = "flitter|unbound name 'coz' is null|true|" ]
+check "the queries find a node" has out "tag 1:0"
+check "the queries find an attribute" has out "attribute 1:10"
+check "vim.lsp.enable has a configuration" [ "$(tail -n 1 out)" = lsp ]
+finish
