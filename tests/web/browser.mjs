@@ -33,7 +33,8 @@ after(async () => {
 
 // Opens a separate page, which must not log messages to the console.
 export async function visited(url, { settings = {}, prepare, ready, use, expected = /willReadFrequently/ }) {
-    const context = await world.browser.newContext({ viewport: { width: 1200, height: 800 }, ...settings });
+    // With reduced motion, scripts do not start by themselves.
+    const context = await world.browser.newContext({ viewport: { width: 1200, height: 800 }, reducedMotion: 'reduce', ...settings });
     const page = await context.newPage(), said = [];
     // Ignores the browser's advice about frequent pixel readback.
     page.on('console', message => expected.test(message.text()) || said.push(message.text()));
@@ -72,6 +73,9 @@ export const pixels = (page, selector = '#picture') => page.locator(selector).fi
         sum = (sum * 31 + data[i]) % 4294967291;
     return { sum, width: canvas.width, height: canvas.height, all: new Set(data).size };
 });
+
+export const says = (page, pattern) => page.waitForFunction(source =>
+    new RegExp(source).test(document.getElementById('message').textContent), pattern.source);
 
 export async function typed(page, text) {
     await page.click('.cm-content');

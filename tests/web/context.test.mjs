@@ -51,9 +51,10 @@ const withLoss = use => opened('', {
 
 async function loaded(page, script, frames) {
     await typed(page, script);
-    await page.click('#reset');
     await page.waitForFunction(() => document.getElementById('picture').width === 64);
-    for (let frame = await page.evaluate(() => Number(document.body.dataset.frame)); frame < frames; frame++) {
+    await page.click('#reset');
+    await atFrame(page, 0);
+    for (let frame = 0; frame < frames; frame++) {
         await page.click('#step');
         await atFrame(page, frame + 1);
     }

@@ -8,7 +8,7 @@ const TICK = 15.625; // 1/64 s in ms, so that all sums are exact
 // Returns a simulated world with a dish. Its display ticks when the test calls tick(). Its engine answers at once or, while
 // `holds` is true, collects its answers in `held`.
 function made() {
-    const world = { now: 0, waiting: [], asked: [], held: [], holds: false, frame: -1 };
+    const world = { now: 0, waiting: [], asked: [], held: [], holds: false, frame: -1, cost: 0 };
     const globals = { requestAnimationFrame: callback => world.waiting.push(callback), performance: { now: () => world.now } };
     const before = Object.fromEntries(Object.keys(globals).map(name => [name, Object.getOwnPropertyDescriptor(globalThis, name)]));
     for (const [name, value] of Object.entries(globals))
@@ -18,6 +18,7 @@ function made() {
     const worker = {
         broken: new Promise(() => {}),
         postMessage({ act, id, count, frame }) {
+            world.now += act === 'step' ? count * world.cost : 0;
             world.frame = act === 'load' ? 0 : act === 'step' ? world.frame + count : act === 'seek' ? frame : world.frame;
             world.asked.push(act === 'step' ? count : act === 'seek' ? `to ${frame}` : act);
             const data = { type: 'frame', id, frame: world.frame, lastFrame: world.frame, fps: 60, parameters: [], told: [] };
@@ -67,6 +68,20 @@ test('a slow script falls behind and does not catch up', async t => {
     assert.equal(dish.frame, 8);
     await tick(world);
     assert.equal(dish.frame, 9);
+});
+
+test('a slow script has a picture for every frame, and the rate is measured', async t => {
+    const world = await running(t), { dish } = world, rates = [];
+    dish.host.ran = rate => rates.push(rate);
+    world.cost = 200;
+    for (let i = 0; i < 12; i++)
+        await tick(world);
+    assert.ok(world.asked.every(count => count === 1), `${world.asked}`);
+    assert.ok(Math.abs(rates.at(-1) - 1000 / (200 + TICK)) < 0.5, `${rates}`);
+    world.cost = 0;
+    for (let i = 0; i < 192; i++)
+        await tick(world);
+    assert.equal(Math.round(rates.at(-1)), 60);
 });
 
 test('pausing and resuming while a frame is computed does not run twice', async t => {

@@ -177,7 +177,8 @@ test('an error is marked in the text while typing', options, () => opened('', {
         await page.waitForSelector('.cm-lintRange-error');
         await page.click('#run');
         await page.waitForSelector('#message.error');
-        assert.match(await page.textContent('#message'), /:1:/);
+        assert.equal(await page.textContent('#message'), '1 error: the last version without errors is shown.');
+        assert.match(await page.textContent('#problems'), /^1:7: error: /);
         await typed(page, '!window size=64;32\n    !canvas\n        !rect point=0;0 size=64;32 color=1;0.5;0 fill=true\n');
         await page.keyboard.press('Control+Enter');
         await page.waitForFunction(() => document.getElementById('picture').width === 64);

@@ -7,6 +7,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 export PETRI_WEB="${1:?the folder that ./dev web makes}"
 tests='engine.test.mjs command.test.mjs render.test.mjs serve.test.mjs types.test.mjs dish.test.mjs page.test.mjs context.test.mjs archive.test.mjs script.test.mjs embed.test.mjs export.test.mjs panels.test.mjs bad.test.mjs
+    live.test.mjs
     pictures.test.mjs link.test.mjs manual.test.mjs site.test.mjs'
 if [ "${2:-}" = --current ]; then
     tests=engine.test.mjs

@@ -11,7 +11,7 @@ export const CONTROLS = `
   <label>Speed <select id="speed">
     <option>0.25</option><option>0.5</option><option selected>1</option><option>2</option><option>4</option>
   </select></label>
-  <output id="number">no frame</output>
+  <output id="number">no frame</output> <output id="rate" title="Frames per second"></output>
 </div>
 <input id="time" type="range" min="0" max="0" value="0" aria-label="Frame">
 <div id="parameters" part="parameters" aria-label="Parameters" role="group"></div>`;
@@ -51,7 +51,16 @@ export class Controls {
         this.parameters.show(answer.parameters);
     }
 
+    // Shows the frames per second, and those that the script asks for if there are fewer.
+    ran(rate) {
+        const asked = this.dish.fps * this.dish.speed;
+        this.get('rate').textContent = rate === null ? ''
+            : `${rate < 9.5 ? rate.toFixed(1) : Math.round(rate)}${rate < 0.9 * asked ? ` of ${Math.round(asked)}` : ''} fps`;
+    }
+
     refresh() {
+        if (!this.dish.running)
+            this.get('rate').textContent = '';
         const { dish, get: $ } = this, loaded = dish.loaded !== null;
         $('run').textContent = dish.running ? 'Pause' : 'Run';
         $('back').disabled = !loaded || dish.frame < 1;

@@ -2,10 +2,12 @@
 import { Remote } from './engine.mjs';
 import { addImage, paint, sizeOf } from './paint.mjs';
 import { NO_ENGINE, hasEngine } from './feature_check.mjs';
+import { FIRST_SEEN } from './player.mjs';
+import { Rate } from './rate.mjs';
 
 const MAX_STEPS = 8; // maximum number of frames between two pictures; a script that would need more runs in slow motion
+const SLOW_PICTURE = 50; // ms for frames and a picture after which every frame has a picture
 const SLOW = 500; // ms after which the page offers to stop the computation
-const FIRST_SEEN = 2; // first frame in which particles are at their positions
 
 export class Dish {
     // host: the callbacks shown(answer, unsupported), failed(error, diagnostics) and changed(), which is called when the script starts or
@@ -14,7 +16,8 @@ export class Dish {
     constructor(canvas, host, { source, worker }) {
         Object.assign(this, {
             canvas, host, running: false, loaded: null, name: null, frame: -1, lastFrame: -1, fps: 60, speed: 1, behind: 0, last: 0,
-            turn: 0, incomplete: false, files: new Map(), images: new Map(), wanted: null, pressed: new Set(),
+            turn: 0, incomplete: false, replays: false, files: new Map(), images: new Map(),
+            wanted: null, pressed: new Set(), rate: new Rate(),
         });
         this.remote = hasEngine() ? new Remote(source, worker) : null;
         if (this.remote)
@@ -62,7 +65,11 @@ export class Dish {
 
     // --- pictures
 
-    draw({ picture }) {
+    // Draws a picture and returns descriptions of its unsupported parts. If the script draws nothing, clears the canvas.
+    draw({ picture, drawable = !!picture }) {
+        this.draws = drawable;
+        if (!drawable && this.canvas)
+            this.canvas.width = this.canvas.width; // eslint-disable-line no-self-assign -- clears the canvas
         if (!picture)
             return [];
         const { canvas } = this, { width, height } = sizeOf(picture);
@@ -104,10 +111,35 @@ export class Dish {
         const answer = await this.attempt('load', { text, name, changes });
         if (!answer)
             return false;
-        Object.assign(this, { loaded: text, name, incomplete: false });
+        Object.assign(this, { loaded: text, name, incomplete: false, replays: false });
         this.host.loaded?.();
         this.show(answer);
         return true;
+    }
+
+    // Takes over a changed script: state, frame number and clocks continue. Returns false if it has errors: then, the last script is kept.
+    async edit(text, name) {
+        if (this.loaded === null || this.replays || name !== this.name)
+            return this.load(text, name);
+        const answer = await this.attempt('edit', { text, name, again: !this.running });
+        if (!answer) {
+            if (this.frame <= FIRST_SEEN) // the script was loaded from scratch
+                this.loaded = null;
+            return false;
+        }
+        if (answer.applied)
+            this.loaded = text;
+        this.host.checked?.(answer);
+        if (answer.type === 'frame')
+            this.show(answer);
+        return !!answer.applied;
+    }
+
+    // Shows an empty picture until a script is loaded.
+    unload() {
+        Object.assign(this, { running: false, loaded: null, frame: -1, lastFrame: -1 });
+        this.draw({});
+        this.host.changed();
     }
 
     // Replays an archive, and returns its script, or null on failure.
@@ -117,7 +149,7 @@ export class Dish {
         if (!answer)
             return null;
         const { text, name } = answer.script;
-        Object.assign(this, { loaded: text, name, incomplete: false });
+        Object.assign(this, { loaded: text, name, incomplete: false, replays: true });
         this.host.loaded?.();
         this.show(answer);
         return answer.script;
@@ -142,7 +174,8 @@ export class Dish {
         if (this.running || this.loaded === null)
             return;
         const turn = ++this.turn;
-        Object.assign(this, { running: true, last: performance.now(), behind: 0 });
+        Object.assign(this, { running: true, last: performance.now(), behind: 0, took: 0 });
+        this.rate.begin();
         this.host.changed();
         requestAnimationFrame(now => this.tick(now, turn));
     }
@@ -152,17 +185,24 @@ export class Dish {
         this.host.changed();
     }
 
-    // Runs at the display rate. Each tick computes the frames that have become due since the last tick. After a pause, running starts a
-    // new turn, and ticks of the previous turn do nothing.
+    // Runs at the display rate. Each tick computes the frames that have become due since the last tick, or one frame if computing and
+    // drawing takes long. The engine may compute fewer, and the script then runs in slow motion. After a pause, running starts a new turn,
+    // and ticks of the previous turn do nothing.
     async tick(now, turn) {
         if (!this.running || turn !== this.turn)
             return;
         this.behind = Math.min(this.behind + Math.max(now - this.last, 0) / 1000 * this.fps * this.speed, MAX_STEPS);
         this.last = now;
-        const count = Math.floor(this.behind);
+        const count = this.took > SLOW_PICTURE ? Math.min(Math.floor(this.behind), 1) : Math.floor(this.behind), before = this.frame;
         this.behind -= count;
-        if (count > 0)
-            await this.showAnswer('step', { count });
+        if (count > 0) {
+            const answer = await this.showAnswer('step', { count }), end = performance.now();
+            this.took = end - now;
+            if (this.frame - before < count || this.took > SLOW_PICTURE)
+                this.behind = Math.min(this.behind, 1);
+            if (answer && turn === this.turn)
+                this.host.ran?.(this.rate.see(end, this.frame));
+        }
         requestAnimationFrame(later => this.tick(later, turn));
     }
 

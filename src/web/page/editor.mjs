@@ -67,33 +67,32 @@ function offset(state, line, column) {
 }
 
 export class Editor {
-    constructor(parent, { text, onChange, onRun, help }) {
+    constructor(parent, { text, onChange, onRun, onRestart, help }) {
         this.help = help;
-        this.view = new EditorView({
-            parent,
-            state: EditorState.create({
-                doc: text,
-                extensions: [
-                    lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), closeBrackets(),
-                    highlightSelectionMatches(), indentUnit.of('    '), flitter, syntaxHighlighting(colours), lintGutter(), theme,
-                    autocompletion({ override: [context => this.complete(context)] }),
-                    hoverTooltip((view, at) => this.explain(view, at)),
-                    EditorView.contentAttributes.of({ 'aria-label': 'The script', tabindex: '0' }),
-                    EditorView.updateListener.of(update => update.docChanged && onChange(this.text)),
-                    keymap.of([{ key: 'Mod-Enter', run: () => (onRun(), true), preventDefault: true }]),
-                    keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap,
-                        indentWithTab]),
-                ],
-            }),
-        });
+        this.extensions = [
+            lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), closeBrackets(),
+            highlightSelectionMatches(), indentUnit.of('    '), flitter, syntaxHighlighting(colours), lintGutter(), theme,
+            autocompletion({ override: [context => this.complete(context)] }),
+            hoverTooltip((view, at) => this.explain(view, at)),
+            EditorView.contentAttributes.of({ 'aria-label': 'The script', tabindex: '0' }),
+            EditorView.updateListener.of(update => update.docChanged && onChange(this.text)),
+            keymap.of([{ key: 'Mod-Enter', run: () => (onRun(), true), shift: () => (onRestart(), true), preventDefault: true }]),
+            keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, indentWithTab]),
+        ];
+        this.view = new EditorView({ parent, state: this.stateOf(text) });
+    }
+
+    stateOf(text) {
+        return EditorState.create({ doc: text, extensions: this.extensions });
     }
 
     get text() {
         return this.view.state.doc.toString();
     }
 
+    // Shows another script, from its start and with an empty history for undo. Does not call onChange.
     set text(text) {
-        this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+        this.view.setState(this.stateOf(text));
     }
 
     show(told) {

@@ -84,7 +84,7 @@ class PetriDish extends HTMLElement {
         const dish = this.dish = new Dish(this.get('picture'), {
             shown: (answer, left) => this.shown(answer, left), failed: (error, told) => this.failed(error, told),
             changed: () => this.changed(), loaded: () => this.say(''),
-            restored: () => this.say(''),
+            restored: () => this.say(''), ran: rate => this.controls.ran(rate),
         }, { source: engine() });
         this.controls = new Controls(this.shadowRoot, dish, options => this.ready(options));
         dish.listen();

@@ -2,21 +2,26 @@
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
 import { Editor } from './editor.mjs';
-import { ScriptSaver, savedScripts } from './saved_scripts.mjs';
-import { packLink, readLink } from './link.mjs';
+import { Live } from './live.mjs';
 import { Particle } from './particle.mjs';
 import { Plot } from './plot.mjs';
 import { Problems } from './problems.mjs';
 import { Prompt } from './prompt.mjs';
 import { SaveDialog, saveAs } from './save.mjs';
+import { ScriptSaver, savedScripts } from './saved_scripts.mjs';
 import { Table } from './table.mjs';
 import { Tabs } from './tabs.mjs';
+import { Transfer } from './transfer.mjs';
 
 const $ = id => document.getElementById(id);
 const FIRST = 'dish.fl';
+const EMPTY = 'This script draws nothing: it has no `!window`.';
 
-const encoder = new TextEncoder();
-let editor, dish, controls, problems, prompt, plot, table, particle, samples, help = [], name = FIRST;
+const encoder = new TextEncoder(), keeper = new ScriptSaver();
+
+// What the modules of the page share: the script's name, editor, dish, problems, live (live.mjs) and controls.
+const page = { name: FIRST, say, showText, openText };
+let prompt, plot, table, particle, samples, help = [], empty = false;
 
 function say(text, bad = false) {
     $('message').textContent = text;
@@ -28,29 +33,39 @@ function say(text, bad = false) {
 const host = {
     loaded() {
         say('');
-        problems.show([], name);
+        empty = false;
+        page.live.loaded();
+        page.problems.show([], page.name);
+    },
+    checked(answer) {
+        page.live.checked(answer);
     },
     shown(answer, left) {
-        problems.add(answer.told);
-        controls.show(answer);
+        if (!page.live.outdated)
+            page.problems.add(answer.told);
+        page.controls.show(answer);
         prompt.print(answer.log);
-        if (answer.picture)
-            document.title = answer.picture.title ? `${answer.picture.title} · petri` : 'petri';
+        document.title = answer.picture?.title ? `${answer.picture.title} · petri` : 'petri';
         if (left.length)
             say(unsupportedText(answer, left), answer.picture.lost);
+        if (empty !== !answer.drawable)
+            say((empty = !answer.drawable) ? EMPTY : '');
         showVerification(answer.verification);
         document.body.dataset.frame = answer.frame;
         look();
     },
+    ran(rate) {
+        page.controls.ran(rate);
+    },
     failed(error, told) {
-        problems.add(told);
-        say(errorText(error), true);
+        page.problems.add(told);
+        say(Live.describe(error) ?? errorText(error), true);
     },
     slow(is) {
         document.body.classList.toggle('busy', is);
     },
     changed() {
-        controls.refresh();
+        page.controls.refresh();
     },
     restored() {
         say('');
@@ -74,115 +89,47 @@ function look() {
         plot.refresh();
         table.refresh();
         particle.refresh();
-    }, dish.running ? 200 : 0);
-}
-
-// Loads the editor's text, unless it is already loaded and `always` is false. Returns false if the text cannot be loaded.
-async function ready({ always = false } = {}) {
-    const { text } = editor;
-    if (!always && dish.loaded === text)
-        return true;
-    problems.show([], name);
-    return dish.load(text, name);
+    }, page.dish.running ? 200 : 0);
 }
 
 // --- the editor's text
 
-const keeper = new ScriptSaver();
-let checking = 0, opening = false;
 function changed(text) {
-    if (!opening) {
-        keeper.keep(name, text);
-        if (location.hash)
-            history.replaceState(null, '', location.pathname + location.search); // the text no longer matches the link
-    }
-    clearTimeout(checking);
-    checking = setTimeout(async () => {
-        if (dish.running)
-            return;
-        const answer = await dish.attempt('check', { text, name });
-        if (answer && editor.text === text) {
-            problems.show(answer.told, name);
-            document.body.dataset.checked = String(answer.told.length);
-        }
-    }, 250);
+    keeper.keep(page.name, text);
+    if (location.hash)
+        history.replaceState(null, '', location.pathname + location.search); // the text no longer matches the link
+    page.live.changed();
 }
 
-async function openText(text, called, wanted = {}) {
-    name = called;
+// Shows a text in the editor that is not the user's own until it is edited.
+function showText(text, name) {
+    page.name = name;
     keeper.begin();
-    opening = true;
-    editor.text = text;
-    opening = false;
-    const opened = await dish.open(text, name, wanted);
-    const kind = wanted.digest ? 'digest' : 'SHA-256';
+    page.editor.text = text;
+}
+
+async function openText(text, name, wanted = {}) {
+    showText(text, name);
+    page.dish.unload();
+    page.problems.show([], name);
+    const opened = await page.dish.open(text, name, wanted), kind = wanted.digest ? 'digest' : 'SHA-256';
     if (opened?.digest)
         say(opened.same ? `Frame ${wanted.frame}: the state matches the link exactly (${kind} ${opened.digest}).`
             : `Frame ${wanted.frame}: the state differs from the link, probably because another version of petri made the link.`,
         !opened.same);
 }
 
-// --- links and files
-
-async function copyLink() {
-    const loaded = dish.loaded === editor.text && dish.frame >= 0;
-    const answer = loaded ? await dish.attempt('digest') : null;
-    const link = await packLink({ text: editor.text, name, ...(answer ?? {}) }).catch(error => say(error.message, true));
-    if (!link)
-        return;
-    history.replaceState(null, '', link);
-    const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
-    say(copied ? 'Link copied. Nothing was uploaded.' : 'The link is in the address bar.');
+async function run() {
+    if (await page.live.apply())
+        page.dish.run();
 }
 
-// Opens the script in the page's link. Returns '' on success, or the reason why no script was opened.
-async function openLink() {
-    if (location.hash.length < 2)
-        return 'no link';
-    try {
-        const linked = await readLink(location.hash);
-        await openText(linked.text, linked.name, linked);
-        return '';
-    } catch (error) {
-        say(error.message, true);
-        return error.message;
-    }
+async function restart() {
+    if (await page.live.restart())
+        page.dish.run();
 }
 
-const stem = () => name.replace(/\.fl$/, '');
-
-// Replays an archive. Its script is shown in the editor; running a changed script ends the replay.
-async function openArchive(file) {
-    const script = await dish.replay(new Uint8Array(await file.arrayBuffer()));
-    if (!script)
-        return;
-    name = script.name;
-    keeper.begin();
-    opening = true;
-    editor.text = script.text;
-    opening = false;
-    dish.run();
-}
-
-// Adds scripts and the files that they read. Opens the script that no other script refers to. If there is no such script, restarts the
-// current script if it uses the files.
-async function takeFiles(files) {
-    const archive = [...files].find(file => file.name.endsWith('.petri'));
-    if (archive)
-        return openArchive(archive);
-    for (const file of files)
-        await dish.addFile(file.name, new Uint8Array(await file.arrayBuffer()));
-    await dish.giveFiles();
-    const decoded = [...files].filter(file => file.name.endsWith('.fl'))
-        .map(file => ({ called: file.name, text: new TextDecoder().decode(dish.files.get(file.name)) }));
-    const isNamed = called => [{ called: name, text: editor.text }, ...decoded]
-        .some(other => other.called !== called && other.text.includes(called));
-    const script = decoded.find(({ called }) => !isNamed(called));
-    if (script)
-        await openText(script.text, script.called);
-    else if ([...files].some(file => editor.text.includes(file.name)))
-        await dish.open(editor.text, name);
-}
+const stem = () => page.name.replace(/\.fl$/, '');
 
 // Fills the menu with samples and recent scripts.
 function fillMenu() {
@@ -200,10 +147,7 @@ function fillMenu() {
 }
 
 function listen() {
-    $('link').onclick = copyLink;
-    $('save').onclick = () => saveAs(name, new Blob([editor.text], { type: 'text/plain' }));
-    $('open').onclick = () => $('file').click();
-    $('file').onchange = () => takeFiles($('file').files);
+    $('save').onclick = () => saveAs(page.name, new Blob([page.editor.text], { type: 'text/plain' }));
     $('samples').onchange = () => {
         const chosen = $('samples').value, own = savedScripts().find(({ when }) => String(when) === chosen);
         if (own)
@@ -218,33 +162,29 @@ function listen() {
             || (!document.documentElement.dataset.theme && matchMedia('(prefers-color-scheme: dark)').matches);
         document.documentElement.dataset.theme = dark ? 'light' : 'dark';
     };
-    document.ondragover = event => event.preventDefault();
-    document.ondrop = event => {
-        event.preventDefault();
-        takeFiles(event.dataTransfer.files);
-    };
-    addEventListener('hashchange', openLink);
 }
 
 async function begin() {
     const [before] = savedScripts();
     $('below').innerHTML = CONTROLS;
-    dish = new Dish($('picture'), host, globalThis.petriStart ?? { source: new URL('petri/engine.wasm', location.href).href });
+    const dish = page.dish = new Dish($('picture'), host,
+        globalThis.petriStart ?? { source: new URL('petri/engine.wasm', location.href).href });
     const given = await (await fetch('samples.json')).json();
     samples = given.scripts;
     for (const [file, text] of Object.entries(given.files))
         dish.files.set(file, encoder.encode(text));
-    name = before?.name ?? FIRST;
-    editor = new Editor($('editor'), {
-        text: before?.text ?? samples[FIRST], onChange: changed, onRun: () => controls.toggle(ready), help: () => help,
+    page.name = before?.name ?? FIRST;
+    page.editor = new Editor($('editor'), {
+        text: before?.text ?? samples[FIRST], onChange: changed, onRun: run, onRestart: restart, help: () => help,
     });
-    problems = new Problems($('problems'), editor);
+    page.problems = new Problems($('problems'), page.editor);
+    page.live = new Live(page);
+    page.controls = new Controls(document, dish, ({ always = false } = {}) => always ? page.live.restart() : page.live.ready());
     prompt = new Prompt(document, dish);
-    controls = new Controls(document, dish, ready);
     new SaveDialog(document, dish, stem);
     plot = new Plot(document, dish);
     table = new Table(document, dish);
-    const goTo = (file, line, column) => file === name && editor.goTo(line, column);
+    const goTo = (file, line, column) => file === page.name && page.editor.goTo(line, column);
     particle = new Particle(document, dish, goTo, () => tabs.choose($('tab-particle')));
     const tabs = new Tabs($('tabs'), panel => {
         plot.seen = panel === 'panel-plot';
@@ -252,16 +192,18 @@ async function begin() {
         table.seen = panel === 'panel-state';
         look();
     });
+    const transfer = new Transfer(page);
     dish.listen();
+    transfer.listen(document);
     listen();
     const answer = await dish.ready.catch(error => say(error.message, true));
     if (!answer)
         return;
     help = answer.help;
     await dish.giveFiles();
-    const why = await openLink();
+    const why = await transfer.openLink();
     if (why)
-        await openText(editor.text, name);
+        await openText(page.editor.text, page.name);
     if (why && location.hash)
         say(why, true);
     document.body.dataset.ready = answer.version;

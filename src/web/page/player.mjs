@@ -1,8 +1,10 @@
-// player.mjs: runs a script in the worker, with keyframes for going back, and records parameter changes.
+// player.mjs: runs a script in the worker, with keyframes for going back, and records changes of parameters and of the script.
 
 const EVERY = 20; // frames between keyframes, doubled each time when there are too many
 const MAX_KEYFRAMES = 64; // maximum number of keyframes, not counting those after parameter changes
 const MAX_BYTES = 256 << 20;
+const MAX_TIME = 1000; // ms of computing after which a frame becomes a keyframe, so that going back in a slow world takes about a second
+export const FIRST_SEEN = 2; // first frame in which particles are at their positions
 
 export class Player {
     // options: options for sessions, except files. watches: an object that is notified of every frame.
@@ -12,6 +14,7 @@ export class Player {
         this.options = options;
         this.files = {};
         this.session = null;
+        this.time = 0; // ms of computing since the last keyframe
     }
 
     // Opens a new session for a script, before frame 0. If loading fails, throws the error and keeps the current session.
@@ -79,8 +82,9 @@ export class Player {
         };
     }
 
-    // Stores the changes as a list and in a map from frames to changes. A link may have thousands of changes and a million frames, so
-    // searching the list after every frame would take too long.
+    // Stores the changes as a list and in a map from frames to changes. A change is [last frame before it, parameter, value], or, for the
+    // script, [last frame before it, null, text]. A link may have thousands of changes and a million frames, so searching the list after
+    // every frame would take too long.
     setChanges(changes) {
         this.changes = changes;
         this.changesAt = new Map();
@@ -99,6 +103,7 @@ export class Player {
     }
 
     step() {
+        const start = performance.now();
         this.torn = true; // the session has no valid frame until this step is complete
         this.session.step();
         this.needsHistory = this.session.renderIfNeeded();
@@ -112,8 +117,12 @@ export class Player {
         this.watches.see(this);
         const later = this.changesAt.get(this.frame) ?? [];
         for (const [, name, value] of later)
-            this.session.setParameter(name, value);
-        if (later.length || this.frame % this.every === 0)
+            if (name === null)
+                this.session.reload(value, this.name);
+            else
+                this.session.setParameter(name, value);
+        this.time += performance.now() - start;
+        if (later.length || this.frame % this.every === 0 || this.time > MAX_TIME)
             this.keep(later.length > 0);
     }
 
@@ -125,6 +134,7 @@ export class Player {
     }
 
     keep(changed) {
+        this.time = 0;
         const there = this.keyframes.findIndex(key => key.frame === this.frame);
         if (there >= 0) {
             if (!changed)
@@ -188,6 +198,37 @@ export class Player {
         if (this.archive)
             this.cutReplay();
         this.session.setParameter(name, value);
+        this.record(name, value);
+    }
+
+    // Replaces the script for the next and all later frames; state, frame numbers and clocks continue. If `again` is true, computes the
+    // current frame with the new script. If the script has errors, throws and keeps the old script.
+    edit(text, again) {
+        const at = this.frame;
+        if (again && (at === 0 || (at <= FIRST_SEEN && this.changes.length === 0))) { // nothing has run yet
+            this.load(text, this.name);
+            this.watches.forget(-1);
+            this.seek(at);
+            return;
+        }
+        const key = again && this.keyframes.find(({ frame }) => frame === at - 1);
+        if (key) {
+            this.session.rewind(key.snapshot);
+            this.frame = at - 1;
+        } else if (again) {
+            this.seek(at - 1);
+        }
+        try {
+            this.session.reload(text, this.name);
+            this.record(null, text);
+        } finally {
+            if (again)
+                this.seek(at);
+        }
+    }
+
+    // Records a change after the current frame: a parameter, or the script if `name` is null.
+    record(name, value) {
         const before = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));
         this.setChanges([...before, [this.frame, name, value]]);
         this.forget(this.frame);

@@ -2,6 +2,8 @@
 
 const MAX_SHOWN = 50;
 
+const isSame = (a, b) => a.file === b.file && a.line === b.line && a.column === b.column && a.text === b.text;
+
 export class Problems {
     constructor(place, editor) {
         this.place = place;
@@ -15,9 +17,11 @@ export class Problems {
         this.place.replaceChildren(...told.filter(({ level }) => level !== 'note').slice(0, MAX_SHOWN).map(problem => this.item(problem)));
     }
 
+    // Adds diagnostics that are not shown yet.
     add(told) {
-        if (told?.length)
-            this.show([...this.told, ...told]);
+        const added = told?.filter(problem => !this.told.some(other => isSame(problem, other)));
+        if (added?.length)
+            this.show([...this.told, ...added]);
     }
 
     item({ level, file, line, column, text, hint }) {

@@ -34,6 +34,10 @@ export class SaveDialog {
         const { dish, get: $ } = this;
         dish.pause();
         $('export-status').textContent = '';
+        const [picture, film, , state] = $('saving-form').elements.kind;
+        picture.disabled = film.disabled = !dish.draws;
+        if (picture.disabled && (picture.checked || film.checked))
+            state.checked = true;
         $('saving-to').value = Math.max(dish.lastFrame, Math.ceil(dish.fps * SECONDS) - 1);
         this.arrange();
         this.dialog.showModal();

@@ -1,11 +1,9 @@
 // serve.mjs FOLDER [PORT]: serves a folder on 127.0.0.1. Port 0, the default: any free port.
-import { createReadStream, statSync } from 'node:fs';
+import { statSync } from 'node:fs';
 import { createServer } from 'node:http';
-import { extname, join, normalize } from 'node:path';
+import { join, resolve, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
-
-const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css',
-    '.json': 'application/json', '.wasm': 'application/wasm' };
+import sirv from 'sirv';
 
 // The page runs untrusted scripts, so it must not exchange data with other sites.
 const HEADERS = {
@@ -15,38 +13,57 @@ const HEADERS = {
     'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp',
     // Allow <petri-dish> in pages of other sites.
     'Cross-Origin-Resource-Policy': 'cross-origin', 'Access-Control-Allow-Origin': '*',
-    'X-Content-Type-Options': 'nosniff', 'Cache-Control': 'no-cache',
+    'X-Content-Type-Options': 'nosniff',
 };
+const HOSTS = new Set(['127.0.0.1', 'localhost']); // other names may be those of other sites (DNS rebinding)
+const METHODS = new Set(['GET', 'HEAD']);
 
-// Returns the file for a request, or null if there is none. Throws an error if the URL is invalid.
-function requestedFile(folder, url) {
-    const path = normalize(decodeURIComponent(new URL(url, 'http://x').pathname));
-    const file = join(folder, path.endsWith('/') ? `${path}index.html` : path);
-    return statSync(file, { throwIfNoEntry: false })?.isFile() ? file : null;
+// Returns the path of a folder with a slash at its end if the request names a folder without it, otherwise null. Throws an error if the
+// URL is invalid.
+function folderPath(folder, url) {
+    const { pathname } = new URL(url, 'http://x'), path = resolve(join(folder, decodeURIComponent(pathname)));
+    const isFolder = path.startsWith(folder + sep) && statSync(path, { throwIfNoEntry: false })?.isDirectory();
+    return isFolder && !pathname.endsWith('/') ? `${pathname.replace(/^\/+/, '/')}/` : null;
 }
 
+// Serves a folder. The promise fails if the port cannot be used.
 export function serve(folder, port = 0) {
-    const server = createServer((request, response) => {
-        const refuse = (status, text) => response.writeHead(status, { 'Content-Type': 'text/plain' }).end(text);
-        let file;
-        try {
-            file = requestedFile(folder, request.url);
-        } catch { // an invalid %-sequence, host or NUL, or a name that is too long for the file system
-            refuse(400, 'bad request\n');
-            return;
-        }
-        if (!file) {
-            refuse(404, 'no such file\n');
-            return;
-        }
-        response.writeHead(200, { ...HEADERS, 'Content-Type': TYPES[extname(file)] ?? 'application/octet-stream' });
-        createReadStream(file).on('error', () => response.destroy()).pipe(response);
+    const refuse = (response, status, text, headers = {}) =>
+        response.writeHead(status, { 'Content-Type': 'text/plain', ...headers }).end(`${text}\n`);
+    const files = sirv(folder, {
+        dev: true, etag: true, // the files are read again for each request, because `./dev web` may have changed them
+        onNoMatch: (request, response) => refuse(response, 404, 'no such file'),
+        setHeaders: response => Object.entries(HEADERS).forEach(([name, value]) => response.setHeader(name, value)),
     });
-    return new Promise(resolve => server.listen(port, '127.0.0.1', () =>
-        resolve({ url: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() })));
+    const server = createServer((request, response) => {
+        const { method, url, headers } = request;
+        if (!HOSTS.has(headers.host?.replace(/:\d+$/, '')))
+            return refuse(response, 403, 'unknown host: open the page at 127.0.0.1 or localhost');
+        if (!METHODS.has(method))
+            return refuse(response, 405, 'only GET and HEAD are allowed', { Allow: 'GET, HEAD' });
+        try {
+            const moved = folderPath(resolve(folder), url);
+            if (moved)
+                return refuse(response, 301, `moved to ${moved}`, { Location: moved });
+            return files(request, response);
+        } catch { // an invalid %-sequence, host, NUL or range, or a name that is too long for the file system
+            return response.headersSent ? response.destroy() : refuse(response, 400, 'bad request');
+        }
+    });
+    return new Promise((done, fail) => server.on('error', fail).listen(port, '127.0.0.1', () =>
+        done({ url: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() })));
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-    const { url } = await serve(process.argv[2], Number(process.argv[3] ?? 0));
-    console.log(`petri is at ${url}; press Ctrl-C to stop the server`);
+    const [, , folder, port = '0'] = process.argv;
+    process.on('uncaughtException', error => console.error(`petri: ${error.message}`)); // a file that cannot be read
+    try {
+        const { url } = await serve(folder, Number(port));
+        console.log(`petri is at ${url}; press Ctrl-C to stop the server`);
+    } catch (error) {
+        console.error(error.code === 'EADDRINUSE'
+            ? `petri: port ${port} is in use; name another, such as ./dev web --serve ${Number(port) + 1}`
+            : `petri: cannot serve on port ${port}: ${error.message}`);
+        process.exitCode = 1;
+    }
 }

@@ -6,6 +6,7 @@ import { addImage, imageOf } from './paint.mjs';
 import { Player } from './player.mjs';
 import { StateTable, Watches } from './tables.mjs';
 
+const STEP_TIME = 30; // ms that the frames of one picture may take
 const SEEK_STEPS = 50; // frames between checks for new requests
 let engine, player, checker, told = [], flag = null, current = 0;
 
@@ -23,12 +24,19 @@ function shown(extra = {}) {
     const { session } = player;
     return {
         type: 'frame', frame: player.frame, lastFrame: player.lastFrame, time: session.frame.time, fps: session.frame.fps,
-        picture: picture(player.automatic), log: player.frame >= 0 ? session.log() : '', parameters: session.parameters,
-        verification: player.verification, told: take(), ...extra,
+        picture: picture(player.automatic), drawable: session.drawable, log: player.frame >= 0 ? session.log() : '',
+        parameters: session.parameters, verification: player.verification, told: take(), ...extra,
     };
 }
 
 const take = () => told.splice(0);
+
+// Returns the diagnostics of a script.
+function check(text, name) {
+    checker ??= engine.open({ files: player.files, shouldInterrupt });
+    Object.entries(player.files).forEach(([file, bytes]) => checker.setFile(file, bytes));
+    return checker.diagnose(text, name);
+}
 
 const acts = {
     async open({ source, flag: shared }) {
@@ -50,10 +58,17 @@ const acts = {
         Object.entries(files).forEach(([name, bytes]) => player.session?.setFile(name, bytes));
         return { type: 'done' };
     },
-    check({ text, name }) {
-        checker ??= engine.open({ files: player.files, shouldInterrupt });
-        Object.entries(player.files).forEach(([file, bytes]) => checker.setFile(file, bytes));
-        return { type: 'checked', told: checker.diagnose(text, name) };
+    check: ({ text, name }) => ({ type: 'checked', problems: check(text, name) }),
+    // Checks a changed script. If it has no errors, replaces the script of the session, and shows the current frame again if `again` is
+    // true, unless its picture depends on earlier pictures.
+    edit({ text, name, again }) {
+        const problems = check(text, name);
+        if (problems.some(({ level }) => level === 'error'))
+            return { type: 'checked', problems };
+        const draws = again && !player.needsHistory;
+        player.automatic = false;
+        player.edit(text, draws);
+        return draws ? shown({ problems, applied: true }) : { type: 'checked', problems, applied: true };
     },
     load({ text, name, changes }) {
         player.load(text, name, changes);
@@ -87,8 +102,10 @@ const acts = {
         player.step();
         return shown({ script: { text: player.text, name: player.name } });
     },
+    // Computes at least one and at most `count` frames, in about 30 ms.
     step({ count }) {
-        for (let i = 0; i < count; i++)
+        const end = performance.now() + STEP_TIME;
+        for (let i = 0; i < count && (i === 0 || performance.now() < end); i++)
             player.step();
         return shown();
     },
