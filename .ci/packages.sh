@@ -79,6 +79,8 @@ command -v npm : npm
 pkg-config --exists tree-sitter : libtree-sitter-dev
 '
 COVERAGE_NEEDS='command -v llvm-cov: llvm'
+# Meson uses ccache if it is there; several builds of .ci/run compile the same files.
+CACHE_NEEDS='command -v ccache: ccache'
 FORMAT_NEEDS='command -v clang-format: clang-format'
 TIDY_NEEDS='command -v run-clang-tidy: clang-tidy'
 CROSS_NEEDS='
