@@ -102,6 +102,7 @@ command -v node  : nodejs
 # only the engine is built.
 WEB_TEST_NEEDS="$WEB_NEEDS
 command -v chromium : chromium
+command -v firefox-esr : firefox-esr
 "
 PEER_NEEDS='
 command -v lmp   : lammps

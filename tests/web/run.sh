@@ -1,14 +1,12 @@
 #!/bin/sh
-# run.sh FOLDER [--current]: tests the output of `./dev web` in FOLDER, in Node.js and Chromium. With --current, as in
+# run.sh FOLDER [--current]: tests the output of `./dev web` in FOLDER, in Node.js, Chromium and Firefox. With --current, as in
 # `./dev test`, tests only the engine, which takes two seconds. That test is skipped if the engine is not up to date,
 # because building it takes half a minute.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 export PETRI_WEB="${1:?the folder that ./dev web makes}"
-tests='engine.test.mjs command.test.mjs render.test.mjs serve.test.mjs types.test.mjs dish.test.mjs page.test.mjs context.test.mjs archive.test.mjs script.test.mjs embed.test.mjs export.test.mjs panels.test.mjs bad.test.mjs
-    live.test.mjs
-    pictures.test.mjs link.test.mjs manual.test.mjs site.test.mjs'
+tests=$(cd "$here" && echo *.test.mjs)
 if [ "${2:-}" = --current ]; then
     tests=engine.test.mjs
     skip() {
