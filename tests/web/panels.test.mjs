@@ -1,7 +1,9 @@
 // panels.test.mjs: the prompt, plot and table, completion and help, and narrow screens.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
-import { atFrame, opened, options, seek, typed } from './browser.mjs';
+import { atFrame, opened, options, root, seek, typed } from './browser.mjs';
 
 const NOW = '!counter state=:c rate=1\n!window size=8;8\n    !canvas\n';
 
@@ -33,6 +35,81 @@ test('the prompt has definitions, errors and a history', options, () => opened('
         assert.equal(await page.inputValue('#line'), 'coss(1)');
     },
 }));
+
+const prompted = page => page.evaluate(() => document.getElementById('printed').textContent);
+
+// Enters a line, and returns what was printed after it.
+async function entered(page, line) {
+    const before = (await prompted(page)).length;
+    await page.fill('#line', line);
+    await page.press('#line', 'Enter');
+    const echo = `? ${line}\n`;
+    await page.waitForFunction(([length, text]) => {
+        const printed = document.getElementById('printed').textContent.slice(length);
+        return printed.startsWith(text) && printed.length > text.length;
+    }, [before, echo]);
+    return (await prompted(page)).slice(before + echo.length);
+}
+
+test('the prompt has the commands of petri repl', options, () => opened('', {
+    use: async page => {
+        await running(page, 'let SIZE=SIZE or 3 -- 1..9 how large\n!counter state=:c rate=1\n'
+            + '!physics state=:p dimensions=2\n    !particle id=7 position=0;0 velocity=SIZE;4\n    !drag strength=0\n'
+            + '!window size=8;8\n    !canvas\n');
+        assert.match(await entered(page, '.reset'), /^@0 time=0 beat=0\n$/);
+        await atFrame(page, 0);
+        assert.match(await entered(page, '.step 2*5'), /^@10 /);
+        await atFrame(page, 10);
+        assert.match(await entered(page, '.back'), /^@9 /);
+        assert.match(await entered(page, '.goto 30'), /^@30 /);
+        assert.match(await entered(page, '.until frame >= 40'), /^@40 /);
+        assert.match(await entered(page, '.until frame < 0 --limit 5'), /^@45 [^\n]*\nthe condition was not true within 5 frames/);
+        assert.match(await entered(page, '.run 0.1'), /^@51 /);
+        await atFrame(page, 51);
+        assert.match(await entered(page, '.back 100'), /^-- went back only 51 frames: this is the start\n@0 /);
+        assert.match(await entered(page, '.back'), /^cannot go back: this is the start\n$/);
+        await entered(page, '.step 3');
+        assert.match(await entered(page, '.state c'), /^\$:c = [^\n]*\n/);
+        assert.match(await entered(page, '.tree drag'), /^!drag strength=0\n$/);
+        assert.match(await entered(page, '.particles'), /^:p: 1 particle\nid  position  *velocity  speed\n7 .* 3;4 .* 5\n$/);
+        assert.match(await entered(page, '.energy p'), /kinetic energy {4}12\.5\n {2}momentum {10}3;4\n/);
+        assert.match(await entered(page, '.why 7'), /^:p;7: \d contribution/);
+        assert.match(await entered(page, '.set SIZE 6'), /^-- SIZE = 6 {2}\(1\.\.9\) {2}how large\n$/);
+        await page.waitForFunction(() => document.getElementById('parameter-SIZE').value === '6');
+        assert.match(await entered(page, '.parameters'), /^SIZE {2}6 {2}1\.\.9 {2}how large\n$/);
+        assert.match(await entered(page, '.tempo'), /^tempo = 120\n$/);
+        assert.match(await entered(page, '.time 2+2'), /^-- .* ms, the fastest/);
+        assert.match(await entered(page, '.help .step'), /^\.step \[N\]\n {4}compute N frames/);
+        assert.match(await entered(page, '.help polar'), /^polar\(x\)/);
+        assert.match(await entered(page, '.help'), /\.until EXPR \[--limit N\]/);
+        assert.match(await entered(page, '.drop'), /^-- 0 statements removed\n$/);
+    },
+}));
+
+test('the prompt says which commands work elsewhere, and reports an error once', options, () => opened('', {
+    use: async page => {
+        assert.match(await entered(page, '.save here'), /^\.save works only in 'petri repl'; in the page, use Export or Copy link\n$/);
+        assert.match(await entered(page, '.quit'), /^\.quit works only in 'petri repl'/);
+        assert.match(await entered(page, '.stp'), /^no such command: '\.stp'; run \.help for a list\n$/);
+        assert.match(await entered(page, '.goto'), /^\.goto needs the number of a frame\n$/);
+        assert.match(await entered(page, '.step 0'), /^not an integer >= 1: '0'\n$/);
+        assert.equal((await entered(page, '.until coss(1) --limit 2')).match(/unbound name/g).length, 1);
+        const error = await entered(page, '1 +');
+        assert.match(error, /^prompt:1:\d+: error: /);
+        assert.equal(error.match(/prompt:/g).length, 1);
+        await entered(page, '.5 + 1'); // a number, not a command
+        assert.match(await prompted(page), /\n1\.5\n$/);
+        await page.fill('#line', '.plot frame*10');
+        await page.press('#line', 'Enter');
+        await page.waitForFunction(() => /^frame\*10 = /.test(document.getElementById('plot-summary').textContent));
+    },
+}));
+
+test('the commands of the prompt are those of the command', options, async () => {
+    const { COMMANDS } = await import('../../src/web/page/commands.mjs');
+    const { prompt } = JSON.parse(readFileSync(join(root, 'build/web-tables.json'), 'utf8'));
+    assert.deepEqual(COMMANDS.map(([name, operands, help]) => ({ name, operands, help })), prompt);
+});
 
 test('watched expressions are plotted, including earlier frames', options, () => opened('', {
     use: async page => {

@@ -9,7 +9,8 @@ import { folder, options, pixels, root, visited, world } from './browser.mjs';
 const site = join(folder, 'manual'), missing = existsSync(join(site, 'index.html')) ? false : 'missing: the manual';
 const built = { skip: missing }, ways = { ...options, skip: options.skip || missing, timeout: 180000 };
 const read = name => readFileSync(join(site, name), 'utf8');
-const visit = (name, use) => visited(`${world.server.url}manual/${name}`, { ready: () => document.readyState === 'complete', use });
+const visit = (name, use, settings = {}) =>
+    visited(`${world.server.url}manual/${name}`, { settings, ready: () => document.readyState === 'complete', use });
 
 const plain = html => html.replaceAll(/<[^>]*>/g, '').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"')
     .replaceAll('&amp;', '&');
@@ -54,6 +55,16 @@ test('the tutorial has ten steps from one particle to a dish, all of which run',
         assert.equal(part.match(/<petri-dish /g)?.length, 1, `step ${number}`);
     assert.match(steps[9][0].replaceAll(/<[^>]*>/g, ''), /!anchor id=:(dish|middle|centre)/);
     assert.equal(await eachDish(page, runsWell), 10);
+}, { reducedMotion: 'reduce' }));
+
+test('the tutorial begins with a dish that moves, and without the terminal', ways, () => visit('tutorial.html', async page => {
+    const start = read('tutorial.html').match(/<h1[^]*?<h2/)[0];
+    assert.doesNotMatch(start, /terminal|\.\/dev|petri view/);
+    await page.waitForFunction(() => document.querySelector('petri-dish').frame > 5);
+    const { sum } = await pixels(page, 'petri-dish >> #picture');
+    await page.waitForFunction(() => document.querySelector('petri-dish').frame > 30);
+    assert.notEqual((await pixels(page, 'petri-dish >> #picture')).sum, sum);
+    assert.equal(await page.locator('petri-dish').nth(1).evaluate(dish => dish.running), false);
 }));
 
 test('each sample is in the gallery, draws, and has its script', ways, () => visit('gallery.html', async page => {

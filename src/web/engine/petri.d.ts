@@ -275,6 +275,8 @@ export interface Session {
     evaluate(expression: string): { text: string; number: number };
     /** Evaluates a line typed at the prompt and returns its output. Bindings and nodes persist. */
     prompt(text: string): string;
+    /** Removes the nodes that were typed at the prompt and, if `bindings` is true, also the names. Returns the number of statements. */
+    clearPrompt(bindings?: boolean): number;
     /** True if the last frame has anything to draw. */
     readonly drawable: boolean;
     /** Returns the display list of the last frame for `drawPicture`, or null if there is nothing to draw. */

@@ -342,6 +342,11 @@ export class Session {
         return this.written.join('');
     }
 
+    // Removes the nodes that were typed at the prompt and, if `bindings` is true, also the names. Returns the number of statements.
+    clearPrompt(bindings = false) {
+        return this.run(wasm => wasm.petri_prompt_clear(this.handle, bindings ? 1 : 0));
+    }
+
     // The display list of the last frame, for drawing.mjs; null if there is nothing to draw.
     displayList({ automatic = false } = {}) {
         this.run(wasm => wasm.web_picture(this.handle, 0, 0, automatic ? 1 : 0));

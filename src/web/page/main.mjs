@@ -180,7 +180,10 @@ async function begin() {
     page.problems = new Problems($('problems'), page.editor);
     page.live = new Live(page);
     page.controls = new Controls(document, dish, ({ always = false } = {}) => always ? page.live.restart() : page.live.ready());
-    prompt = new Prompt(document, dish);
+    prompt = new Prompt(document, dish, text => {
+        plot.watch([...new Set([...plot.texts, text])]);
+        tabs.choose($('tab-plot'));
+    });
     new SaveDialog(document, dish, stem);
     plot = new Plot(document, dish);
     table = new Table(document, dish);

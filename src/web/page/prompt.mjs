@@ -1,10 +1,17 @@
-// prompt.mjs: a prompt for expressions and definitions, as in `petri repl`, and its output.
+// prompt.mjs: a prompt for expressions, definitions and commands, as in `petri repl`, and its output.
 
 const LINES = 200; // maximum number of output lines
 
+// Returns what is printed for an error: its diagnostics, each once, or else its message.
+function failed(error) {
+    const told = new Map([...(error.told ?? []), ...(error.diagnostics ?? [])].map(one => [one.rendered, one]));
+    return { text: told.size ? '' : `${error.message}\n`, told: [...told.values()] };
+}
+
 export class Prompt {
-    constructor(root, dish) {
-        this.dish = dish;
+    // plot: a function that plots an expression.
+    constructor(root, dish, plot) {
+        Object.assign(this, { dish, plot });
         this.line = root.getElementById('line');
         this.printed = root.getElementById('printed');
         this.before = [];
@@ -29,9 +36,17 @@ export class Prompt {
         this.before = [...this.before.filter(old => old !== text), text];
         this.at = this.before.length;
         this.print(`? ${text}\n`);
-        const answer = await this.dish.ask('prompt', { text: `${text}\n` })
-            .catch(error => ({ text: `${error.message}\n`, told: [] }));
+        const isCommand = /^\.(?!\d)/.test(text.trim());
+        const answer = await this.dish.ask(isCommand ? 'command' : 'prompt', { text: isCommand ? text : `${text}\n` }).catch(failed);
+        if (answer.type === 'frame') {
+            this.dish.pause();
+            this.dish.show(answer);
+        }
         this.print(answer.text + answer.told.map(({ rendered }) => rendered).join(''));
+        if (answer.runs)
+            this.dish.run();
+        if (answer.plot)
+            this.plot(answer.plot);
     }
 
     print(text) {

@@ -1,5 +1,6 @@
 // worker.mjs: the engine's thread. It answers every message, one at a time, so the page knows when the thread is idle.
 import { loadEngine } from '../engine/petri.mjs';
+import { execute } from './commands.mjs';
 import { makeFilm, makeState, makeTable } from './exports.mjs';
 import { Forces } from './forces.mjs';
 import { addImage, imageOf } from './paint.mjs';
@@ -137,6 +138,10 @@ const acts = {
     hash: () => ({ type: 'hash', hash: player.session.hash() }),
     prompt({ text }) {
         return { type: 'printed', text: player.session.prompt(text), told: take() };
+    },
+    async command({ text }) {
+        const { moved, ...done } = await execute(player, text, shouldInterrupt);
+        return moved ? shown(done) : { type: 'printed', told: take(), ...done };
     },
     state: query => ({ type: 'state', ...stateTable.rows(player, query) }),
     choose: ({ x, y }) => ({ type: 'chosen', found: player.frame >= 0 && forces.choose(player, x, y) }),

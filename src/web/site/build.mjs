@@ -26,6 +26,16 @@ const modulesOf = markdown => Object.fromEntries([...markdown.matchAll(/^```flit
     .map(([, name, text]) => [name, text])
     .filter(([name]) => markdown.includes(`"${name}"`)));
 
+// Returns the text of a page with its replacements.
+function replaced(markdown, { name, replace = [] }) {
+    for (const [expression, text] of replace) {
+        if (!expression.test(markdown))
+            throw new Error(`${name}: nothing matches ${expression}`);
+        markdown = markdown.replace(expression, text);
+    }
+    return markdown;
+}
+
 const list = items => `<ul>\n${items.map(item => `<li>${item}</li>`).join('\n')}\n</ul>`;
 
 const nav = current => GROUPS.map(([title, pages]) => `<h2>${title}</h2>\n${list(pages.map(page =>
@@ -87,8 +97,8 @@ for (const page of PAGES) {
     const env = { page: page.name, names: new Set(['text', 'find', 'found', 'theme', 'columns', 'sections', 'served']), sections: [] };
     let body = '';
     for (const [file, from, to] of page.parts ?? []) {
-        const markdown = cut(readFileSync(join(root, file), 'utf8'), from, to);
-        site.examples.begin(modulesOf(markdown));
+        const markdown = replaced(cut(readFileSync(join(root, file), 'utf8'), from, to), page);
+        site.examples.begin(modulesOf(markdown), page.autoplay);
         body += site.text.render(markdown, Object.assign(env, { file }));
     }
     if (!/^<h1/.test(body))
@@ -110,9 +120,11 @@ writeFileSync(join(output, 'index.js'), `globalThis.PETRI_INDEX = ${JSON.stringi
 writeFileSync(join(output, 'examples.json'), JSON.stringify(site.examples.all));
 for (const name of ['site.css', 'site.js'])
     copyFileSync(join(here, name), join(output, name));
-await build({
-    entryPoints: [join(here, 'try.mjs')], outfile: join(output, 'try.js'), bundle: true, minify: true, format: 'esm',
-    external: ['node:fs/promises'], logLevel: 'warning',
+const bundle = (name, format) => build({
+    entryPoints: [join(here, `${name}.mjs`)], outfile: join(output, `${name}.js`), bundle: true, minify: true, format,
+    external: ['node:fs/promises'], legalComments: 'inline', logLevel: 'warning',
 });
+await bundle('try', 'esm');
+await bundle('search', 'iife');
 const count = kind => site.examples.all.filter(one => one.kind === kind || (kind === 'text' && one.kind !== 'dish')).length;
 console.log(`${PAGES.length + 1} pages, ${count('dish')} dishes, ${count('text')} other runnable examples`);

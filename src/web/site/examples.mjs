@@ -21,9 +21,9 @@ export class Examples {
             .map(name => [name.slice(0, -3), readFileSync(join(folder, name), 'utf8')]));
     }
 
-    // Begins a page. `files` contains its modules by file name.
-    begin(files) {
-        this.files = files;
+    // Begins a page. `files` contains its modules by file name. If `autoplay` is true, the first dish runs when it comes into view.
+    begin(files, autoplay = false) {
+        Object.assign(this, { files, autoplay });
     }
 
     // Returns 'dish' if the script draws something that browsers support, 'text' if it only loads, and 'none' if it has errors.
@@ -73,7 +73,9 @@ export class Examples {
     dish(text, label, env, files = []) {
         this.all.push({ page: env.page, kind: 'dish', text, files: {} });
         const given = files.length ? ` files="${escape(files.join(' '))}"` : '';
-        return `<petri-dish controls editor${given} label="${escape(label)}">`
+        const plays = this.autoplay ? ' autoplay' : '';
+        this.autoplay = false;
+        return `<petri-dish controls editor${plays}${given} label="${escape(label)}">`
             + `<pre tabindex="0" class="script">${this.coloured(text)}</pre></petri-dish>\n`;
     }
 

@@ -2,11 +2,17 @@
 
 // parts: the parts of files that form the page, each as [file, first heading, heading after the part]. Without a first heading, a part
 // starts at the beginning of the file; without a last one, it extends to the end. made: the generator in generated.mjs that adds further
-// content. about: the description in the list of pages.
+// content. about: the description in the list of pages. replace: pairs of an expression and the text that replaces it on the site.
+// autoplay: true if the first dish of the page runs when it comes into view.
 export const GROUPS = [
     ['Getting started', [
         { name: 'tutorial', title: 'Tutorial', about: 'From one particle to a dish, in ten steps that you can run on the page',
-            parts: [['samples/TUTORIAL.md']] },
+            parts: [['samples/TUTORIAL.md']], autoplay: true, replace: [
+                [/ Save each step as `cells\.fl`[^]*?the other keys\./,
+                    ' Every step has a running example on this page: change its script and press Ctrl+Enter.'],
+                [/If you have not installed petri[^]*?\n\n/,
+                    'The commands on this page are for `petri` on your computer; you need none of them here.\n\n'],
+            ] },
         { name: 'gallery', title: 'Gallery', about: 'All samples, running on the page',
             parts: [['samples/README.md', null, 'Gallery'], ['samples/README.md', 'All samples']], made: 'gallery' },
         { name: 'recipes', title: 'Recipes', about: 'Solutions to common tasks', parts: [['samples/RECIPES.md']] },

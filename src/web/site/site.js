@@ -5,26 +5,11 @@
     const THEME = 'petri.theme';
     let asked = null;
 
-    // The index is loaded at the first search. It is a script, because pages opened from a file cannot use fetch.
-    const index = () => (asked ??= new Promise((resolve, reject) => {
-        const script = Object.assign(document.createElement('script'), { src: 'index.js' });
-        script.onload = () => resolve(globalThis.PETRI_INDEX);
-        script.onerror = reject;
-        document.head.append(script);
-    }));
-
-    // Returns a score for how well a section matches the words; 0 if a word is missing.
-    function worth([, title, , text], words) {
-        const name = title.toLowerCase().replace(/[!`]|\(.*/g, ''), all = `${title} ${text}`.toLowerCase();
-        let sum = 0;
-        for (const word of words) {
-            if (!all.includes(word))
-                return 0;
-            sum += name === word ? 100 : name.startsWith(word) ? 40 : title.toLowerCase().includes(word) ? 20 : 1;
-            sum += Math.min(all.split(word).length, 9);
-        }
-        return sum;
-    }
+    // The index and the search are loaded at the first search. They are scripts, because pages opened from a file cannot use fetch.
+    const load = src => new Promise((resolve, reject) => document.head.append(
+        Object.assign(document.createElement('script'), { src, onload: resolve, onerror: reject })));
+    const searcher = () => (asked ??= Promise.all([load('index.js'), load('search.js')])
+        .then(() => globalThis.PETRI_SEARCH(globalThis.PETRI_INDEX)));
 
     // Returns an excerpt of the text around the first match.
     function around(text, words) {
@@ -36,20 +21,17 @@
     }
 
     async function search() {
-        const words = find.value.toLowerCase().replace(/[!`]/g, ' ').split(/\s+/).filter(Boolean);
-        found.hidden = words.length === 0;
+        found.hidden = !find.value.trim();
         if (found.hidden)
             return;
-        const { pages, sections } = await index();
-        const best = sections.map(section => [worth(section, words), section]).filter(([sum]) => sum > 0)
-            .sort((a, b) => b[0] - a[0]).slice(0, 15);
+        const search = await searcher(), { pages } = globalThis.PETRI_INDEX, best = search(find.value);
         const list = document.createElement('ul');
-        list.append(...best.map(([, [page, title, id, text]]) => {
+        list.append(...best.map(({ section: [page, title, id, text], terms }) => {
             const item = document.createElement('li'), link = document.createElement('a'), small = document.createElement('small');
             link.href = `${pages[page][0]}#${id}`;
             link.textContent = title === pages[page][1] ? title : `${pages[page][1]}: ${title}`;
             link.onclick = () => (found.hidden = true);
-            small.textContent = around(text, words);
+            small.textContent = around(text, terms);
             item.append(link, small);
             return item;
         }));
@@ -102,7 +84,7 @@
             await navigator.serviceWorker.ready;
             const cache = await caches.open('petri');
             const pages = [...document.querySelectorAll('nav[aria-label=Pages] a')].map(link => link.getAttribute('href'));
-            await cache.addAll(['index.html', 'index.js', 'site.css', 'site.js', 'try.js', ...pages]
+            await cache.addAll(['index.html', 'index.js', 'search.js', 'site.css', 'site.js', 'try.js', ...pages]
                 .map(name => new URL(name, location.href).href));
         }).catch(() => {});
 }
