@@ -88,6 +88,18 @@ bool texts_contain(const TextList *list, const char *text) {
     return i < list->count;
 }
 
+void texts_remove(TextList *list, const char *text) {
+    size_t kept = 0;
+    for (size_t i = 0; i < list->count; i++)
+        if (strcmp(list->items[i], text) == 0)
+            free(list->items[i]);
+        else
+            list->items[kept++] = list->items[i];
+    if (list->items)
+        list->items[kept] = NULL;
+    list->count = kept;
+}
+
 void texts_free(TextList *list) {
     while (list->count > 0)
         free(list->items[--list->count]);

@@ -29,6 +29,8 @@ typedef struct TextList {
 void texts_add(TextList *list, const char *text);
 __attribute__((format(printf, 2, 3))) void texts_add_format(TextList *list, const char *format, ...);
 bool texts_contain(const TextList *list, const char *text);
+// Removes each string that equals `text`.
+void texts_remove(TextList *list, const char *text);
 void texts_free(TextList *list);
 
 // Types for variables that are freed at the end of their block, such as `SCOPED_TEXT name = {0};` or

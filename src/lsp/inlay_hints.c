@@ -1,5 +1,4 @@
-// inlay_hints.c: inlay hints with values of constants, document colours, quick fixes, and formatting.
-#include "fmt/layout.h"
+// inlay_hints.c: inlay hints with values of constants, document colours and quick fixes.
 #include "lsp/server.h"
 
 #include <math.h>
@@ -8,22 +7,12 @@
 
 enum { MAX_HINT = 40 };
 
-static Json *text_edit(const RequestContext *request, size_t start, size_t end, Str text) {
-    Json *range = document_range(request->document, start, end, request->server->utf8);
-    return json_put(json_put(json_object_new_object(), "range", range), "newText", json_from(text));
-}
-
-// Returns the text offset of a position. `position` is the path of its JSON value in the request's parameters.
-static size_t position_offset(const RequestContext *request, const char *position) {
-    return document_offset(request->document, json_path(request->params, position), request->server->utf8);
-}
-
 // --- values of constants
 
 Json *answer_hints(const RequestContext *request, const char **problem) {
     (void)problem;
     Document *document = request->document;
-    size_t from = position_offset(request, "range.start"), to = position_offset(request, "range.end");
+    size_t from = request_offset(request, "range.start"), to = request_offset(request, "range.end");
     Json *list = json_object_new_array();
     for (size_t i = 0; i < document->name_count; i++) {
         const PetriBinding *name = &document->names[i];
@@ -125,7 +114,7 @@ Json *answer_presentations(const RequestContext *request, const char **problem) 
     (void)problem;
     static const char *const names[] = {"red", "green", "blue"};
     const Document *document = request->document;
-    size_t start = position_offset(request, "range.start"), end = position_offset(request, "range.end");
+    size_t start = request_offset(request, "range.start"), end = request_offset(request, "range.end");
     const Json *colour = json_get(request->params, "color");
     double rgb[3], hsv[3], alpha = json_object_get_double(json_get(colour, "alpha"));
     for (int i = 0; i < 3; i++)
@@ -143,7 +132,7 @@ Json *answer_presentations(const RequestContext *request, const char **problem) 
     else if (alpha < 1)
         text_add_format(&label, ";%g", round(alpha * 1000) / 1000);
     Json *item = json_put_text(json_object_new_object(), "label", label.bytes), *list = json_object_new_array();
-    json_put(item, "textEdit", text_edit(request, start, end, text_str(&label)));
+    json_put(item, "textEdit", request_edit(request, start, end, text_str(&label)));
     json_object_array_add(list, item);
     return list;
 }
@@ -212,7 +201,7 @@ static void add_action(const RequestContext *request, Json *list, const Document
     SCOPED_TEXT title = {0};
     text_add_format(&title, "write %.*s", STR_ARGS(meant));
     Json *edits = json_object_new_array(), *item = json_put_text(json_object_new_object(), "title", title.bytes);
-    json_object_array_add(edits, text_edit(request, start, end, meant));
+    json_object_array_add(edits, request_edit(request, start, end, meant));
     Json *changes = json_put(json_object_new_object(), request->document->uri, edits);
     json_put_true(json_put_text(item, "kind", "quickfix"), "isPreferred");
     json_object_array_add(list, json_put(item, "edit", json_put(json_object_new_object(), "changes", changes)));
@@ -221,7 +210,7 @@ static void add_action(const RequestContext *request, Json *list, const Document
 Json *answer_actions(const RequestContext *request, const char **problem) {
     (void)problem;
     Document *document = request->document;
-    size_t from = position_offset(request, "range.start"), to = position_offset(request, "range.end");
+    size_t from = request_offset(request, "range.start"), to = request_offset(request, "range.end");
     Json *list = json_object_new_array();
     if (document->unchecked && !document->exceeded)
         diagnostics_publish(request->server, document);
@@ -230,32 +219,4 @@ Json *answer_actions(const RequestContext *request, const char **problem) {
         if (document->diagnostics.items[i].start <= to && document->diagnostics.items[i].end >= from)
             add_action(request, list, &document->diagnostics.items[i]);
     return list;
-}
-
-// --- formatting
-
-// Returns a single edit that replaces the changed lines. Does not format a script with errors.
-Json *answer_format(const RequestContext *request, const char **problem) {
-    (void)problem;
-    const Document *document = request->document;
-    PetriSession *session = request->server->session;
-    Str text = {document->text.bytes, document->text.len};
-    SCOPED_TEXT out = {0};
-    if (!session || !layout_text(session, text, &out) || !layout_same(session, document->path, text, text_str(&out)))
-        return NULL;
-    size_t start = 0, end = 0, max = text.len < out.len ? text.len : out.len;
-    while (start < max && text.bytes[start] == out.bytes[start])
-        start++;
-    while (start > 0 && text.bytes[start - 1] != '\n')
-        start--;
-    while (end < max - start && text.bytes[text.len - 1 - end] == out.bytes[out.len - 1 - end])
-        end++;
-    while (end > 0 && text.bytes[text.len - end] != '\n')
-        end--;
-    Json *edits = json_object_new_array();
-    if (text.len != out.len || start + end < text.len) {
-        json_object_array_add(
-            edits, text_edit(request, start, text.len - end, (Str){out.bytes + start, out.len - end - start}));
-    }
-    return edits;
 }

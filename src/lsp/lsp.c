@@ -149,6 +149,43 @@ static void check_all(Server *server, const Json *params) {
         server->documents[i]->unchecked = true;
 }
 
+// --- folders
+
+static void add_root(Server *server, const char *uri) {
+    SCOPED_STRING path = !uri ? NULL : uri_path(uri);
+    if (path) {
+        SCOPED_STRING canonical = path_canonical(path);
+        texts_add(&server->roots, canonical);
+    }
+}
+
+static void remove_root(Server *server, const char *uri) {
+    SCOPED_STRING path = !uri ? NULL : uri_path(uri);
+    if (path) {
+        SCOPED_STRING canonical = path_canonical(path);
+        texts_remove(&server->roots, canonical);
+    }
+}
+
+// Calls `change` for each folder of a list. Returns the number of folders.
+static size_t for_each_folder(Server *server, const Json *folders, void (*change)(Server *server, const char *uri)) {
+    size_t count = json_object_is_type(folders, json_type_array) ? json_object_array_length(folders) : 0;
+    for (size_t i = 0; i < count; i++)
+        change(server, json_text(json_object_array_get_idx(folders, i), "uri"));
+    return count;
+}
+
+static void add_roots(Server *server, const Json *params) {
+    if (for_each_folder(server, json_get(params, "workspaceFolders"), add_root) == 0)
+        add_root(server, json_text(params, "rootUri"));
+}
+
+static void change_folders(Server *server, const Json *params) {
+    const Json *event = json_get(params, "event");
+    for_each_folder(server, json_get(event, "removed"), remove_root);
+    for_each_folder(server, json_get(event, "added"), add_root);
+}
+
 static void ignore_notification(Server *server, const Json *params) {
     (void)server;
     (void)params;
@@ -158,9 +195,13 @@ static const struct {
     const char *method;
     void (*handle)(Server *server, const Json *params);
 } notifications[] = {
-    {"initialized", ignore_notification},        {"textDocument/didOpen", open_document},
-    {"textDocument/didChange", change_document}, {"textDocument/didClose", close_document},
-    {"textDocument/didSave", check_all},         {"workspace/didChangeWatchedFiles", check_all},
+    {"initialized", ignore_notification},
+    {"textDocument/didOpen", open_document},
+    {"textDocument/didChange", change_document},
+    {"textDocument/didClose", close_document},
+    {"textDocument/didSave", check_all},
+    {"workspace/didChangeWatchedFiles", check_all},
+    {"workspace/didChangeWorkspaceFolders", change_folders},
 };
 
 // --- requests
@@ -186,6 +227,9 @@ static const struct {
     {"textDocument/colorPresentation", answer_presentations, NULL},
     {"textDocument/codeAction", answer_actions, "codeActionProvider"},
     {"textDocument/formatting", answer_format, "documentFormattingProvider"},
+    {"textDocument/rangeFormatting", answer_range_format, "documentRangeFormattingProvider"},
+    {"textDocument/documentLink", answer_links, NULL},
+    {"workspace/symbol", answer_workspace_symbols, "workspaceSymbolProvider"},
 };
 
 static Json *character_array(const char *list) {
@@ -206,26 +250,12 @@ static Json *capabilities(const Server *server) {
              json_put(json_object_new_object(), "triggerCharacters", character_array("!$:'\"/")));
     json_put(all, "signatureHelpProvider",
              json_put(json_object_new_object(), "triggerCharacters", character_array("(,")));
+    json_put(all, "documentLinkProvider", json_object_new_object());
+    Json *folders = json_put_true(json_put_true(json_object_new_object(), "supported"), "changeNotifications");
+    json_put(all, "workspace", json_put(json_object_new_object(), "workspaceFolders", folders));
     json_put(all, "renameProvider", json_put_true(json_object_new_object(), "prepareProvider"));
     return json_put(all, "semanticTokensProvider",
                     json_put_true(json_put(json_object_new_object(), "legend", tokens_legend()), "full"));
-}
-
-static void add_root(Server *server, const char *uri) {
-    SCOPED_STRING path = !uri ? NULL : uri_path(uri);
-    if (path) {
-        SCOPED_STRING canonical = path_canonical(path);
-        texts_add(&server->roots, canonical);
-    }
-}
-
-static void add_roots(Server *server, const Json *params) {
-    Json *folders = json_get(params, "workspaceFolders");
-    size_t count = json_object_is_type(folders, json_type_array) ? json_object_array_length(folders) : 0;
-    for (size_t i = 0; i < count; i++)
-        add_root(server, json_text(json_object_array_get_idx(folders, i), "uri"));
-    if (count == 0)
-        add_root(server, json_text(params, "rootUri"));
 }
 
 static Json *initialize(Server *server, const Json *params) {
@@ -245,9 +275,12 @@ static bool answer_request(Server *server, RequestHandler *ask, Json *id, const 
     RequestContext request = {.server = server,
                               .document = server_document(server, json_text(json_get(params, "textDocument"), "uri")),
                               .params = params};
-    const char *problem = !request.document ? "the document is not open" : NULL;
+    bool needs_document = ask != answer_workspace_symbols;
+    const char *problem = needs_document && !request.document ? "the document is not open" : NULL;
     Json *result = NULL;
-    if (!problem) {
+    if (!problem && !needs_document) {
+        result = ask(&request, &problem);
+    } else if (!problem) {
         server_read(server, request.document);
         request.offset = document_offset(request.document, json_get(params, "position"), server->utf8);
         result = ask(&request, &problem);

@@ -64,6 +64,28 @@ Json *answer_definition(const RequestContext *request, const char **problem) {
     return !result ? file_location(request) : result;
 }
 
+// --- links
+
+Json *answer_links(const RequestContext *request, const char **problem) {
+    (void)problem;
+    const Document *document = request->document;
+    Json *list = json_object_new_array();
+    for (size_t i = 0; i < document->link_count; i++) {
+        const Link *link = &document->links[i];
+        const PetriToken *token = &document->tokens[link->token];
+        bool own = false;
+        Document *file = server_file(request->server, link->path, document, &own);
+        if (file) {
+            Json *range = document_range(document, token->start, token->end, request->server->utf8);
+            Json *item = json_put(json_object_new_object(), "range", range);
+            json_object_array_add(list, json_put_text(item, "target", file->uri));
+        }
+        if (own)
+            document_free(file);
+    }
+    return list;
+}
+
 // --- references
 
 typedef struct Use {

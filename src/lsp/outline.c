@@ -1,6 +1,6 @@
-// outline.c: document symbols, folding ranges and semantic tokens.
+// outline.c: symbols of documents and of the workspace, folding ranges and semantic tokens.
 #include "cli/help.h"
-#include "lsp/server.h"
+#include "lsp/workspace.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +9,7 @@
 
 // SymbolKind of the protocol.
 enum { AS_MODULE = 2, AS_FUNCTION = 12, AS_VARIABLE = 13, AS_OBJECT = 19 };
+enum { MAX_SYMBOLS = 1000 }; // of the workspace
 
 // Returns the offset of the end of the statement that a token begins. The end includes the block of the statement.
 static size_t block_end(const Document *document, size_t token) {
@@ -31,16 +32,24 @@ static Json *symbol(const RequestContext *request, Str name, int kind, size_t st
     return json_put(item, "selectionRange", document_range(request->document, at, at_end, utf8));
 }
 
+// Returns the SymbolKind of a name that is bound at the top level, else 0.
+static int symbol_kind(const Document *document, const PetriBinding *name) {
+    if (name->depth > 0 || name->scope_end < document->text.len)
+        return 0;
+    return name->kind == PETRI_NAME_FUNC     ? AS_FUNCTION
+           : name->kind == PETRI_NAME_LET    ? AS_VARIABLE
+           : name->kind == PETRI_NAME_IMPORT ? AS_MODULE
+                                             : 0;
+}
+
 Json *answer_symbols(const RequestContext *request, const char **problem) {
     (void)problem;
     const Document *document = request->document;
     Json *list = json_object_new_array();
     for (size_t i = 0; i < document->name_count; i++) {
         const PetriBinding *name = &document->names[i];
-        bool top = name->depth == 0 &&
-                   (name->kind == PETRI_NAME_LET || name->kind == PETRI_NAME_FUNC || name->kind == PETRI_NAME_IMPORT);
-        int kind = name->kind == PETRI_NAME_FUNC ? AS_FUNCTION : name->kind == PETRI_NAME_LET ? AS_VARIABLE : AS_MODULE;
-        if (top && name->scope_end >= document->text.len) {
+        int kind = symbol_kind(document, name);
+        if (kind != 0) {
             Str text = document_slice(document, name->start, name->end);
             json_object_array_add(
                 list, symbol(request, text, kind, name->value_start, name->value_end, name->start, name->end));
@@ -59,6 +68,42 @@ Json *answer_symbols(const RequestContext *request, const char **problem) {
             json_object_array_add(list, item);
         }
     }
+    return list;
+}
+
+static char lower(char c) {
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+// Returns true if `name` contains the letters of the query in this order, in upper or lower case.
+static bool matches(Str name, const char *query) {
+    for (size_t i = 0; i < name.len && *query != '\0'; i++)
+        if (lower(name.bytes[i]) == lower(*query))
+            query++;
+    return *query == '\0';
+}
+
+Json *answer_workspace_symbols(const RequestContext *request, const char **problem) {
+    (void)problem;
+    const char *query = json_text(request->params, "query");
+    Json *list = json_object_new_array();
+    Workspace workspace;
+    workspace_open_all(&workspace, request->server);
+    for (size_t file = 0; file < workspace.count; file++) {
+        const Document *document = workspace.documents[file];
+        for (size_t i = 0; i < document->name_count && json_object_array_length(list) < MAX_SYMBOLS; i++) {
+            const PetriBinding *name = &document->names[i];
+            int kind = symbol_kind(document, name);
+            Str text = document_slice(document, name->start, name->end);
+            if (kind == 0 || kind == AS_MODULE || !matches(text, query ? query : ""))
+                continue;
+            Json *item = json_put_number(json_put(json_object_new_object(), "name", json_from(text)), "kind", kind);
+            Json *range = document_range(document, name->start, name->end, request->server->utf8);
+            Json *place = json_put(json_put_text(json_object_new_object(), "uri", document->uri), "range", range);
+            json_object_array_add(list, json_put(item, "location", place));
+        }
+    }
+    workspace_close(&workspace);
     return list;
 }
 

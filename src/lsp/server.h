@@ -52,7 +52,7 @@ void diagnostics_withdraw(Server *server, Document *document);
 // The parameters of a request.
 typedef struct RequestContext {
     Server *server;
-    Document *document;
+    Document *document; // NULL: the request is about the workspace
     const Json *params;
     size_t offset; // offset of params.position; 0: the request has no position
 } RequestContext;
@@ -62,7 +62,12 @@ typedef struct RequestContext {
 typedef Json *RequestHandler(const RequestContext *request, const char **problem);
 RequestHandler answer_completion, answer_hover, answer_signature, answer_definition, answer_references,
     answer_highlight, answer_prepare_rename, answer_rename, answer_symbols, answer_folding, answer_tokens, answer_hints,
-    answer_colours, answer_presentations, answer_actions, answer_format;
+    answer_colours, answer_presentations, answer_actions, answer_format, answer_range_format, answer_links,
+    answer_workspace_symbols;
+// Returns a TextEdit that replaces a part of the document.
+Json *request_edit(const RequestContext *request, size_t start, size_t end, Str text);
+// Returns the text offset of a position. `position` is the path of its JSON value in the request's parameters.
+size_t request_offset(const RequestContext *request, const char *position);
 // Returns the names of the classes and modifiers of semantic tokens, as announced in the server's capabilities.
 Json *tokens_legend(void);
 

@@ -95,11 +95,12 @@ static void find_targets(Workspace *workspace) {
     }
 }
 
-// Adds a script if it may contain imports or includes.
+// Adds a script if it may contain imports or includes, or if all scripts are searched for.
 static void add_candidate(Workspace *workspace, const char *path) {
     SCOPED_TEXT text = {0};
-    if (find_document(workspace, path) != SIZE_MAX || text_read_file(&text, path, SERVER_MAX_FILE_BYTES) ||
-        text.len == 0 || (!strstr(text.bytes, "import") && !strstr(text.bytes, "%include")))
+    if (find_document(workspace, path) != SIZE_MAX || workspace->count >= MAX_FILES ||
+        text_read_file(&text, path, SERVER_MAX_FILE_BYTES) || text.len == 0 ||
+        (!workspace->all && !strstr(text.bytes, "import") && !strstr(text.bytes, "%include")))
         return;
     SCOPED_STRING uri = uri_of(path);
     add_document(workspace, document_new(uri, text_str(&text), -1), true, SIZE_MAX);
@@ -123,11 +124,16 @@ static void search_folder(Workspace *workspace, const char *folder, unsigned dep
         closedir(entries);
 }
 
-static void search_workspace(Workspace *workspace, const Document *document) {
+static void search_roots(Workspace *workspace) {
     const TextList *roots = &workspace->server->roots;
     workspace->files_left = (size_t)10 * MAX_FILES;
     for (size_t i = 0; i < roots->count; i++)
         search_folder(workspace, roots->items[i], MAX_FOLDERS);
+}
+
+static void search_workspace(Workspace *workspace, const Document *document) {
+    const TextList *roots = &workspace->server->roots;
+    search_roots(workspace);
     Str folder = path_directory(str_from(document->canonical));
     if (roots->count == 0 && document->is_file && folder.len > 1) {
         SCOPED_STRING own = memory_strndup(folder.bytes, folder.len - 1);
@@ -146,6 +152,14 @@ void workspace_open(Workspace *workspace, Server *server, Document *document, bo
     follow_links(workspace);
     drop_unconnected(workspace);
     find_targets(workspace);
+}
+
+void workspace_open_all(Workspace *workspace, Server *server) {
+    *workspace = (Workspace){.server = server, .all = true};
+    for (size_t i = 0; i < server->document_count; i++)
+        add_document(workspace, server->documents[i], false, SIZE_MAX);
+    if (!server->access.no_files)
+        search_roots(workspace);
 }
 
 void workspace_close(Workspace *workspace) {

@@ -25,6 +25,7 @@ typedef struct Workspace {
     size_t *main;         // for each document: index of the script whose chain of links led to it; itself if none did
     bool *included;       // for each document: true if another document includes it
     size_t count;
+    bool all;          // true if scripts without imports and includes are also searched for
     size_t files_left; // number of directory entries that the search may still visit before it stops
 } Workspace;
 
@@ -32,6 +33,8 @@ typedef struct Workspace {
 // the scripts in the editor's folders, or in the document's folder if the editor has none. Finally drops every document
 // that is not connected with `document` by a chain of imports and includes.
 void workspace_open(Workspace *workspace, Server *server, Document *document, bool whole);
+// Opens the editor's open documents and all scripts in the editor's folders.
+void workspace_open_all(Workspace *workspace, Server *server);
 void workspace_close(Workspace *workspace);
 // Replaces the text of a document within the workspace only.
 void workspace_replace(Workspace *workspace, size_t file, const Text *text);

@@ -17,8 +17,8 @@ EDITS = int(os.environ.get("LSP_EDITS", 120))
 COMPARED = 12  # every 12th text is also checked with petri check
 POSITIONED = ["completion", "hover", "signatureHelp", "definition", "documentHighlight", "references", "prepareRename",
               "rename"]
-WHOLE = ["documentSymbol", "foldingRange", "semanticTokens/full", "inlayHint", "documentColor", "codeAction",
-         "formatting"]
+WHOLE = ["documentSymbol", "documentLink", "foldingRange", "semanticTokens/full", "inlayHint", "documentColor",
+         "codeAction", "formatting"]
 SNIPPETS = ["(", ")", "\n", "\n    ", "!", "$", ":", "'", '"', "😀", "é", "let ", "func f(x)\n    x\n", "=", ";", "--",
             " if ", "for i in ..3\n", "\t", "\\\n", "import a from 'lib/shapes.fl'\n", "%include 'hello.fl'\n", "[", "]",
             "!physics state=:a dimensions=2\n", "sin(", "0.5", "\r\n", "#t", "@f", "'''", "-", "¬", "\u0301"]
@@ -101,6 +101,8 @@ for number in range(EDITS):
             client.of(method, uri, options={}, context={"diagnostics": []}, range={
                 "start": {"line": 0, "character": 0}, "end": place})
             answered += 1
+        client.reply("textDocument/rangeFormatting", {"textDocument": {"uri": uri}, "options": {}, "range": {
+            "start": {"line": place["line"] // 2, "character": 0}, "end": place}})
     begun = time.monotonic()
     diagnostics = client.wait(uri)
     slowest.append(time.monotonic() - begun)

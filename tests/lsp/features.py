@@ -343,6 +343,50 @@ check("a script is formatted", applied(text, client.of("formatting", uri, option
 client.change(uri, {"text": "let a = \n"})
 check("a script with errors is not formatted", client.of("formatting", uri, options={}), None)
 
+
+def lines(first, last):
+    return {"start": {"line": first, "character": 0}, "end": {"line": last, "character": 0}}
+
+
+def formatted(text, first, last):
+    """Returns the text after formatting the lines `first` to the one before `last`, counted from 0."""
+    client.change(uri, {"text": text})
+    return applied(text, client.of("rangeFormatting", uri, range=lines(first, last), options={}))
+
+
+check("selected lines are formatted", formatted("let a = 1\n\n\n\n!n   b=a\n!m   c=a\n", 3, 5), "let a = 1\n\n\n\n!n b=a\n!m   c=a\n")
+check("a selected block is formatted", formatted("!n\n  !m   a=1\n  !k\n!n   a=1\n", 1, 3), "!n\n    !m a=1\n    !k\n!n   a=1\n")
+client.change(uri, {"text": "!n\n  !m\n  !k\n"})
+check("lines are not formatted alone if the script would not be valid", client.reply("textDocument/rangeFormatting", {
+    "textDocument": {"uri": uri}, "range": lines(1, 2), "options": {}})["error"]["message"].split(",")[0],
+    "cannot format these lines alone")
+
+# The workspace: links, symbols and folders.
+for folder, name, text in [("one", "main.fl", "import area from '../two/lib.fl'\nimport x from 'missing.fl'\nlet WIDTH=1\n!n a=area(WIDTH)\n"),
+                           ("two", "lib.fl", "func area(x)\n    let inner=x\n    inner\nlet aureole=2\n")]:
+    Path(folder).mkdir()
+    Path(folder, name).write_text(text)
+folders = Client(petri, options=("--allow-read", "two"), root=Path("one").absolute().as_uri())
+main = Path("one/main.fl").absolute().as_uri()
+folders.open(main, Path("one/main.fl").read_text())
+links = folders.of("documentLink", main)
+check("the file of an import is a link", [(link["target"].split("/")[-2:], link["range"]) for link in links],
+      [(["two", "lib.fl"], {"start": {"line": 0, "character": 17}, "end": {"line": 0, "character": 32}})])
+
+
+def symbols(query):
+    return sorted((symbol["name"], symbol["kind"], where(symbol["location"])[0]) for symbol in folders.ask("workspace/symbol", {"query": query}))
+
+
+two = {"uri": Path("two").absolute().as_uri(), "name": "two"}
+check("symbols are found in the folder", symbols(""), [("WIDTH", 13, "main.fl:3:5")])
+folders.notify("workspace/didChangeWorkspaceFolders", {"event": {"added": [two], "removed": []}})
+check("symbols are found in a folder that is added", symbols("AR"), [("area", 12, "lib.fl:1:6"), ("aureole", 13, "lib.fl:4:5")])
+check("the letters of a symbol may be apart", symbols("aol"), [("aureole", 13, "lib.fl:4:5")])
+folders.notify("workspace/didChangeWorkspaceFolders", {"event": {"added": [], "removed": [two]}})
+check("symbols of a folder that is removed are not found", symbols("area"), [])
+folders.end()
+
 # Incomplete scripts.
 check("names are completed although a line has an error", {"SIZE", "area"} <=
       set(labels(answer_at(script.replace("width*height", "width*height\nlet y=(1;") % "let x=§", "completion"))))
