@@ -25,7 +25,8 @@ test('Firefox shows and runs the first dish', { skip, timeout: 180000 }, async (
         await page.goto(world.server.url);
         await page.waitForFunction(() => document.body.dataset.ready);
         const first = await frameOf(page);
-        await page.click('#run');
+        if (await page.textContent('#run') === 'Run')
+            await page.click('#run');
         await page.waitForFunction(then => Number(document.body.dataset.frame) > then + 10, first);
         const { width, all } = await pixels(page);
         assert.ok(width > 100 && all > 20, `${width} pixels wide, ${all} values`);
