@@ -31,8 +31,7 @@ static bool can_use_file(const Reader *reader, const DrawNode *node) {
 
 static void check_programs(const Reader *reader, const DrawNode *node) {
     static const AttrName names[] = {ATTR_VERTEX, ATTR_FRAGMENT};
-    bool ignored = reader->kind == KIND_CANVAS3D || reader->kind == KIND_GROUP3D; // these programs are not run
-    for (int i = 0; i < 2 && !ignored; i++) {
+    for (int i = 0; i < 2; i++) {
         const AttrValue *source = schema_row(reader->kind, names[i]) ? draw_attr(node, names[i]) : NULL;
         if (source && draw_has_template(source->as.text))
             reader_report_attr(reader, "bad-shader", names[i], STR("no template is supported except '${HEADER}'"));

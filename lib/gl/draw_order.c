@@ -173,13 +173,13 @@ static bool measure_instance(const Scene *scene, const SceneGroup *group, const 
     double z[4], min, max = 0;
     row_of(&placed, 2, z);
     range_of(z, box, &min, &max);
-    if (box->triangles == 0 || !is_seen(&clip, box))
-        return false;
+    if (box->triangles == 0 || (!group->program && !is_seen(&clip, box)))
+        return false; // a program can move vertices
     double pixels = pixels_of(&placed, -max, sight->projection->m[11] != 0, sight->scale);
     SphereImpostor disc;
     sorted->depth = -max;
-    sorted->segments = segments_of(scene, instance, pixels);
-    sorted->disc = is_transparent(scene, instance) && can_be_disc(scene, group, instance, pixels) &&
+    sorted->segments = group->program ? scene->models[instance->model].segments : segments_of(scene, instance, pixels);
+    sorted->disc = !group->program && is_transparent(scene, instance) && can_be_disc(scene, group, instance, pixels) &&
                    sphere_impostor(sight->eye, sight->view, &instance->matrix, &disc);
     return true;
 }

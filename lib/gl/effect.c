@@ -97,15 +97,13 @@ int gl_downsample(const DrawNode *node) {
     return x >= 2 ? x < 64 ? (int)x : 64 : 1;
 }
 
-// Returns the processor time that the programs of scripts may still take in this picture.
-static double seconds_left(const Gl *gl) {
+double gl_seconds_left(const Gl *gl) {
     const Budget *budget = gl->budget;
     return budget ? 1e-9 * BUDGET_UNIT_TIME * (double)(budget->work_limit - budget->work) - gl->shader_seconds
                   : INFINITY;
 }
 
-// Notes that a shader needs `seconds` for each of the remaining passes. Its pixels may differ in cost.
-static void refuse_passes(Gl *gl, double seconds, uint32_t passes) {
+void gl_refuse_passes(Gl *gl, double seconds, uint32_t passes) {
     static const double UNEVEN = 1.5;
     gl->budget->refused_time +=
         1e9 * ((isinf(gl->shader_seconds) ? 0 : gl->shader_seconds) + UNEVEN * seconds * passes);
@@ -132,11 +130,11 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
             }
             gl_set_uniforms(gl, passes[i].program, &state);
             if (own) {
-                double taken, needed, left = seconds_left(gl);
+                double taken, needed, left = gl_seconds_left(gl);
                 taken = gl_draw_quad_within(gl, passes[i].program, width, height, left, &needed);
                 good = taken < INFINITY;
                 if (!good && gl->budget)
-                    refuse_passes(gl, needed, count - i);
+                    gl_refuse_passes(gl, needed, count - i);
                 gl->shader_seconds += taken;
             } else {
                 gl_draw_quad(gl, passes[i].program);

@@ -25,6 +25,7 @@ GpuCache *gpu_cache(Gl *gl) {
         return NULL;
     glGenBuffers(1, &store->instances);
     glGenBuffers(1, &store->light_block);
+    glGenBuffers(1, &store->group_block);
     glGenTextures(1, &store->light_texture);
     glBindTexture(GL_TEXTURE_2D, store->light_texture);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -65,6 +66,7 @@ void gpu_cache_close(Gl *gl) {
     if (!gl->lost) {
         glDeleteBuffers(1, &store->instances);
         glDeleteBuffers(1, &store->light_block);
+        glDeleteBuffers(1, &store->group_block);
         glDeleteTextures(1, &store->light_texture);
     }
     heap_free(store);

@@ -36,6 +36,7 @@ struct GpuCache {
     SceneTarget targets[SCENE_TARGETS];
     GLuint instances;     // buffer of SceneRecords
     GLuint light_block;   // uniform buffer with the lights of a group
+    GLuint group_block;   // uniform buffer of programs that scripts give to groups
     GLuint light_texture; // texture of the lights of a group, if these do not fit into light_block
 };
 

@@ -79,13 +79,25 @@ static bool attach_shader(GLuint program, GLenum kind, const char *text, char **
     return good;
 }
 
+// Numbers the inputs of vertex shaders. Those of groups of a scene are bound as in scene_vertex.glsl.
+static void bind_inputs(GLuint program) {
+    static const struct {
+        GLuint at;
+        const char *name;
+    } inputs[] = {{0, "position"},         {0, "model_position"},     {1, "model_normal"},
+                  {2, "model_uv"},         {3, "model_matrix"},       {7, "model_normal_matrix"},
+                  {10, "material_albedo"}, {11, "material_emissive"}, {12, "material_properties"}};
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
+        glBindAttribLocation(program, inputs[i].at, inputs[i].name);
+}
+
 static void link_program(GlProgram *program) {
     GLint good = 0, length = 0;
     program->program = glCreateProgram();
     program->in_vertex = !attach_shader(program->program, GL_VERTEX_SHADER, program->vertex, &program->problem);
     if (!program->in_vertex &&
         attach_shader(program->program, GL_FRAGMENT_SHADER, program->fragment, &program->problem)) {
-        glBindAttribLocation(program->program, 0, "position");
+        bind_inputs(program->program);
         glLinkProgram(program->program);
         glGetProgramiv(program->program, GL_LINK_STATUS, &good);
         glGetProgramiv(program->program, GL_INFO_LOG_LENGTH, &length);
@@ -153,7 +165,13 @@ static void draw_few_pixels(Gl *gl, unsigned program) {
     GlImage image = gl_image_new(gl, GL_TRY_SIDE, GL_TRY_SIDE, GL_FORMAT_SRGB8);
     if (!image.texture)
         return;
+    // Programs of groups get unit matrices.
+    static const float unit[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    for (GLuint i = 0; i < 4; i++)
+        glVertexAttrib4fv(3 + i, unit + (size_t)4 * i);
     gl_target(gl, image);
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "pv_matrix"), 1, GL_FALSE, unit);
     gl_draw_quad(gl, program);
     gl_read_bytes(gl, image, pixels);
     gl_image_free(gl, image);

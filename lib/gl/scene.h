@@ -79,6 +79,7 @@ typedef struct SceneInstance {
 typedef struct SceneGroup SceneGroup;
 struct SceneGroup {
     const SceneGroup *parent; // NULL: the top group
+    const DrawNode *program;  // the node, if it has shaders of the script; NULL: standard programs
     GraphicsState3D state;
     SceneLight *lights; // lights of this group only, not of its parents
     uint32_t light_count;

@@ -1,6 +1,7 @@
 // scene_draw.c: renders a camera's view of a scene; see scene.h.
 #include "gl/gpu_cache.h"
 #include "gl/scene_cost.h"
+#include "gl/scene_program.h"
 #include "gl/shader_sources.h"
 #include "gl/sphere_impostor.h"
 
@@ -22,6 +23,8 @@ typedef struct Drawing {
     DrawOrder order;
     SceneTarget *target;         // buffers of the picture
     GlImage backs;               // result of draw_backs for the current group; its `texture` is 0 if there is none
+    GroupView group;             // for programs of the script
+    bool own;                    // true if the current group is drawn with a program of the script
     bool many;                   // true if the group's lights are in a texture, false if in a uniform block
     double ambient[3];           // sum of the group's ambient lights
     GLint ends[LIGHT_KINDS - 1]; // index after the last light of each kind except ambient (sort_lights)
@@ -166,15 +169,11 @@ static void add_variant(Text *text, unsigned variant) {
             text_add_format(text, "#define %s\n", names[i]);
 }
 
-// Returns the program of a variant, with its uniforms set. Returns 0, after a report, if it does not compile.
-static GLuint use_program(const Drawing *drawing, unsigned variant) {
-    const Scene *scene = drawing->scene;
-    Text vertex = text_new(scene->arena), fragment = text_new(scene->arena);
-    GlShaderError fault;
-    text_add_c(&vertex, gl_header);
-    add_variant(&vertex, variant);
-    text_add_c(&vertex, gl_source_scene_vertex);
+// Returns the source of the standard fragment shader. `names` is a list of macros, or "".
+static Str standard_fragment(const Drawing *drawing, unsigned variant, const char *names) {
+    Text fragment = text_new(drawing->scene->arena);
     text_add_c(&fragment, gl_header);
+    text_add_c(&fragment, names);
     add_variant(&fragment, variant);
     text_add_format(&fragment, "#define LIGHTS_MAX %d\n", BLOCK_LIGHTS);
     text_add_c(&fragment, drawing->many ? "#define MANY_LIGHTS\n" : "");
@@ -182,20 +181,52 @@ static GLuint use_program(const Drawing *drawing, unsigned variant) {
     text_add_c(&fragment, variant & TEXTURED ? gl_source_scene_texture : "");
     text_add_c(&fragment, variant & TRANSLUCENT ? gl_source_scene_through : "");
     text_add_c(&fragment, gl_source_scene);
-    GLuint program = gl_program(drawing->gl, scene->arena, text_str(&vertex), text_str(&fragment), &fault);
-    if (!program) {
+    return text_str(&fragment);
+}
+
+// Returns a program of petri. Returns 0, after a report, if it does not compile.
+static GLuint standard_program(const Drawing *drawing, unsigned variant) {
+    const Scene *scene = drawing->scene;
+    Text vertex = text_new(scene->arena);
+    GlShaderError fault;
+    text_add_c(&vertex, gl_header);
+    add_variant(&vertex, variant);
+    text_add_c(&vertex, gl_source_scene_vertex);
+    GLuint program =
+        gl_program(drawing->gl, scene->arena, text_str(&vertex), standard_fragment(drawing, variant, ""), &fault);
+    if (!program)
         scene_report(scene, "bad-shader", scene->node, str_to_c(scene->arena, fault.text));
+    return program;
+}
+
+// Returns the program of a variant, with its uniforms set. If the script's program of the current group cannot be used,
+// the standard program replaces it. Returns 0, after a report, if there is no program.
+static GLuint use_program(Drawing *drawing, uint32_t group, unsigned variant) {
+    // Lets the standard fragment shader read the outputs of a group's vertex shader.
+    static const char names[] = "#define world world_position\n#define outwards world_normal\n"
+                                "#define coord texture_uv\n#define albedo_transparency fragment_albedo\n"
+                                "#define emissive_translucency fragment_emissive\n"
+                                "#define surface fragment_properties\n";
+    GLuint program = 0;
+    if (drawing->own)
+        program = gl_group_program(&drawing->group, drawing->scene->groups[group],
+                                   standard_fragment(drawing, variant & TEXTURED, names));
+    drawing->own = program != 0;
+    if (program && draw_attr(drawing->scene->groups[group]->program, ATTR_FRAGMENT))
+        return program;
+    if (!program)
+        program = standard_program(drawing, variant);
+    if (!program)
         return 0;
-    }
     glUseProgram(program);
     set_camera(drawing, program);
     set_vector(program, "ambient", drawing->ambient);
     glUniform1iv(glGetUniformLocation(program, "ends"), LIGHT_KINDS - 1, drawing->ends);
     if (drawing->many)
         set_integer(program, "lights", SCENE_TEXTURES);
-    else
+    else if (glGetUniformBlockIndex(program, "Lights") != GL_INVALID_INDEX)
         glUniformBlockBinding(program, glGetUniformBlockIndex(program, "Lights"), 0);
-    if (variant & TRANSLUCENT) {
+    if (variant & TRANSLUCENT && !drawing->own) {
         glActiveTexture(GL_TEXTURE0 + SCENE_TEXTURES + 1);
         glBindTexture(GL_TEXTURE_2D, drawing->backs.texture);
         glActiveTexture(GL_TEXTURE0);
@@ -218,6 +249,8 @@ static void set_textures(const Drawing *drawing, GLuint program, const SceneText
         set_integer(program, names[i], i);
     }
     glActiveTexture(GL_TEXTURE0);
+    if (drawing->own)
+        gl_group_set_textures(program, bits);
     set_integer(program, "textured", bits);
     set_integer(program, "bordered", textures->border);
     glUniform2i(glGetUniformLocation(program, "repeated"), textures->repeat[0], textures->repeat[1]);
@@ -267,16 +300,20 @@ static void clear_target(const SceneCamera *camera) {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-static void draw_shape(const Drawing *drawing, const SceneDraw *draw, GLuint program) {
+// Returns false if a program of the script takes too long.
+static bool draw_shape(Drawing *drawing, const SceneDraw *draw, GLuint program) {
     const Scene *scene = drawing->scene;
     SceneModel model = scene->models[draw->model];
     model.segments = draw->segments;
     model.disc = draw->disc;
     const SceneShape *shape = gpu_cache_shape(drawing->gl, scene, &model);
-    if (draw->textures > 0)
+    if (draw->textures > 0 || drawing->own)
         set_textures(drawing, program, &scene->textures[draw->textures]);
     gpu_cache_bind_instances(drawing->store, shape, draw->first);
+    if (drawing->own)
+        return gl_group_draw(&drawing->group, scene->groups[draw->group]->program, shape, draw->count);
     glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
+    return true;
 }
 
 // Renders the back faces of translucent bodies to drawing->backs (spec 5.6). A pixel holds the light that enters
@@ -299,7 +336,8 @@ static bool draw_backs(Drawing *drawing, uint32_t first) {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     for (uint32_t i = first; i < order->draw_count && order->draws[i].group == order->draws[first].group; i++) {
         const SceneDraw *draw = &order->draws[i];
-        GLuint program = draw->translucent ? use_program(drawing, BACK | (draw->textures > 0 ? TEXTURED : 0u)) : 0;
+        GLuint program =
+            draw->translucent ? use_program(drawing, draw->group, BACK | (draw->textures > 0 ? TEXTURED : 0u)) : 0;
         if (program)
             draw_shape(drawing, draw, program);
     }
@@ -325,20 +363,24 @@ static bool draw_all(Drawing *drawing) {
             send_lights(drawing, scene->groups[group]);
             arena_rewind(scene->arena, mark);
             current = UINT32_MAX;
+            drawing->own = scene->groups[group]->program;
         }
-        if (draw->translucent && !drawing->backs.texture) {
+        if (drawing->own && variant != current)
+            program = use_program(drawing, group, current = variant);
+        if (draw->translucent && !drawing->backs.texture && !drawing->own) {
             if (!draw_backs(drawing, i))
                 return false;
             current = UINT32_MAX;
         }
         if (variant != current) {
             current = variant;
-            program = use_program(drawing, variant);
+            program = use_program(drawing, group, variant);
         }
         if (!program)
             return true;
         set_blending(&scene->groups[group]->state, draw->transparent, draw->translucent);
-        draw_shape(drawing, draw, program);
+        if (!draw_shape(drawing, draw, program))
+            return false;
     }
     return true;
 }
@@ -365,6 +407,16 @@ static bool draw_to_image(Drawing *drawing, GlImage image) {
     if (!target)
         return false;
     drawing->target = target;
+    Matrix projected = matrix_product(&drawing->projection, &drawing->view);
+    drawing->group = (GroupView){.gl = gl,
+                                 .scene = drawing->scene,
+                                 .camera = camera,
+                                 .eye = &drawing->eye,
+                                 .projected = &projected,
+                                 .pictures = drawing->pictures,
+                                 .width = image.width,
+                                 .height = image.height,
+                                 .rows = 2};
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
     if (!target->color)
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, image.texture, 0);
@@ -442,7 +494,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     GlImage image = gl_image_new(gl, width, height, gl_format(gl, bits_of(scene, camera)));
     if (image.texture && draw_to_image(&drawing, image))
         return image;
-    if (!gl_is_refused(gl))
+    if (!gl_is_refused(gl) && !isinf(gl->shader_seconds))
         scene_report(scene, "bad-size", scene->node, "the GPU is out of memory for a picture of this size");
     gl_image_free(gl, image);
     return none;

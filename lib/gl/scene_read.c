@@ -114,9 +114,11 @@ static void read_state(Scene *scene, InheritedState *place, const DrawNode *node
     make_material(scene, place);
 }
 
-static SceneGroup *add_group(Scene *scene, const SceneGroup *parent, const GraphicsState3D *state) {
+static SceneGroup *add_group(Scene *scene, const SceneGroup *parent, const DrawNode *node,
+                             const GraphicsState3D *state) {
     SceneGroup *group = arena_alloc(scene->arena, sizeof *group);
-    *group = (SceneGroup){.parent = parent, .state = *state};
+    bool own = draw_attr(node, ATTR_VERTEX) || draw_attr(node, ATTR_FRAGMENT);
+    *group = (SceneGroup){.parent = parent, .program = own ? node : NULL, .state = *state};
     scene->groups = arena_grow_array(scene->arena, scene->groups, scene->group_count, &scene->group_capacity,
                                      sizeof *scene->groups);
     scene->groups[scene->group_count++] = group;
@@ -320,7 +322,7 @@ static void read_children(Scene *scene, const InheritedState *outside, const Dra
             place.matrix = matrix_transformed(place.matrix, child);
             read_state(scene, &place, child);
             if (child->kind == KIND_GROUP3D)
-                place.group = add_group(scene, outside->group, &place.look);
+                place.group = add_group(scene, outside->group, child, &place.look);
             read_children(scene, &place, child);
             break;
         case KIND_MIX:
@@ -352,7 +354,7 @@ Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int
                             .height = height};
     read_points(camera, &matrix_identity, node);
     place.matrix = matrix_transformed(place.matrix, node);
-    place.group = add_group(scene, NULL, &place.look);
+    place.group = add_group(scene, NULL, node, &place.look);
     read_children(scene, &place, node);
     const AttrValue *id = draw_attr(node, ATTR_CAMERA_ID);
     for (uint32_t i = 1; id && i < scene->camera_count; i++)

@@ -8,9 +8,7 @@
 
 enum { MAX_PASSES = 64 };
 
-// Replaces ${HEADER} or a line `#version 330` by gl_header. Adds #line directives, so that compiler messages contain
-// the line numbers of the original text. Returns false if the text contains other templates; canvas_read reports them.
-static bool expand_template(Text *out, Str text) {
+bool gl_expand_template(Text *out, Str text) {
     static const Str header = {"${HEADER}", 9}, version = {"#version 330", 12};
     size_t line_number = 1, i = 0;
     if (draw_has_template(text))
@@ -49,7 +47,7 @@ uint32_t gl_shader_passes(const DrawNode *node) {
     return wanted >= 2 ? wanted < MAX_PASSES ? (uint32_t)wanted : MAX_PASSES : 1;
 }
 
-static void report_rejected(DiagSink *faults, const DrawNode *node, const GlShaderError *fault) {
+void gl_report_shader(DiagSink *faults, const DrawNode *node, const GlShaderError *fault) {
     const AttrValue *own = draw_attr(node, fault->in_vertex ? ATTR_VERTEX : ATTR_FRAGMENT);
     diag_report(faults, &(Diag){.level = fault->failed ? DIAG_ERROR : DIAG_WARNING,
                                 .at = node->origin,
@@ -58,14 +56,21 @@ static void report_rejected(DiagSink *faults, const DrawNode *node, const GlShad
                                 .shader = {schema_kinds[node->kind].name, own ? own->as.text : (Str){0}}});
 }
 
+void gl_report_limit(DiagSink *faults, const DrawNode *node, const char *what) {
+    Str text = str_format(faults->arena,
+                          "!%s: the shader took longer to draw than the work limit allows (--work); %s is left out",
+                          schema_kinds[node->kind].name, what);
+    diag_report(faults, &(Diag){DIAG_ERROR, node->origin, text, .code = "drawing-limit"});
+}
+
 GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
     const DrawNode *node = effect->node;
     const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
     Text texts[2] = {text_new(arena), text_new(arena)};
     GlShaderError fault;
-    bool good = expand_template(&texts[0], vertex ? vertex->as.text : str_from(gl_quad));
+    bool good = gl_expand_template(&texts[0], vertex ? vertex->as.text : str_from(gl_quad));
     if (fragment)
-        good = good && expand_template(&texts[1], fragment->as.text);
+        good = good && gl_expand_template(&texts[1], fragment->as.text);
     else if (!gl_add_input_composite(&texts[1], effect, gl_edge(node, GL_EDGE_BORDER)))
         return (GlImage){0};
     else
@@ -74,7 +79,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
         return (GlImage){0};
     unsigned program = gl_own_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);
     if (!program) {
-        report_rejected(faults, node, &fault);
+        gl_report_shader(faults, node, &fault);
         return (GlImage){0};
     }
     uint32_t count = gl_shader_passes(node);
@@ -85,8 +90,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     if (gl_run_passes(gl, effect, passes, count, &out))
         return out;
     if (isinf(gl->shader_seconds)) {
-        Str text = STR("!shader: the shader took longer to draw than the work limit allows (--work); it is left out");
-        diag_report(faults, &(Diag){DIAG_ERROR, node->origin, text, .code = "drawing-limit"});
+        gl_report_limit(faults, node, "it");
         gl_image_free(gl, out);
     }
     return (GlImage){0};

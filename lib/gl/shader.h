@@ -14,7 +14,20 @@ uint32_t gl_shader_passes(const DrawNode *node);
 // Runs the shaders in the attributes `fragment` and `vertex`.
 GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);
 
+// Appends the source of a script's shader. Replaces ${HEADER} or a line `#version 330` by gl_header. Adds #line
+// directives, so that compiler messages contain the line numbers of the original text. Returns false if the text
+// contains other templates; canvas_read reports them.
+bool gl_expand_template(Text *out, Str text);
+// Reports that the program of a node was rejected.
+void gl_report_shader(DiagSink *faults, const DrawNode *node, const GlShaderError *fault);
+// Reports that the program of a node exceeded the work limit, so that `what` is left out.
+void gl_report_limit(DiagSink *faults, const DrawNode *node, const char *what);
+
 // effect.c
+// Returns the processor time that the programs of scripts may still take in this picture, in seconds.
+double gl_seconds_left(const Gl *gl);
+// Notes that a shader needs `seconds` for each of the remaining passes. Its pixels may differ in cost.
+void gl_refuse_passes(Gl *gl, double seconds, uint32_t passes);
 typedef struct GlPass {
     unsigned program;
     bool reduced; // true if the pass renders to a target that is smaller by the factor `downsample` in each direction

@@ -204,9 +204,7 @@ static void send_uniform(GLint at, GLenum type, uint32_t size, GLsizei count, bo
         is_integer ? glUniform4iv(at, count, n) : glUniform4fv(at, count, x);
 }
 
-// Sets a uniform. Lists of matching length are used as they are. One number fills all elements, and a vector fills each
-// element of an array. Other lists are treated as 0.
-static void set_numbers(GLint at, GLenum type, GLsizei count, const Numbers *numbers) {
+void gl_set_uniform(int at, unsigned type, int count, const double *numbers, uint32_t length) {
     enum { MAX_NUMBERS = 256 };
     bool is_integer;
     uint32_t size = size_of(type, &is_integer);
@@ -215,9 +213,9 @@ static void set_numbers(GLint at, GLenum type, GLsizei count, const Numbers *num
     uint32_t all = size * (uint32_t)count;
     float x[MAX_NUMBERS];
     GLint n[MAX_NUMBERS];
-    bool fits = numbers->count == all || numbers->count == 1 || numbers->count == size;
+    bool fits = length == all || length == 1 || length == size;
     for (uint32_t i = 0; i < all; i++) {
-        double number = fits ? numbers->list[i % numbers->count] : 0;
+        double number = fits ? numbers[i % length] : 0;
         x[i] = (float)number;
         n[i] = fabs(number) < 1e9 ? (GLint)floor(number) : 0;
     }
@@ -257,7 +255,7 @@ void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state) {
             set_picture(gl, at, state, name, unit++);
         } else {
             find_numbers(state, name, &numbers);
-            set_numbers(at, type, size, &numbers);
+            gl_set_uniform(at, type, size, numbers.list, numbers.count);
         }
     }
     glActiveTexture(GL_TEXTURE0);

@@ -42,8 +42,8 @@
     ATTR(kind, FACE_CULL, FLAG, TO_GRAPHICS3D(face_cull), INHERITED(true, "true"), "", "draw only one side of each surface") \
     ATTR(kind, CULL_FACE, FACE, TO_GRAPHICS3D(cull_face), INHERITED(FACE_BACK, ":back"), "", "the side that face_cull does not draw") \
     ATTR(kind, COMPOSITE, MIX3D, TO_GRAPHICS3D(composite), INHERITED(MIX3D_OVER, ":over"), "", "how colours are combined with those already drawn") \
-    ATTR(kind, VERTEX, TEXT, NOWHERE, NONE, "", "ignored; surfaces are drawn with the shaders of petri") \
-    ATTR(kind, FRAGMENT, TEXT, NOWHERE, NONE, "", "ignored; surfaces are drawn with the shaders of petri")
+    ATTR(kind, VERTEX, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the vertex shader; not inherited") \
+    ATTR(kind, FRAGMENT, TEXT, NOWHERE, NONE, "", "GLSL source that replaces the fragment shader; not inherited")
 #define CAMERA_ROWS(kind) \
     ATTR(kind, POSITION, TRIPLE, NOWHERE, DESCRIBED(0, "0;0;half the width of the picture"), "", "position of the camera") \
     ALIAS(kind, VIEWPOINT, POSITION, "position", TRIPLE, NOWHERE, "") \

@@ -147,6 +147,17 @@ static bool has_program(const Reader *reader) {
     return false;
 }
 
+// Reads the id of a picture, for a texture uniform of a group's program.
+static bool read_id(const Reader *reader, Value v, AttrValue *attr) {
+    const SymbolTable *symbols = reader->schema->symbols;
+    bool named = v.kind == VALUE_MIXED || (value_is_number(v) && symbol_of_number(symbols, v.as.number));
+    if ((reader->kind != KIND_CANVAS3D && reader->kind != KIND_GROUP3D) || !named)
+        return false;
+    attr->as.text = str_from(str_to_c(reader->arena, value_text(reader->arena, symbols, v)));
+    attr->count = 0;
+    return true;
+}
+
 bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
     const Node *node = reader->node;
     const SchemaSlot *slots = reader->schema->slots;
@@ -162,7 +173,8 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
             *attr = (AttrValue){.name = ATTR_NONE};
             if (reader->kind != KIND_SHADER && !has_program(reader))
                 reader_report_unknown(reader, node->attrs[i].name);
-            else if (read_numbers(reader, v, false, attr)) { // programs can have uniforms of any name
+            else if (read_id(reader, v, attr) || read_numbers(reader, v, false, attr)) {
+                // Programs can have uniforms of any name.
                 attr->custom_name = str_to_c(reader->arena, node->attrs[i].name->name);
                 ++*count;
             }

@@ -108,10 +108,11 @@ typedef struct FunctionSamples {
 
 // An attribute of a drawing node.
 typedef struct AttrValue {
-    uint16_t name;           // AttrName
-    uint16_t row;            // index in schema_rows
-    uint32_t count;          // number of elements that the script gives
-    const char *custom_name; // for ATTR_NONE: name of a custom uniform of a shader; its values are in `list`
+    uint16_t name;  // AttrName
+    uint16_t row;   // index in schema_rows
+    uint32_t count; // number of elements that the script gives
+    // For ATTR_NONE: name of a custom uniform of a shader. Its values are in `list`; if `count` is 0, `text` is an id.
+    const char *custom_name;
     union {
         double numbers[4]; // points, sizes, weights, other shapes of up to four numbers; colours always have four
         const double *list;

@@ -30,6 +30,33 @@ if [ -s good.png ] && ! has err "effects and 3-D scenes are left out"; then
     check "the error has a position" has err "large.fl:2:13: error: !shader: "
     check "the picture is drawn without the shader" [ -s large.png ]
 
+    cat >group.fl <<'END'
+!window size=100;80
+    !canvas3d viewpoint=0;0;3 near=0.1
+        !group count=COUNT fragment="""${HEADER}
+in vec3 world_position; out vec4 color; uniform float count;
+void main() { float x = 0.0; for (float i = 0.0; i < count; i++) x = sin(x + i); color = vec4(x, SECOND, 0, 1); }
+"""
+            !sphere
+END
+    sed 's/COUNT/9/; s/SECOND/1/' group.fl >group_good.fl
+    draw group_good
+    check "a group draws with a shader" eval 'status_is 0 && empty err'
+    sed 's/COUNT/9/; s/SECOND/y/' group.fl >group_bad.fl
+    draw group_bad
+    check "a rejected shader of a group is a warning" status_is 0
+    check "the warning of a group has the position in the shader" has err "group_bad.fl:5:98: warning: !group: \`y' undeclared"
+    sed 's/COUNT/60000/; s/SECOND/1/' group.fl >group_slow.fl
+    draw group_slow --work 5000000
+    check "a shader of a group that draws too long is an error" status_is 1
+    check "the error of a group names the work limit" has err \
+        "error: !group: the shader took longer to draw than the work limit allows (--work); the scene is left out"
+    sed 's/COUNT/0/; s/SECOND/1/; s/float x = 0.0/float a[2000000000]; a[int(count)] = count; float x = a[int(world_position)]/' \
+        group.fl >group_large.fl
+    draw group_large
+    check "a shader of a group that crashes the driver is an error" status_is 1
+    check "the error of a group has a position" has err "group_large.fl:3:24: error: !group: "
+
     macros='#define A0(x) sin(x)'
     for i in $(seq 30); do
         macros="$macros

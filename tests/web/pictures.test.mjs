@@ -157,7 +157,7 @@ for (const name of readdirSync(samples).filter(file => file.endsWith('.fl')))
 for (const name of ['adjust', 'bloom', 'blur', 'chromakey', 'edges', 'feedback', 'flare', 'kaleid', 'noise', 'passes', 'shader', 'tonemap',
     'transform', 'vignette'])
     test(`the effect ${name} equals the picture of petri render`, options, () => check(join(pictures, `effect_${name}.fl`), 2, 5e-3));
-for (const name of ['dots', 'fields', 'lights', 'metal', 'translucency'])
+for (const name of ['dots', 'fields', 'lights', 'metal', 'programs', 'translucency'])
     test(`the scene ${name} equals the picture of petri render`, options, () =>
         check(join(pictures, `scenes/${name}.fl`), 2, 2e-3, name === 'metal' ? ['models/pyramid.obj'] : []));
 // All canvas pictures, except those with separate tests, empty ones, HDR canvases, and those with enlarged pixels, with hundreds of lines

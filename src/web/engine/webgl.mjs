@@ -172,6 +172,8 @@ export class Screen {
             set(type, active.type);
             this.writeText(active.name, name, room);
         });
+        put('getActiveUniformBlockiv', (program, index, what, at) =>
+            set(at, this.gl.getActiveUniformBlockParameter(objects[program], index, what)));
         put('getIntegerv', (what, at) => set(at, this.gl.getParameter(what)));
         put('getInternalformativ', (target, format, what, count, at) => {
             const samples = this.gl.getInternalformatParameter(target, format, SAMPLES) ?? [];
