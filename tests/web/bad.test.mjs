@@ -57,10 +57,10 @@ test('an edited script is kept when a link or another script is opened', options
         await page.reload();
         await page.waitForFunction(() => document.body.dataset.ready);
         assert.match(await text(page), /^-- changed\n!window/);
-        await page.focus('#samples');
-        const own = page.locator('#samples optgroup[label="Recent scripts"] option');
+        await page.click('#scripts');
+        const own = page.locator('#own-scripts .name');
         assert.equal(await own.count(), 2);
-        await page.selectOption('#samples', await own.nth(1).getAttribute('value'));
+        await own.nth(1).click();
         await page.waitForFunction(() => document.querySelector('.cm-line').textContent === '-- mine');
     },
 }));

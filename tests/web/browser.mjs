@@ -77,6 +77,12 @@ export const pixels = (page, selector = '#picture') => page.locator(selector).fi
 export const says = (page, pattern) => page.waitForFunction(source =>
     new RegExp(source).test(document.getElementById('message').textContent), pattern.source);
 
+// Opens a sample in the gallery.
+export async function choose(page, name) {
+    await page.click('#scripts');
+    await page.click(`#sample-cards button:has(strong:text-is("${name.replace(/\.fl$/, '')}"))`);
+}
+
 export async function typed(page, text) {
     await page.click('.cm-content');
     await page.keyboard.press('Control+a');

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { SLOW, atFrame, folder, frameOf, opened, options, pixels, root, seek, typed, world } from './browser.mjs';
+import { SLOW, atFrame, choose, folder, frameOf, opened, options, pixels, root, seek, typed, world } from './browser.mjs';
 
 const DISH = readFileSync(join(root, 'samples/dish.fl'), 'utf8');
 
@@ -265,7 +265,7 @@ test('pictures of the samples equal those of petri render, except at edges', dra
             const scratch = join(mkdtempSync(join(tmpdir(), 'petri-')), 'a.png');
             execFileSync(petri, ['render', join(root, `samples/${name}.fl`), '--frames', '1', '-o', scratch, '--quiet']);
             await page.evaluate(() => delete document.body.dataset.frame);
-            await page.selectOption('#samples', `${name}.fl`);
+            await choose(page, name);
             await atFrame(page, 2);
             if (frame === 0) {
                 await page.click('#reset');
@@ -308,6 +308,14 @@ test('axe finds no serious problems, in dark and light', options, async () => {
                 await look();
                 await page.click('#save-as');
                 await look();
+                await page.keyboard.press('Escape');
+                await page.click('#new');
+                await page.click('#scripts');
+                await page.waitForSelector('#own-scripts .name');
+                await look();
+                await page.click('#own-scripts [aria-label^=Delete]');
+                await look();
+                await page.keyboard.press('Escape');
                 await page.evaluate(async () => {
                     await import('./petri-dish.js');
                     document.body.innerHTML = '<main><h1>t</h1><petri-dish controls editor>let A=A or 1 -- 1..2\n'
@@ -368,7 +376,7 @@ test('the prompt, samples, keyboard, themes and offline use work', options, () =
         await page.waitForFunction(() => /\? 1\+2\n3\n/.test(document.getElementById('printed').textContent));
         for (const name of ['aquarium.fl', 'springs.fl', 'orbits.fl', 'barriers.fl']) {
             await page.evaluate(() => delete document.body.dataset.frame);
-            await page.selectOption('#samples', name);
+            await choose(page, name);
             await page.waitForFunction(() => document.body.dataset.frame === '2');
             assert.equal(await page.textContent('#problems'), '', name);
             assert.ok((await pixels(page)).all > 3, name);

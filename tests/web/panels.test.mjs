@@ -218,7 +218,7 @@ test('everything can be done with the keyboard', options, () => opened('', {
         await page.keyboard.press('Escape');
         await page.waitForSelector('#saving', { state: 'hidden' });
         assert.equal(await focused(), 'save-as');
-        await tabTo('theme');
+        await tabTo('hint-close');
         await page.keyboard.press('Tab');
         assert.match(await focused(), /cm-content/);
         await page.keyboard.press('Escape'); // so that Tab moves the focus out of the text

@@ -104,23 +104,3 @@ test('a copied link has script, changes, frame and digest, and needs no network'
         },
     });
 });
-
-test('with little storage, a script replaces older ones', options, () => opened('', {
-    use: async page => {
-        await page.evaluate(() => {
-            const old = Array.from({ length: 11 }, (_, i) => ({ name: 'old.fl', text: `-- ${i}${' '.repeat(200000)}`, when: i }));
-            localStorage.setItem('petri.scripts', JSON.stringify(old));
-            for (let size = 1 << 22; size >= 64; size /= 2)
-                try {
-                    localStorage.setItem(`rest${size}`, 'x'.repeat(size - 16));
-                } catch {
-                    // the browser's storage is full
-                }
-        });
-        const text = `-- mine${'.'.repeat(3000)}\n!a\n`;
-        await typed(page, text);
-        const kept = await page.evaluate(() => JSON.parse(localStorage.getItem('petri.scripts')));
-        assert.equal(kept[0].text, text);
-        assert.ok(kept.length > 3 && kept.length < 12, `${kept.length}`);
-    },
-}));

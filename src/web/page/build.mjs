@@ -21,4 +21,6 @@ const files = folder => readdirSync(join(samples, folder)).filter(name => name.e
     .map(name => [`${folder}/${name}`, readFileSync(join(samples, folder, name), 'utf8')]);
 const texts = Object.fromEntries(readdirSync(samples).filter(name => name.endsWith('.fl')).sort()
     .map(name => [name, readFileSync(join(samples, name), 'utf8')]));
+// The page's first script names no commands of the terminal.
+texts['dish.fl'] = texts['dish.fl'].replace(/^(-- .*?:).*\n/, '$1 change a number below.\n').replace(/ `petri run -D .*/, '');
 writeFileSync(join(output, 'samples.json'), JSON.stringify({ scripts: texts, files: Object.fromEntries(files('lib')) }));

@@ -11,7 +11,7 @@ export const CONTROLS = `
   <label>Speed <select id="speed">
     <option>0.25</option><option>0.5</option><option selected>1</option><option>2</option><option>4</option>
   </select></label>
-  <output id="number">no frame</output> <output id="rate" title="Frames per second"></output>
+  <span id="readout"><output id="number">no frame</output> <output id="rate" title="Frames per second"></output></span>
 </div>
 <input id="time" type="range" min="0" max="0" value="0" aria-label="Frame">
 <div id="parameters" part="parameters" aria-label="Parameters" role="group"></div>`;

@@ -95,6 +95,19 @@ export class Editor {
         this.view.setState(this.stateOf(text));
     }
 
+    // The script with its history and selection.
+    get state() {
+        return this.view.state;
+    }
+
+    set state(state) {
+        this.view.setState(state);
+    }
+
+    focus() {
+        this.view.focus();
+    }
+
     show(told) {
         const { state } = this.view;
         const placed = told.filter(({ line, level }) => line > 0 && level !== 'note');

@@ -2,26 +2,29 @@
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
 import { Editor } from './editor.mjs';
+import { Gallery } from './gallery.mjs';
+import { Hint } from './hint.mjs';
 import { Live } from './live.mjs';
 import { Particle } from './particle.mjs';
 import { Plot } from './plot.mjs';
 import { Problems } from './problems.mjs';
 import { Prompt } from './prompt.mjs';
 import { SaveDialog, saveAs } from './save.mjs';
-import { ScriptSaver, savedScripts } from './saved_scripts.mjs';
+import { Scripts } from './scripts.mjs';
 import { Table } from './table.mjs';
 import { Tabs } from './tabs.mjs';
+import { listenForTheme } from './theme.mjs';
 import { Transfer } from './transfer.mjs';
 
 const $ = id => document.getElementById(id);
 const FIRST = 'dish.fl';
 const EMPTY = 'This script draws nothing: it has no `!window`.';
 
-const encoder = new TextEncoder(), keeper = new ScriptSaver();
+const encoder = new TextEncoder();
 
-// What the modules of the page share: the script's name, editor, dish, problems, live (live.mjs) and controls.
-const page = { name: FIRST, say, showText, openText };
-let prompt, plot, table, particle, samples, help = [], empty = false;
+// What the modules of the page share: the script's name, the samples, editor, dish, problems, live, scripts and controls.
+const page = { name: FIRST, samples: {}, say, openText };
+let prompt, plot, table, particle, help = [], empty = false;
 
 function say(text, bad = false) {
     $('message').textContent = text;
@@ -95,21 +98,15 @@ function look() {
 // --- the editor's text
 
 function changed(text) {
-    keeper.keep(page.name, text);
+    page.scripts.edited(text);
     if (location.hash)
         history.replaceState(null, '', location.pathname + location.search); // the text no longer matches the link
     page.live.changed();
 }
 
-// Shows a text in the editor that is not the user's own until it is edited.
-function showText(text, name) {
-    page.name = name;
-    keeper.begin();
-    page.editor.text = text;
-}
-
-async function openText(text, name, wanted = {}) {
-    showText(text, name);
+// Opens a script: a stored one if it has an id. With `play`, it runs, unless the user prefers reduced motion.
+async function openText(text, name, { id = null, play = false, ...wanted } = {}) {
+    page.scripts.show(text, name, id);
     page.dish.unload();
     page.problems.show([], name);
     const opened = await page.dish.open(text, name, wanted), kind = wanted.digest ? 'digest' : 'SHA-256';
@@ -117,6 +114,8 @@ async function openText(text, name, wanted = {}) {
         say(opened.same ? `Frame ${wanted.frame}: the state matches the link exactly (${kind} ${opened.digest}).`
             : `Frame ${wanted.frame}: the state differs from the link, probably because another version of petri made the link.`,
         !opened.same);
+    if (opened && play && !matchMedia('(prefers-reduced-motion: reduce)').matches)
+        page.dish.run();
 }
 
 async function run() {
@@ -131,52 +130,24 @@ async function restart() {
 
 const stem = () => page.name.replace(/\.fl$/, '');
 
-// Fills the menu with samples and recent scripts.
-function fillMenu() {
-    const group = (label, options) => {
-        const made = Object.assign(document.createElement('optgroup'), { label });
-        made.append(...options);
-        return options.length ? [made] : [];
-    };
-    const menu = $('samples'), { value } = menu;
-    menu.replaceChildren(new Option('choose…', ''),
-        ...group('Samples', Object.keys(samples).map(sample => new Option(sample.replace(/\.fl$/, ''), sample))),
-        ...group('Recent scripts', savedScripts().map(({ name: own, when }) =>
-            new Option(`${own}, ${new Date(when).toLocaleString()}`, when))));
-    menu.value = value;
-}
-
 function listen() {
     $('save').onclick = () => saveAs(page.name, new Blob([page.editor.text], { type: 'text/plain' }));
-    $('samples').onchange = () => {
-        const chosen = $('samples').value, own = savedScripts().find(({ when }) => String(when) === chosen);
-        if (own)
-            openText(own.text, own.name);
-        else if (chosen)
-            openText(samples[chosen], chosen);
-    };
-    $('samples').onfocus = $('samples').onpointerdown = fillMenu;
-    fillMenu();
-    $('theme').onclick = () => {
-        const dark = getComputedStyle(document.documentElement).colorScheme === 'dark'
-            || (!document.documentElement.dataset.theme && matchMedia('(prefers-color-scheme: dark)').matches);
-        document.documentElement.dataset.theme = dark ? 'light' : 'dark';
-    };
+    listenForTheme($('theme'));
 }
 
 async function begin() {
-    const [before] = savedScripts();
     $('below').innerHTML = CONTROLS;
-    const dish = page.dish = new Dish($('picture'), host,
-        globalThis.petriStart ?? { source: new URL('petri/engine.wasm', location.href).href });
+    const start = globalThis.petriStart ?? { source: new URL('petri/engine.wasm', location.href).href };
+    const dish = page.dish = new Dish($('picture'), host, start);
     const given = await (await fetch('samples.json')).json();
-    samples = given.scripts;
+    page.samples = given.scripts;
     for (const [file, text] of Object.entries(given.files))
         dish.files.set(file, encoder.encode(text));
-    page.name = before?.name ?? FIRST;
-    page.editor = new Editor($('editor'), {
-        text: before?.text ?? samples[FIRST], onChange: changed, onRun: run, onRestart: restart, help: () => help,
-    });
+    page.editor = new Editor($('editor'), { text: '', onChange: changed, onRun: run, onRestart: restart, help: () => help });
+    page.scripts = new Scripts(document, page);
+    const [before] = page.scripts.library.list();
+    new Hint(document, !before);
+    page.scripts.show(before?.text ?? page.samples[FIRST], before?.name ?? FIRST, before?.id);
     page.problems = new Problems($('problems'), page.editor);
     page.live = new Live(page);
     page.controls = new Controls(document, dish, ({ always = false } = {}) => always ? page.live.restart() : page.live.ready());
@@ -185,6 +156,7 @@ async function begin() {
         tabs.choose($('tab-plot'));
     });
     new SaveDialog(document, dish, stem);
+    new Gallery(document, page, start.source);
     plot = new Plot(document, dish);
     table = new Table(document, dish);
     const goTo = (file, line, column) => file === page.name && page.editor.goTo(line, column);
@@ -206,7 +178,7 @@ async function begin() {
     await dish.giveFiles();
     const why = await transfer.openLink();
     if (why)
-        await openText(page.editor.text, page.name);
+        await openText(page.editor.text, page.name, { id: before?.id, play: true });
     if (why && location.hash)
         say(why, true);
     document.body.dataset.ready = answer.version;

@@ -1,6 +1,9 @@
 // preload.mjs: starts loading the engine and its worker before the page's editor, because they take the longest to load.
 import { startWorker } from './engine.mjs';
 import { hasEngine } from './feature_check.mjs';
+import { applyTheme } from './theme.mjs';
+
+applyTheme();
 
 const url = new URL('petri/engine.wasm', location.href).href;
 if (hasEngine())

@@ -40,7 +40,7 @@ export class Transfer {
         const { dish } = this.page, script = await dish.replay(new Uint8Array(await file.arrayBuffer()));
         if (!script)
             return;
-        this.page.showText(script.text, script.name);
+        this.page.scripts.show(script.text, script.name);
         dish.run();
     }
 
@@ -60,7 +60,7 @@ export class Transfer {
             .some(other => other.called !== called && other.text.includes(called));
         const script = decoded.find(({ called }) => !isNamed(called));
         if (script)
-            await openText(script.text, script.called);
+            await openText(script.text, script.called, { play: true });
         else if ([...files].some(file => editor.text.includes(file.name)))
             await dish.open(editor.text, name);
     }

@@ -1,0 +1,170 @@
+// scripts.test.mjs: the first visit, the gallery, and the user's scripts in the browser's storage.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { choose, frameOf, opened, options, typed } from './browser.mjs';
+
+const MOVES = { reducedMotion: 'no-preference' };
+const SQUARE = '!window size=64;32\n    !canvas\n        !rect size=64;32 color=1;0.5;0 fill=true\n';
+
+// Returns the first lines of the script, because the editor contains only the visible ones.
+const lines = page => page.evaluate(() => [...document.querySelectorAll('.cm-line')].slice(0, 9).map(line => line.textContent).join('\n'));
+const names = page => page.locator('#own-scripts .name').allTextContents();
+const stored = page => page.evaluate(() => Object.keys(localStorage).filter(key => key.startsWith('petri.script.')).length);
+const passes = (page, frame) => page.waitForFunction(least => Number(document.body.dataset.frame) > least, frame);
+
+async function addTo(page, text) {
+    await page.click('.cm-content');
+    await page.keyboard.press('Control+Home');
+    await page.keyboard.insertText(text);
+}
+
+test('the first visit shows a running dish and says what to change', options, () => opened('', {
+    settings: MOVES,
+    use: async page => {
+        await passes(page, 5);
+        assert.equal(await page.inputValue('#name'), 'dish.fl');
+        assert.match(await page.textContent('#hint'), /Change a number in the script/);
+        assert.ok(!/petri (view|run)/.test(await page.textContent('.cm-content')));
+        assert.equal(await stored(page), 0);
+        await page.click('#hint-close');
+        await page.reload();
+        await passes(page, 5);
+        assert.ok(await page.isHidden('#hint'));
+    },
+}));
+
+// As in page.test.mjs, the limit is longer on a slow or busy machine.
+test('the first picture moves within 1.5 seconds, with nothing cached', options, async () => {
+    let best = Infinity, limit = 1500;
+    for (let i = 0; i < 6 && best > limit; i++)
+        await opened('', {
+            settings: MOVES,
+            prepare: page => page.addInitScript(() => new MutationObserver(() => {
+                if (Number(document.body?.dataset.frame) > 2)
+                    globalThis.seenAt ??= performance.now();
+            }).observe(document, { attributes: true, subtree: true })),
+            use: async page => {
+                await passes(page, 2);
+                best = Math.min(best, await page.evaluate(() => globalThis.seenAt));
+                limit = Math.max(1500, 6 * await page.evaluate(() => {
+                    const start = performance.now();
+                    for (let i = 0, sum = 0; i < 3e7; i++)
+                        sum = (sum * 31 + i) | 0;
+                    return performance.now() - start;
+                }));
+            },
+        });
+    assert.ok(best <= limit, `${best} ms, at most ${limit} ms`);
+});
+
+test('the gallery draws samples, moves the one under the pointer, and opens it', options, () => opened('', {
+    settings: MOVES,
+    use: async page => {
+        const sum = name => page.evaluate(called => {
+            const card = [...document.querySelectorAll('#sample-cards button')]
+                .find(button => button.querySelector('strong').textContent === called);
+            const { data } = card.querySelector('canvas').getContext('2d').getImageData(0, 0, 320, 240);
+            return data.reduce((all, byte) => (all * 31 + byte) % 4294967291, 0);
+        }, name);
+        await page.click('#scripts');
+        const empty = await sum('trails'), card = page.locator('#sample-cards button:has(strong:text-is("beads"))');
+        await page.waitForFunction(() => [...document.querySelectorAll('#sample-cards canvas')].filter(canvas =>
+            canvas.getContext('2d').getImageData(0, 0, 320, 240).data.some(byte => byte > 0)).length >= 4);
+        await card.hover();
+        const seen = new Set();
+        for (let i = 0; i < 300 && seen.size < 4; i++) {
+            seen.add(await sum('beads'));
+            await page.waitForTimeout(50);
+        }
+        assert.ok(seen.size >= 4, `${seen.size} pictures; nothing is ${empty}`);
+        await card.click();
+        await page.waitForFunction(() => document.getElementById('name').value === 'beads.fl');
+        await passes(page, 5);
+        assert.match(await lines(page), /^-- .*\n/);
+        assert.equal(await page.evaluate(() => document.querySelector('.cm-scroller').scrollTop), 0);
+        assert.equal(await stored(page), 0);
+    },
+}));
+
+test('scripts are made, renamed, duplicated, deleted and restored', options, () => opened('', {
+    use: async page => {
+        await page.click('#new');
+        await page.waitForFunction(() => document.getElementById('name').value === 'script.fl');
+        await page.fill('#name', 'round/ trip');
+        await page.press('#name', 'Enter');
+        assert.equal(await page.inputValue('#name'), 'round trip.fl');
+        await page.click('#scripts');
+        assert.deepEqual(await names(page), ['round trip.fl']);
+        await page.click('[aria-label="Duplicate round trip.fl"]');
+        await page.waitForFunction(() => document.getElementById('name').value === 'round trip-2.fl');
+        await addTo(page, '-- two\n');
+        await page.reload();
+        await page.waitForFunction(() => document.body.dataset.ready);
+        assert.equal(await page.inputValue('#name'), 'round trip-2.fl');
+        assert.match(await lines(page), /^-- two\n/);
+        await page.click('#scripts');
+        assert.deepEqual(await names(page), ['round trip-2.fl', 'round trip.fl']);
+        await page.click('[aria-label="Delete round trip.fl"]');
+        assert.deepEqual([await names(page), await stored(page)], [['round trip-2.fl'], 1]);
+        await page.keyboard.press('Enter'); // Undo has the focus
+        assert.deepEqual([await names(page), await stored(page)], [['round trip-2.fl', 'round trip.fl'], 2]);
+        await page.click('#own-scripts .name >> text="round trip.fl"');
+        await page.waitForFunction(() => document.getElementById('name').value === 'round trip.fl');
+        assert.match(await lines(page), /^-- A disc/);
+    },
+}));
+
+test('each script has its own history for undo', options, () => opened('', {
+    use: async page => {
+        const dish = await lines(page), undone = async () => {
+            await page.click('.cm-content');
+            await page.keyboard.press('Control+z');
+        };
+        await addTo(page, '-- mine\n');
+        await choose(page, 'hello');
+        await page.waitForFunction(() => document.getElementById('name').value === 'hello.fl');
+        const hello = await lines(page);
+        await undone();
+        assert.equal(await lines(page), hello);
+        assert.equal(await stored(page), 1);
+        await page.click('#scripts');
+        await page.click('#own-scripts .name');
+        await page.waitForFunction(() => document.querySelector('.cm-line').textContent === '-- mine');
+        await undone();
+        assert.equal(await lines(page), dish);
+        assert.equal(await page.evaluate(() => document.body.dataset.frame), '2');
+    },
+}));
+
+const full = page => page.evaluate(() => {
+    for (let size = 1 << 22; size >= 64; size /= 2)
+        try {
+            localStorage.setItem(`rest${size}`, 'x'.repeat(size - 16));
+        } catch {
+            // the browser's storage is full
+        }
+});
+const blocked = page => page.evaluate(() => Object.defineProperty(globalThis, 'localStorage', {
+    get() { throw new DOMException('denied', 'SecurityError'); },
+}));
+
+for (const [what, make, said] of [['full', full, /^dish\.fl is not stored: the browser's storage is full/],
+    ['blocked', blocked, /^dish\.fl is not stored: the browser blocks its storage/]])
+    test(`storage that is ${what} is reported, and the script runs`, options, () => opened('', {
+        use: async page => {
+            await make(page);
+            await typed(page, `-- ${'.'.repeat(3000)}\n${SQUARE}`);
+            await page.waitForFunction(() => document.getElementById('storage').textContent);
+            assert.match(await page.textContent('#storage'), said);
+            await page.waitForFunction(() => document.getElementById('picture').width === 64);
+            assert.ok(await frameOf(page) >= 0);
+            await page.click('#scripts');
+            assert.ok(await page.isVisible('#sample-cards'));
+            await page.keyboard.press('Escape');
+            if (what === 'full') {
+                await page.evaluate(() => localStorage.removeItem('rest4194304'));
+                await addTo(page, '-- again\n');
+                await page.waitForFunction(() => !document.getElementById('storage').textContent);
+            }
+        },
+    }));
