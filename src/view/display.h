@@ -56,6 +56,8 @@ typedef struct DisplayKind {
     Event (*next_event)(Display *display, double seconds);
     // Sets *drawn_width and *drawn_height to the size in pixels at which to draw a picture of width x height.
     void (*size)(Display *display, int width, int height, int *drawn_width, int *drawn_height);
+    // Returns the number of pixels per unit of the overlay's text. NULL: the display cannot show sliders.
+    double (*scale)(const Display *display);
     // Returns true if the display shows too few details for full resolution, so that pictures can be rendered at the
     // lower resolution that `size` returns. NULL: pictures are always rendered in full detail.
     bool (*coarse)(const Display *display);

@@ -17,7 +17,7 @@ static const PetriLabel ERROR_STYLE = {.background = {0.16, 0.03, 0.04, 0.92},
 
 typedef struct Layout {
     double room; // width available for labels, in units of text
-    PetriLabel labels[MAX_LABELS];
+    PetriLabel labels[MAX_LABELS + MAX_SLIDERS * LABELS_PER_SLIDER];
     char texts[MAX_LABELS][sizeof(Overlay)]; // wrapped texts
     size_t count;
 } Layout;
@@ -48,6 +48,7 @@ static void layout_labels(Layout *layout, const Overlay *overlay, double scale, 
     double across = width / scale, bottom = height / scale - MARGIN;
     layout->room = across - 2 * MARGIN;
     layout->count = 0;
+    // Errors and the list of warnings are at the same place as the sliders, which are hidden meanwhile.
     layout_label(layout, overlay->is_warning ? &WARNING_STYLE : &ERROR_STYLE, overlay->error_text, true);
     PetriLabel *mark = layout_label(layout, &WARNING_STYLE, overlay->mark, false);
     if (mark)
@@ -61,6 +62,8 @@ static void layout_labels(Layout *layout, const Overlay *overlay, double scale, 
         notice->x = across - MARGIN - notice->width;
         notice->y = (beside ? bottom : status->y - MARGIN) - notice->height;
     }
+    if (overlay->error_text[0] == '\0')
+        layout->count += sliders_layout(&overlay->sliders, layout->labels + layout->count);
 }
 
 void overlay_draw(PetriPainter *painter, const Overlay *overlay, double scale, uint32_t *pixels, int width,

@@ -1,16 +1,20 @@
 // overlay_text.h: the texts shown over a picture, and their wrapping.
 #pragma once
 
+#include "view/sliders.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
-// Texts shown over a picture, in UTF-8 without control characters except newlines. Empty texts are not shown.
+// Texts, and sliders, shown over a picture. Texts are in UTF-8 without control characters except newlines. Empty texts
+// are not shown.
 typedef struct Overlay {
     char status[400];      // frame rate and clocks, several lines
     char notice[400];      // last action, one line
     char error_text[4000]; // errors of the script, several lines
     char mark[40];         // number of warnings, shown in a corner
     bool is_warning;       // `error_text` is a list of warnings, which do not stop the script
+    Sliders sliders;
 } Overlay;
 
 // Sets `text`, one of the texts of an overlay, to `from`. Removes escape sequences and control characters except

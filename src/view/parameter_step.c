@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { STEPS_OF_RANGE = 50, STEPS_OF_VALUE = 20 };
+enum { STEPS_OF_RANGE = 50, STEPS_OF_VALUE = 20, SLIDER_STEPS = 200 };
 
 static bool is_whole(double x) {
     return !isfinite(x) || x == floor(x);
@@ -17,6 +17,11 @@ static double round_step(double x) {
     return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
 }
 
+// Returns true if the value, the default `regular` and the range are integers.
+static bool counts_whole(const PetriParameter *parameter, double regular) {
+    return is_whole(regular) && is_whole(parameter->number) && is_whole(parameter->min) && is_whole(parameter->max);
+}
+
 static double step_size(const PetriParameter *parameter) {
     double regular = isnan(parameter->default_number) ? parameter->number : parameter->default_number;
     double range = parameter->max - parameter->min;
@@ -24,9 +29,7 @@ static double step_size(const PetriParameter *parameter) {
         return parameter->step;
     double rough = isfinite(range) ? range / STEPS_OF_RANGE : fabs(regular) / STEPS_OF_VALUE;
     double size = rough > 0 && isfinite(rough) ? round_step(rough) : 1;
-    bool whole =
-        is_whole(regular) && is_whole(parameter->number) && is_whole(parameter->min) && is_whole(parameter->max);
-    return whole ? fmax(1, floor(size)) : size;
+    return counts_whole(parameter, regular) ? fmax(1, floor(size)) : size;
 }
 
 // Rounds to 12 significant digits, which removes binary rounding errors.
@@ -55,4 +58,14 @@ double parameter_stepped(const PetriParameter *parameter, int steps) {
     if (to == 0 && parameter->default_number != 0) // skip 0, which selects the default
         to = step_from(parameter, to, steps > 0 ? 1 : -1);
     return to == 0 && parameter->default_number != 0 ? NAN : to;
+}
+
+double parameter_at(const PetriParameter *parameter, double fraction) {
+    double range = parameter->max - parameter->min, regular = parameter->default_number;
+    double size = parameter->step > 0 ? parameter->step : counts_whole(parameter, regular) ? 1 : range / SLIDER_STEPS;
+    double steps = round(fraction * range / size);
+    double to = round_decimal(fmin(parameter->min + steps * size, parameter->max));
+    if (to == 0 && regular != 0) // 0 would select the default
+        to = round_decimal(to + size <= parameter->max ? to + size : to - size);
+    return to;
 }

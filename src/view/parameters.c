@@ -65,13 +65,22 @@ static void describe_parameter(LiveScript *live, size_t chosen, Text *text) {
     }
 }
 
-static ParameterResult set_value(ParameterKeys *keys, LiveScript *live, const char *value, Text *text) {
+static ParameterResult set_value(const ParameterKeys *keys, LiveScript *live, const char *value, Text *text) {
     PetriParameter parameter;
     petri_parameter(live->session, keys->chosen, &parameter, sizeof parameter);
     SCOPED_STRING name = memory_strdup(parameter.name);
     bool done = live_script_set_parameter(live, name, value);
     describe_parameter(live, keys->chosen, text);
     return done ? PARAMETER_CHANGED : PARAMETER_MESSAGE;
+}
+
+ParameterResult parameter_set(const ParameterKeys *keys, LiveScript *live, double value, Text *text) {
+    PetriParameter parameter;
+    char printed[40];
+    snprintf(printed, sizeof printed, "%.12g", value);
+    bool regular =
+        petri_parameter(live->session, keys->chosen, &parameter, sizeof parameter) && value == parameter.default_number;
+    return set_value(keys, live, regular ? NULL : printed, text);
 }
 
 static ParameterResult step_value(ParameterKeys *keys, LiveScript *live, int steps, Text *text) {
@@ -86,9 +95,7 @@ static ParameterResult step_value(ParameterKeys *keys, LiveScript *live, int ste
                                                 : "");
         return PARAMETER_MESSAGE;
     }
-    char value[40];
-    snprintf(value, sizeof value, "%.12g", to);
-    return set_value(keys, live, to == parameter.default_number ? NULL : value, text);
+    return parameter_set(keys, live, to, text);
 }
 
 ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, Text *text) {
@@ -113,10 +120,10 @@ ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char 
     return meaning == MEANS_STEP ? step_value(keys, live, by, text) : set_value(keys, live, NULL, text);
 }
 
-void parameter_status(const ParameterKeys *keys, LiveScript *live, Text *text) {
+void parameter_status(const ParameterKeys *keys, LiveScript *live, bool has_sliders, Text *text) {
     size_t count = count_parameters(live->session);
     if (count > 0) {
-        text_add_format(text, "\ntab parameter  up down change  0 default\n");
+        text_add_format(text, "\ntab parameter  up down change  0 default%s\n", has_sliders ? "  p sliders" : "");
         describe_parameter(live, keys->chosen < count ? keys->chosen : 0, text);
     }
 }

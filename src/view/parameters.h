@@ -21,7 +21,10 @@ typedef enum ParameterResult {
 
 // Handles a key press and appends the message to `text`.
 ParameterResult parameter_key(ParameterKeys *keys, LiveScript *live, const char *key, Text *text);
+// Sets the selected parameter to a number and appends the message to `text`.
+ParameterResult parameter_set(const ParameterKeys *keys, LiveScript *live, double value, Text *text);
 // Returns true for keys that act repeatedly while held.
 bool parameter_key_repeats(const char *key);
-// If the script has parameters, appends lines about the selected parameter and the keys to `text`.
-void parameter_status(const ParameterKeys *keys, LiveScript *live, Text *text);
+// If the script has parameters, appends lines about the selected parameter and the keys to `text`. `has_sliders` is
+// true if the display has sliders.
+void parameter_status(const ParameterKeys *keys, LiveScript *live, bool has_sliders, Text *text);

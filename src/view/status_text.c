@@ -60,7 +60,7 @@ void view_update_error_text(View *view) {
 static void add_parameters(View *view, char *text, size_t size) {
     SCOPED_TEXT more = {0};
     size_t length = strlen(text);
-    parameter_status(&view->parameters, &view->live, &more);
+    parameter_status(&view->parameters, &view->live, view->kind && view->kind->scale, &more);
     snprintf(text + length, size - length, "%s", more.len == 0 ? "" : more.bytes);
 }
 

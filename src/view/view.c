@@ -171,6 +171,8 @@ static void execute_key(View *view, const char *key) {
     } else if (strcmp(key, "h") == 0) {
         view->shows_status = !view->shows_status;
         view_update_status(view);
+    } else if (strcmp(key, "p") == 0) {
+        view_toggle_sliders(view);
     } else {
         change_parameters(view, key);
     }
@@ -200,10 +202,13 @@ static void handle_event(View *view, const Event *event) {
     case EVENT_KEY_TAP:
         handle_key(view, event);
         break;
-    case EVENT_POINTER:
+    case EVENT_POINTER: {
+        unsigned buttons_before = view->pointer.buttons;
         view->pointer = *event;
-        report_pointer(view, event);
+        Event away = {.kind = EVENT_POINTER, .display = event->display};
+        report_pointer(view, view_drag_slider(view, event, buttons_before) ? &away : event);
         break;
+    }
     case EVENT_FOCUS_LOST:
         petri_report_pointer(view->live.session, NULL);
         break;
@@ -221,6 +226,7 @@ static void handle_events(View *view) {
         handle_event(view, &event);
         event = view->kind->next_event(view->display, 0);
     }
+    view_apply_drag(view);
 }
 
 // Reduces the detail of pictures to the resolution of the display.
@@ -269,6 +275,7 @@ PetriStatus view_show(View *view, Display *display, PetriPicture *picture, const
 
 static void draw_view(View *view) {
     choose_detail(view);
+    sliders_update(&view->overlay.sliders, view->live.session);
     PetriPicture *picture = live_script_draw(&view->live);
     view->redraw = false;
     view->drawn = clock_seconds(); // taken before drawing, so that slow drawing does not delay the next picture
@@ -421,6 +428,7 @@ static void report_summary(const View *view) {
 
 static int run_view(View *view) {
     view->start = view->measured = clock_seconds();
+    view->dragged = -1;
     view->notice_ends = INFINITY;
     view->redraw = true;
     view->live.awaits_display = view->live.all_windows = true;
@@ -487,7 +495,9 @@ const Command VIEW_COMMAND = {
         "Keys: space pauses, . takes one step, r restarts, f toggles full screen, s saves the picture, h shows frame\n"
         "rate and clocks, w lists warnings (a corner shows their number), q or Escape quits. Tab or ] and [ select a\n"
         "parameter of the script (petri help run); up and down or + and - change it (page up and down: ten steps);\n"
-        "0 or backspace resets it to its default. Keys that the script requests with !key go to the script unless\n"
+        "0 or backspace resets it to its default. p shows sliders, which the pointer drags, for parameters with a "
+        "range\n"
+        "in a window. Keys that the script requests with !key go to the script unless\n"
         "Control is held.",
     .examples = "  petri view dish.fl                              shows changes whenever dish.fl is saved\n"
                 "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",

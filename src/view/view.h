@@ -54,11 +54,23 @@ typedef struct View {
     char title[300];
     Event pointer; // last pointer event
     ParameterKeys parameters;
+    int dragged;          // index of the slider that the pointer drags; -1: none
+    double dragged_to;    // value to which it was dragged
+    bool dragged_further; // true if `dragged_to` has not been set in the script yet
 } View;
 
 // view.c
 // Draws a picture (NULL: black) and an overlay on one of the displays. Returns the status of drawing.
 PetriStatus view_show(View *view, Display *display, PetriPicture *picture, const Overlay *overlay);
+
+// drag_sliders.c
+// Shows or hides the sliders.
+void view_toggle_sliders(View *view);
+// Lets the pointer drag the sliders. `buttons_before` are the buttons of the previous pointer event. Returns true if
+// the event belongs to the sliders, so that the script must not see it.
+bool view_drag_slider(View *view, const Event *event, unsigned buttons_before);
+// Sets the parameter to the value to which its slider was dragged. Many pointer events set it once.
+void view_apply_drag(View *view);
 
 // windows.c
 // Opens, updates and closes displays, so that there is one for each window of the last picture.

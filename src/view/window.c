@@ -376,6 +376,13 @@ static void window_size(Display *display, int width, int height, int *drawn_widt
     release_context(display);
 }
 
+static double window_scale(const Display *display) {
+    double across, down;
+    density(display, &across, &down);
+    release_context(display);
+    return across;
+}
+
 static bool use_texture(Display *display, int width, int height) {
     if (display->texture && display->texture_width == width && display->texture_height == height)
         return true;
@@ -484,6 +491,7 @@ static const DisplayKind WINDOW = {
     .hide = window_hide,
     .next_event = window_next_event,
     .size = window_size,
+    .scale = window_scale,
     .show_directly = window_show_directly,
     .show = window_show,
     .set_title = window_set_title,

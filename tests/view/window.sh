@@ -514,6 +514,41 @@ press q
 check "q quits" ended 0
 check "nothing is written to standard error" [ ! -s err ]
 
+# Sliders: the pointer drags them. The script sees it only elsewhere.
+cat >slide.fl <<'END'
+let PARTS=PARTS or 2 -- 1..7 parts
+    PLAIN=PLAIN or 3
+!window size=400;300 title='slide'
+    !pointer state=:mouse
+    !canvas
+        !rect size=400;300 color=0 fill=true
+        for i in ..PARTS
+            !rect point=50*i;200 size=40;60 color=1 fill=true
+        if $:mouse
+            !rect point=350;270 size=50;30 color=1;0;0 fill=true
+END
+view slide slide.fl
+check "two parts are shown" point 70 230 ffffff
+press p
+check "a slider is shown" dark 240 25
+check "a parameter without a range has none" point 240 57 000000
+xdotool mousemove --window "$window" 300 100
+check "the script sees the pointer beside the sliders" point 375 285 ff0000
+xdotool mousemove --window "$window" 200 25
+check "the script does not see the pointer over a slider" point 375 285 000000
+xdotool mousedown 1
+check "a click sets the parameter" point 270 230 ffffff
+check "a click sets the value at the pointer" point 320 230 000000
+xdotool mousemove --window "$window" 300 100
+check "dragging sets the parameter" point 320 230 ffffff
+check "the script does not see the pointer that drags a slider" point 375 285 000000
+xdotool mouseup 1 mousemove --window "$window" 301 101
+check "the script sees the pointer after dragging" point 375 285 ff0000
+press p
+check "the sliders are hidden" point 240 25 000000
+press q
+check "a view with sliders ends" ended 0
+
 # When the script is saved, it is reloaded and keeps its state and clock. Errors are shown, and the last version without
 # errors keeps running.
 cat >work.fl <<'END'

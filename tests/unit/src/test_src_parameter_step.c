@@ -61,8 +61,31 @@ static void test_step_down_undoes_step_up(void **state) {
     assert_number("28 steps up", row.number, 2.9);
 }
 
+static void test_fraction_selects_value(void **state) {
+    (void)state;
+    static const struct {
+        const char *row;
+        double number, fallback, min, max, step, fraction, to;
+    } rows[] = {
+        {"minimum", 3, 3, 1, 9, 0, 0, 1},
+        {"maximum", 3, 3, 1, 9, 0, 1, 9},
+        {"integers in a range of integers", 3, 3, 1, 9, 0, 0.3, 3},
+        {"step of the script, counted from the minimum", 0.3, 0.3, 0.1, 1, 0.25, 0.5, 0.6},
+        {"not beyond the maximum", 0.3, 0.3, 0.1, 1, 0.25, 1, 1},
+        {"a two hundredth of a range with fractions", 0.5, 0.5, 0, 1, 0, 0.503, 0.505},
+        {"the next value instead of 0", 5, 5, 0, 10, 0, 0, 1},
+        {"the next smaller value instead of a maximum of 0", -5, -5, -10, 0, 0, 1, -1},
+        {"0 if it is the default", 1, 0, 0, 10, 0, 0, 0},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        PetriParameter row = parameter(rows[i].number, rows[i].fallback, rows[i].min, rows[i].max, rows[i].step);
+        assert_number(rows[i].row, parameter_at(&row, rows[i].fraction), rows[i].to);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_step_gives_expected_value),
-                                       cmocka_unit_test(test_step_down_undoes_step_up)};
+                                       cmocka_unit_test(test_step_down_undoes_step_up),
+                                       cmocka_unit_test(test_fraction_selects_value)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
