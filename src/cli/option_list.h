@@ -68,6 +68,7 @@ FIELD(bool,         colour,       colour_by_default())
 FIELD(bool,         monochrome,   no_colour())    // no colours even in terminal pictures
 FIELD(bool,         werror,       false)
 FIELD(const char *, listen,       NULL)           // view: path of a Unix socket
+FIELD(const char *, html,         NULL)           // link: file; NULL: not given
 FIELD(const char *, page,         NULL)           // link: URL of the page; NULL: not given
 FIELD(bool,         stdio,        false)
 FIELD(int,          report,       0)              // check: ReportForm
@@ -82,6 +83,7 @@ OPTION(FOR_RENDER, "format", 0, "F", read_text, format, "select the format for '
 OPTION(FOR_RENDER, "frame", 0, "N", WHOLE(0, INT64_MAX - 1), frame, "draw only frame N, counted from 0 (default: the last)")
 OPTION(FOR_OPEN, "output", 'o', "FILE", read_text, output, "write the script (FILE.fl, - for standard output) or the picture of the frame (.png, .svg, .pdf)")
 OPTION(FOR_LINK, "frame", 0, "N", WHOLE(0, 1000000), frame, "also store the frame number N and the digest of that frame's state")
+OPTION(FOR_LINK, "html", 0, "FILE", read_text, html, "write a page to FILE that contains the script, its files and the engine, and runs without a network")
 OPTION(FOR_LINK, "page", 0, "ADDRESS", read_text, page, "print a whole URL, with the playground at ADDRESS (default: print only the part from '#')")
 OPTION(FOR_VIEW, "terminal", 0, NULL, read_flag, terminal, "show the picture in the terminal even if there is a display")
 OPTION(FOR_VIEW, "fullscreen", 0, NULL, read_flag, full_screen, "fill the screen; the key f switches it off")

@@ -2,7 +2,7 @@
 #include "base/source.h"
 #include "cli/output.h"
 #include "cli/script.h"
-#include "link/link_session.h"
+#include "link/html.h"
 #include "petri-inspect.h"
 
 #include <string.h>
@@ -31,7 +31,7 @@ static bool read_script(Text *text, const char *name) {
 static int print_link(const Linked *linked, const char *page) {
     SCOPED_TEXT link = {0};
     text_add_c(&link, !page ? "" : page);
-    if (!link_pack(&link, linked))
+    if (!link_pack(&link, linked, LINK_MAX_LENGTH))
         return STATUS_FAILED;
     text_add_c(&link, "\n");
     if (!page && isatty(STDERR_FILENO))
@@ -46,17 +46,25 @@ static int make_link(const CommandContext *context, Options *options, LinkSessio
     const char *name = options->script;
     linked->name = memory_strdup(script_is_stdin(name) ? "script.fl" : name + path_directory(str_from(name)).len);
     read_definitions(linked, &options->definitions);
+    if (options->html) {
+        Str folder = path_directory(str_from(name));
+        link_session->folder = folder.len == 0 ? memory_strdup(".") : memory_strndup(name, folder.len);
+    }
     // Without --frame, computes one frame, so that errors are found before the link is sent.
     linked->frame = options->frame < 0 ? 0 : options->frame;
     texts_free(&options->definitions);
     int status = link_session_run(link_session, context, options);
     if (link_session_print_files(link_session,
-                                 "cannot link a script that reads files: ", "; move their contents into the script"))
+                                 options->html ? "cannot add files outside the script's folder: "
+                                               : "cannot link a script that reads files: ",
+                                 options->html ? "; move them into the folder"
+                                               : "; move their contents into the script, or use --html"))
         return STATUS_FAILED;
     if (status != OPTIONS_READ)
         return status;
-    linked->digest = options->frame < 0 ? NULL : link_session_digest(link_session, PETRI_PRINT_DIGEST);
-    return print_link(linked, options->page);
+    linked->digest =
+        options->frame < 0 && !options->html ? NULL : link_session_digest(link_session, PETRI_PRINT_DIGEST);
+    return options->html ? html_write(link_session, options->page, options->html) : print_link(linked, options->page);
 }
 
 static int link_run(const CommandContext *context, Options *options) {
@@ -69,15 +77,19 @@ static int link_run(const CommandContext *context, Options *options) {
 const Command LINK_COMMAND = {
     .name = "link",
     .operands = "SCRIPT.fl",
-    .summary = "print a link that contains a script",
+    .summary = "print a link, or write a page, that contains a script",
     .details =
         "Prints a link that contains the compressed script, its parameters (-D) and, with --frame, a frame number and\n"
         "the digest of the state. 'petri open' and the playground run it to that frame and verify that the state is\n"
         "bit-identical. The data follows the '#', so browsers do not send it to any server. Scripts that read files,\n"
-        "modules or images cannot be linked, nor scripts of more than 100000 characters when compressed.",
+        "modules or images cannot be linked, nor scripts of more than 100000 characters when compressed.\n"
+        "--html writes a page instead, which also contains the engine and the files below the script's folder that "
+        "the\n"
+        "script reads up to frame N. Browsers run it without a network, also from a local disk.",
     .examples = "  petri link dish.fl                              only the fragment, from '#'\n"
                 "  petri link dish.fl -D DROPS=50 --frame 240      frame 240 with 50 drops\n"
-                "  petri link dish.fl --page http://127.0.0.1/     a link to a playground\n",
+                "  petri link dish.fl --page http://127.0.0.1/     a link to a playground\n"
+                "  petri link dish.fl --html dish.html             a page that runs without a network\n",
     .missing_operand = "no script given",
     .options = FOR_LINK,
     .run = link_run,

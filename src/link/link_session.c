@@ -1,20 +1,51 @@
 // link_session.c: see link_session.h.
 #include "link/link_session.h"
 
+#include "base/file.h"
+#include "base/file_access.h"
 #include "cli/link_work.h"
 #include "cli/script.h"
 #include "petri-inspect.h"
 
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Records the name of a file that the script tries to read. Returns NULL, so the file appears to be missing. Folders,
-// which `glob` reads, are not recorded and appear empty.
-static const char *note_file(void *host, const char *name, size_t *length) {
+// Returns the file below the script's folder that has this name; NULL if there is none.
+static const LinkedFile *read_file(LinkSession *link_session, const char *name) {
+    static const size_t max_bytes = (size_t)64 << 20;
+    for (size_t i = 0; i < link_session->file_count; i++)
+        if (strcmp(link_session->files[i].name, name) == 0)
+            return &link_session->files[i];
+    int folder = open(link_session->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    SCOPED_STRING path = memory_strdup(name);
+    Text bytes = {0};
+    if (folder < 0 ||
+        text_read_regular(&bytes, file_open_below(folder, path, O_RDONLY | O_NONBLOCK, 0, false), max_bytes)) {
+        text_free(&bytes);
+        return NULL;
+    }
+    link_session->files =
+        memory_realloc(link_session->files, (link_session->file_count + 1) * sizeof *link_session->files);
+    LinkedFile *file = &link_session->files[link_session->file_count++];
+    *file = (LinkedFile){memory_strdup(name), bytes};
+    return file;
+}
+
+// Provides the files below the script's folder, if the session may read them. Otherwise, records the name and returns
+// NULL, so the file appears to be missing. Folders, which `glob` reads, are not recorded and appear empty.
+static const char *provide_file(void *host, const char *name, size_t *length) {
     LinkSession *link_session = host;
-    if (!texts_contain(&link_session->requested_files, name) && !str_ends_with(str_from(name), STR("/")))
+    if (str_ends_with(str_from(name), STR("/")))
+        return NULL;
+    if (link_session->folder && name[0] != '/' && strncmp(name, "../", 3) != 0) {
+        const LinkedFile *file = read_file(link_session, name);
+        *length = file ? file->bytes.len : 0;
+        return !file ? NULL : file->bytes.len == 0 ? "" : file->bytes.bytes;
+    }
+    if (!texts_contain(&link_session->requested_files, name))
         texts_add(&link_session->requested_files, name);
     *length = 0;
     return NULL;
@@ -112,7 +143,7 @@ int link_session_run(LinkSession *link_session, const CommandContext *host, Opti
             texts_add(&options->definitions, definition.bytes);
         }
     }
-    options->read = note_file;
+    options->read = provide_file;
     options->unsaved_host = link_session;
     options->frames = linked->frame + 1;
     int status = frames_open(&link_session->frames, host, options);
@@ -144,4 +175,10 @@ void link_session_close(LinkSession *link_session) {
     petri_close(&link_session->frames.session);
     link_free(&link_session->linked);
     texts_free(&link_session->requested_files);
+    for (size_t i = 0; i < link_session->file_count; i++) {
+        free(link_session->files[i].name);
+        text_free(&link_session->files[i].bytes);
+    }
+    free(link_session->files);
+    free(link_session->folder);
 }

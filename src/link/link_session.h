@@ -1,4 +1,4 @@
-// link_session.h: runs the script of a link without access to files, and records the names of requested files.
+// link_session.h: runs the script of a link, and records the files that it reads.
 #pragma once
 
 #include "cli/shader_test.h"
@@ -6,19 +6,28 @@
 #include "petri-draw.h"
 #include "run/frames.h"
 
+// A file that a script has read.
+typedef struct LinkedFile {
+    char *name; // relative to the script's folder
+    Text bytes;
+} LinkedFile;
+
 typedef struct LinkSession {
     Linked linked;
+    char *folder;      // folder of the script, whose files the script may read; NULL: it may read no files
+    LinkedFile *files; // files that the script has read
     Frames frames;
-    size_t next_change;       // index in linked.changes of the first change that was not made yet
-    TextList requested_files; // files that the script tried to read
+    size_t next_change; // index in linked.changes of the first change that was not made yet
+    size_t file_count;
+    TextList requested_files; // files that the script tried to read but may not
     PetriPainter *painter;    // has the earlier pictures on which later ones depend; NULL: not needed yet
 } LinkSession;
 
 extern ShaderTester link_shader_tester; // for painters of links
 
-// Opens a session, loads the script and computes the frames up to the frame of the link, with the changes of parameters
-// in the link. Returns OPTIONS_READ, or an exit status after a message. The caller calls link_session_close even after
-// a failure.
+// Opens a session without access to files, except those below `folder`, loads the script and computes the frames up to
+// the frame of the link, with the changes of parameters in the link. Returns OPTIONS_READ, or an exit status after a
+// message. The caller calls link_session_close even after a failure.
 int link_session_run(LinkSession *link_session, const CommandContext *context, Options *options);
 // Returns the digest of the state (PETRI_PRINT_DIGEST) or its hash (PETRI_PRINT_HASH) in hexadecimal. The caller frees
 // it.

@@ -21,20 +21,24 @@ void link_free(Linked *linked) {
     *linked = (Linked){0};
 }
 
+static const char DIGITS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+
+void link_add_base64(Text *out, const char *text, size_t length) {
+    const unsigned char *bytes = (const unsigned char *)text;
+    for (size_t i = 0; i < length; i += 3) {
+        size_t here = length - i < 3 ? length - i : 3;
+        uint32_t bits =
+            (uint32_t)bytes[i] << 16 | (here > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (here > 2 ? bytes[i + 2] : 0);
+        for (size_t k = 0; k <= here; k++)
+            text_add_char(out, DIGITS[bits >> (18 - 6 * k) & 63]);
+    }
+}
+
 #ifdef HAVE_LINKS
 #include <json-c/json.h>
 #include <zlib.h>
 
-enum {
-    VERSION = 1,
-    MAX_LENGTH = 100000,
-    MAX_TEXT = 4 << 20,
-    MAX_FRAME = 1000000,
-    MAX_CHANGES = 10000,
-    RAW = -MAX_WBITS
-};
-
-static const char DIGITS[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+enum { VERSION = 1, MAX_TEXT = 4 << 20, MAX_FRAME = 1000000, MAX_CHANGES = 10000, RAW = -MAX_WBITS };
 
 bool link_possible(void) {
     return true;
@@ -43,16 +47,6 @@ bool link_possible(void) {
 static bool report_error(const char *text) {
     message("%s", text);
     return false;
-}
-
-static void add_base64(Text *out, const unsigned char *bytes, size_t length) {
-    for (size_t i = 0; i < length; i += 3) {
-        size_t here = length - i < 3 ? length - i : 3;
-        uint32_t bits =
-            (uint32_t)bytes[i] << 16 | (here > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (here > 2 ? bytes[i + 2] : 0);
-        for (size_t k = 0; k <= here; k++)
-            text_add_char(out, DIGITS[bits >> (18 - 6 * k) & 63]);
-    }
 }
 
 // Decodes base64url. Ignores white space, because mail programs break long lines. Also accepts `+` and `/`, the digits
@@ -99,7 +93,7 @@ static void add_json(Text *out, const Linked *linked) {
     text_add_c(out, "}");
 }
 
-bool link_pack(Text *out, const Linked *linked) {
+bool link_pack(Text *out, const Linked *linked, size_t max_length) {
     SCOPED_TEXT json = {0};
     add_json(&json, linked);
     z_stream stream = {0};
@@ -115,11 +109,12 @@ bool link_pack(Text *out, const Linked *linked) {
     deflateEnd(&stream);
     size_t start = out->len;
     text_add_c(out, "#");
-    add_base64(out, packed, bound - stream.avail_out);
+    link_add_base64(out, (const char *)packed, bound - stream.avail_out);
     free(packed);
-    if (out->len - start > MAX_LENGTH) {
-        message("the script is too long for a link: %zu characters when compressed, at most %d; share the file instead",
-                out->len - start, MAX_LENGTH);
+    if (out->len - start > max_length) {
+        message(
+            "the script is too long for a link: %zu characters when compressed, at most %zu; share the file instead",
+            out->len - start, max_length);
         return false;
     }
     return true;
@@ -242,9 +237,9 @@ bool link_read(Linked *linked, const Text *link) {
     const char *start = !mark ? link->bytes : mark + 1;
     size_t length = !mark ? link->len : link->len - (size_t)(start - link->bytes);
     SCOPED_TEXT packed = {0}, json = {0};
-    bool too_long = length > MAX_LENGTH;
+    bool too_long = length > LINK_MAX_LENGTH;
     if (too_long) {
-        message("the link is too long: %zu characters, at most %d", length, MAX_LENGTH);
+        message("the link is too long: %zu characters, at most %d", length, LINK_MAX_LENGTH);
         return false;
     }
     if (!read_base64(&packed, start, length) || !unpack(&json, &packed, &too_long)) {
@@ -262,9 +257,10 @@ bool link_possible(void) {
     return false;
 }
 
-bool link_pack(Text *out, const Linked *linked) {
+bool link_pack(Text *out, const Linked *linked, size_t max_length) {
     (void)out;
     (void)linked;
+    (void)max_length;
     return link_possible();
 }
 

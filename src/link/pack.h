@@ -8,6 +8,8 @@
 
 #include "cli/memory.h"
 
+enum { LINK_MAX_LENGTH = 100000 }; // maximum number of characters of a link
+
 typedef struct LinkedChange {
     int64_t frame; // frame after which the change is made; -1: before the first frame
     size_t number; // index of the change in the link
@@ -27,8 +29,10 @@ typedef struct Linked {
 
 // Returns true if petri was built with the libraries for links. Otherwise returns false after a message.
 bool link_possible(void);
-// Adds the link, which starts with `#`. Returns false after a message if it is too long.
-bool link_pack(Text *out, const Linked *linked);
+// Adds the link, which starts with `#`. Returns false after a message if it is longer than `max_length` characters.
+bool link_pack(Text *out, const Linked *linked, size_t max_length);
+// Adds bytes in base64url.
+void link_add_base64(Text *out, const char *bytes, size_t length);
 // Reads a link: the part after the first `#`, or all of it if there is no `#`. Returns false after a message. The
 // caller frees *linked with link_free even after a failure.
 bool link_read(Linked *linked, const Text *link);

@@ -139,6 +139,32 @@ check "link names the file that prevents a link" has err "reads files: module.fl
 printf '!a b=)\n' >wrong.fl
 petri link wrong.fl
 check "a script with an error cannot be linked" one_error
+# The page of the playground, as `./dev web` makes it, is tested by tests/web/standalone.test.mjs.
+echo '<b id="petri-data">null</b>' >empty.html
+export PETRI_STANDALONE=empty.html
+petri link count.fl --html page.html --frame 4
+check "link --html fills the page" grep -Eq '^<b id="petri-data">\{"link": ?"#[A-Za-z0-9_-]+", ?"page": ?"http://127.0.0.1:8080/","files":\{\}\}</b>$' page.html
+mkdir -p inside
+printf 'let DATA=csv("a.csv", 0);csv("none.csv", 0)\n!x y=DATA\n' >inside/reads.fl
+echo '<1>' >inside/a.csv
+petri link inside/reads.fl --html page.html
+check "link --html adds the files that the script reads" grep -q '"files":{"a.csv":"PDE-Cg"}}' page.html
+printf 'let DATA=csv("../a.csv", 0)\n!x y=DATA\n' >inside/reads.fl
+echo '<1>' >a.csv
+petri link inside/reads.fl --html other.html
+check "link --html refuses files outside the script's folder" has err "cannot add files outside the script's folder: ../a.csv"
+ln -s ../a.csv inside/link.csv
+printf 'let DATA=csv("link.csv", 0)\n!x y=DATA\n' >inside/reads.fl
+petri link inside/reads.fl --html page.html
+check "link --html does not follow symbolic links" grep -q '"files":{}}' page.html
+echo hello >empty.html
+petri link count.fl --html other.html
+check "link --html rejects another file as the page" has err "cannot read 'empty.html': not a page of petri"
+PETRI_STANDALONE=absent.html
+petri link count.fl --html other.html
+check "link --html names the missing page" one_message "standalone.html, is not installed"
+check "link --html writes no page on failure" [ ! -e other.html ]
+unset PETRI_STANDALONE
 petri link count.fl -D N=x=
 check "link rejects an invalid definition" status_is 2
 

@@ -65,7 +65,7 @@ test('the tutorial begins with a dish that moves, and without the terminal', way
     await page.waitForFunction(() => document.querySelector('petri-dish').frame > 30);
     assert.notEqual((await pixels(page, 'petri-dish >> #picture')).sum, sum);
     assert.equal(await page.locator('petri-dish').nth(1).evaluate(dish => dish.running), false);
-}));
+}, { reducedMotion: 'no-preference' }));
 
 test('each sample is in the gallery, draws, and has its script', ways, () => visit('gallery.html', async page => {
     const samples = readdirSync(join(root, 'samples')).filter(name => name.endsWith('.fl')), seen = [];

@@ -3,6 +3,7 @@
 import fs from 'node:fs';
 import { constants } from 'node:os';
 import { isatty } from 'node:tty';
+import { fileURLToPath } from 'node:url';
 import { Worker } from 'node:worker_threads';
 import { posixPaths, windowsPaths } from './paths.mjs';
 
@@ -11,6 +12,8 @@ const STACK_MEBIBYTES = 192;
 
 const windows = process.platform === 'win32';
 const paths = windows ? windowsPaths : posixPaths;
+// The page that `petri link --html` fills (src/link/html.c).
+const standalone = paths.fromSystem(fileURLToPath(new URL('./page/standalone.html', import.meta.url)));
 const toBytes = text => Buffer.from(text).toString('latin1');
 
 // Runs petri-command.wasm.
@@ -22,7 +25,8 @@ function runCommand(words) {
             petri: {
                 signals,
                 args: ['petri', ...words.map(argument => paths.fromArgument(argument, fs.existsSync))],
-                environment: Object.entries(process.env).map(([name, value]) => toBytes(`${name}=${value}`)),
+                environment: Object.entries({ PETRI_STANDALONE: standalone, ...process.env })
+                    .map(([name, value]) => toBytes(`${name}=${value}`)),
                 folder: paths.fromSystem(process.cwd()),
                 terminal: [1, 2].some(isatty) ? (isatty(1) ? process.stdout : process.stderr).getWindowSize() : [0, 0],
             },

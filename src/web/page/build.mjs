@@ -2,6 +2,7 @@
 import { copyFileSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -24,3 +25,17 @@ const texts = Object.fromEntries(readdirSync(samples).filter(name => name.endsWi
 // The page's first script names no commands of the terminal.
 texts['dish.fl'] = texts['dish.fl'].replace(/^(-- .*?:).*\n/, '$1 change a number below.\n').replace(/ `petri run -D .*/, '');
 writeFileSync(join(output, 'samples.json'), JSON.stringify({ scripts: texts, files: Object.fromEntries(files('lib')) }));
+
+// The page of `petri link --html`, which contains everything but the script. `petri link` replaces the text of #petri-data.
+const { outputFiles: [code, worker] } = await build({
+    entryPoints: [join(here, 'standalone.mjs'), join(here, 'worker.mjs')], outdir: output, bundle: true, minify: true, format: 'iife',
+    target: 'es2022', write: false, logLevel: 'warning', logOverride: { 'empty-import-meta': 'silent' }, external: ['node:fs/promises'],
+});
+const packed = bytes => gzipSync(bytes, { level: 9 }).toString('base64');
+const filled = [
+    [/(id="petri-engine">)/, packed(readFileSync(join(output, 'petri/engine.wasm')))],
+    [/(id="petri-worker">)/, packed(worker.contents)],
+    [/(id="petri-code">)/, code.text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--')],
+    [/()\/\*style\*\//, readFileSync(join(here, 'embed.css'), 'utf8')],
+].reduce((html, [place, text]) => html.replace(place, (_, tag) => tag + text), readFileSync(join(here, 'standalone.html'), 'utf8'));
+writeFileSync(join(output, 'standalone.html'), filled);

@@ -12,9 +12,10 @@ function makeWorker(url) {
     return new Worker(own, { type: 'module' });
 }
 
-// Starts a worker. Its property `broken` is a promise that resolves when the worker fails, possibly before the first request.
+// Starts a worker: worker.js, or the result of the global function `petriWorker` if the page has set it. Its property `broken` is a promise
+// that resolves when the worker fails, possibly before the first request.
 export function startWorker() {
-    const worker = makeWorker(new URL('./worker.js', import.meta.url));
+    const worker = globalThis.petriWorker?.() ?? makeWorker(new URL('./worker.js', import.meta.url));
     worker.broken = new Promise(resolve => {
         worker.onerror = event => resolve(event.message || 'cannot start the engine: worker.js cannot be loaded');
     });

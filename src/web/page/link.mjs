@@ -44,12 +44,12 @@ const isFileName = name => typeof name === 'string' && !/[\0-\x1f\x7f]/.test(nam
 const isChange = change => Array.isArray(change) && change.length === 3 && Number.isInteger(change[0])
     && typeof change[1] === 'string' && typeof change[2] === 'string';
 
-// The inverse of packLink. Throws an error with a message for the user if the link is invalid.
-export async function readLink(link) {
+// The inverse of packLink. A link has at most `most` characters. Throws an error with a message for the user if the link is invalid.
+export async function readLink(link, most = MAX_LENGTH) {
     const packed = link.replace(/^#/, '').replaceAll('-', '+').replaceAll('_', '/');
     let json;
-    if (packed.length > MAX_LENGTH)
-        throw new Error(`the link is too long: ${packed.length} characters, at most ${MAX_LENGTH}`);
+    if (packed.length > most)
+        throw new Error(`the link is too long: ${packed.length} characters, at most ${most}`);
     try {
         const bytes = Uint8Array.from(atob(packed), character => character.charCodeAt(0));
         const text = await through(new DecompressionStream('deflate-raw'), bytes, MAX_TEXT);

@@ -57,7 +57,7 @@ static void test_a_link_keeps_text_name_changes_and_digest(void **state) {
     SCOPED_TEXT link = {0};
     text_add_c(&linked.text, "!window\n\t\"ä\"\n");
     text_add_c(&link, "https://example.org/");
-    assert_true(link_pack(&link, &linked));
+    assert_true(link_pack(&link, &linked, LINK_MAX_LENGTH));
     assert_non_null(strstr(link.bytes, "/#"));
     assert_null(strpbrk(strchr(link.bytes, '#'), "+/= \n"));
     assert_string_equal(read_link(&got, &link), "");
@@ -177,7 +177,7 @@ static void test_sizes_are_limited(void **state) {
     for (int i = 0; i < 12000; i++)
         text_add_format(&linked.text, "%016llx", (unsigned long long)next_bits(&seed));
     captured_begin(&captured, STDERR_FILENO);
-    bool packed = link_pack(&link, &linked);
+    bool packed = link_pack(&link, &linked, LINK_MAX_LENGTH);
     captured_end(&captured);
     assert_false(packed);
     assert_non_null(strstr(captured.text, "petri: the script is too long for a link: "));
