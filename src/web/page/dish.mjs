@@ -2,6 +2,7 @@
 import { Remote } from './engine.mjs';
 import { addImage, paint, sizeOf } from './paint.mjs';
 import { NO_ENGINE, hasEngine } from './feature_check.mjs';
+import { Input } from './input.mjs';
 import { FIRST_SEEN } from './player.mjs';
 import { Rate } from './rate.mjs';
 
@@ -17,11 +18,16 @@ export class Dish {
         Object.assign(this, {
             canvas, host, running: false, loaded: null, name: null, frame: -1, lastFrame: -1, fps: 60, speed: 1, behind: 0, last: 0,
             turn: 0, incomplete: false, replays: false, files: new Map(), images: new Map(),
-            wanted: null, pressed: new Set(), rate: new Rate(),
+            wanted: null, rate: new Rate(),
         });
         this.remote = hasEngine() ? new Remote(source, worker) : null;
         if (this.remote)
             this.remote.onContextChange = lost => this.changeContext(lost);
+    }
+
+    // True if the script asks for a node such as !pointer. The modules that it imports are not searched.
+    asksFor(node) {
+        return new RegExp(`!${node}\\b`).test(this.loaded ?? '');
     }
 
     get ready() {
@@ -73,14 +79,20 @@ export class Dish {
         if (!picture)
             return [];
         const { canvas } = this, { width, height } = sizeOf(picture);
-        if (canvas.width !== width || canvas.height !== height)
+        if (canvas.width !== width || canvas.height !== height) {
             Object.assign(canvas, { width, height });
+            canvas.style.setProperty('--ratio', width / height);
+        }
         return paint(canvas.getContext('2d'), picture, this.images);
     }
 
     show(answer) {
         Object.assign(this, { frame: answer.frame, lastFrame: answer.lastFrame, fps: answer.fps, parameters: answer.parameters });
         const left = this.draw(answer);
+        // A finger on the picture scrolls the page, unless the script asks for the pointer.
+        if (this.canvas && this.listened !== this.loaded)
+            this.canvas.style.touchAction = this.asksFor('pointer') ? 'none' : '';
+        this.listened = this.loaded;
         this.incomplete ||= left.length > 0 && answer.picture.lost;
         this.host.shown(answer, left);
         if (left.includes('canvas3d'))
@@ -262,54 +274,8 @@ export class Dish {
 
     // Reports the pointer and, while the picture has the focus, keys to the script.
     listen() {
-        const { canvas } = this;
-        canvas.onpointermove = canvas.onpointerdown = canvas.onpointerup = event => this.point(event, true);
-        canvas.onpointerleave = event => this.point(event, false);
-        canvas.onkeydown = event => this.press(event);
-        canvas.onkeyup = event => this.releaseKey(keyName(event));
-        canvas.onblur = () => this.pressed.forEach(name => this.releaseKey(name));
+        new Input(this);
     }
-
-    point(event, inside) {
-        if (this.loaded === null)
-            return;
-        const box = this.canvas.getBoundingClientRect(), share = (x, from, size) => Math.min(Math.max((x - from) / size, 0), 1);
-        const [left, right, middle] = [event.buttons & 1, event.buttons & 2, event.buttons & 4];
-        this.attempt('pointer', {
-            inside, x: share(event.clientX, box.left, box.width), y: share(event.clientY, box.top, box.height),
-            buttons: left | (middle ? 2 : 0) | (right ? 4 : 0),
-        });
-    }
-
-    // Reports a key to the script and prevents the browser from scrolling. The browser handles Tab and keys with Control or Alt.
-    press(event) {
-        const name = keyName(event);
-        if (this.loaded === null || !name || event.ctrlKey || event.metaKey || event.altKey)
-            return;
-        if (event.key.length === 1 || /^(Arrow|Page|Home|End)/.test(event.key))
-            event.preventDefault();
-        this.pressed.add(name);
-        this.ask('key', { name, pressed: true }).catch(() => {});
-    }
-
-    releaseKey(name) {
-        if (this.pressed.delete(name))
-            this.ask('key', { name, pressed: false }).catch(() => {});
-    }
-}
-
-// Maps the browser's key names to petri's key names.
-const KEYS = {
-    ' ': 'space', ArrowLeft: 'left', ArrowRight: 'right', ArrowUp: 'up', ArrowDown: 'down', Enter: 'enter', Escape: 'escape',
-    Backspace: 'backspace', Insert: 'insert', Delete: 'delete', PageUp: 'page_up', PageDown: 'page_down', Home: 'home', End: 'end',
-    "'": 'apostrophe', ',': 'comma', '-': 'minus', '.': 'period', '/': 'slash', ';': 'semicolon', '=': 'equal', '[': 'left_bracket',
-    '\\': 'backslash', ']': 'right_bracket', '`': 'grave_accent',
-};
-
-function keyName({ key, code }) {
-    if (key === 'Shift')
-        return code === 'ShiftRight' ? 'right_shift' : 'left_shift';
-    return /^([a-z0-9]|F\d+)$/i.test(key) ? key.toLowerCase() : KEYS[key] ?? null;
 }
 
 // Returns the message for the user about an error.

@@ -74,7 +74,7 @@ export class Editor {
             highlightSelectionMatches(), indentUnit.of('    '), flitter, syntaxHighlighting(colours), lintGutter(), theme,
             autocompletion({ override: [context => this.complete(context)] }),
             hoverTooltip((view, at) => this.explain(view, at)),
-            EditorView.contentAttributes.of({ 'aria-label': 'The script', tabindex: '0' }),
+            EditorView.contentAttributes.of({ 'aria-label': 'The script', 'aria-describedby': 'advice', tabindex: '0' }),
             EditorView.updateListener.of(update => update.docChanged && onChange(this.text)),
             keymap.of([{ key: 'Mod-Enter', run: () => (onRun(), true), shift: () => (onRestart(), true), preventDefault: true }]),
             keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, indentWithTab]),

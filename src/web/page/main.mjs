@@ -4,12 +4,14 @@ import { Dish, errorText, unsupportedText } from './dish.mjs';
 import { Editor } from './editor.mjs';
 import { Gallery } from './gallery.mjs';
 import { Hint } from './hint.mjs';
+import { Keys } from './keys.mjs';
 import { Live } from './live.mjs';
 import { Particle } from './particle.mjs';
 import { Plot } from './plot.mjs';
 import { Problems } from './problems.mjs';
 import { Prompt } from './prompt.mjs';
 import { SaveDialog, saveAs } from './save.mjs';
+import { Splitter } from './splitter.mjs';
 import { Scripts } from './scripts.mjs';
 import { Table } from './table.mjs';
 import { Tabs } from './tabs.mjs';
@@ -24,7 +26,7 @@ const encoder = new TextEncoder();
 
 // What the modules of the page share: the script's name, the samples, editor, dish, problems, live, scripts and controls.
 const page = { name: FIRST, samples: {}, say, openText };
-let prompt, plot, table, particle, help = [], empty = false;
+let prompt, plot, table, particle, saves, help = [], empty = false;
 
 function say(text, bad = false) {
     $('message').textContent = text;
@@ -131,7 +133,10 @@ async function restart() {
 const stem = () => page.name.replace(/\.fl$/, '');
 
 function listen() {
-    $('save').onclick = () => saveAs(page.name, new Blob([page.editor.text], { type: 'text/plain' }));
+    const save = () => saveAs(page.name, new Blob([page.editor.text], { type: 'text/plain' }));
+    $('save').onclick = save;
+    new Keys(document, page, { save, savePicture: () => saves.savePicture() });
+    new Splitter($('splitter'));
     listenForTheme($('theme'));
 }
 
@@ -155,7 +160,7 @@ async function begin() {
         plot.watch([...new Set([...plot.texts, text])]);
         tabs.choose($('tab-plot'));
     });
-    new SaveDialog(document, dish, stem);
+    saves = new SaveDialog(document, dish, stem);
     new Gallery(document, page, start.source);
     plot = new Plot(document, dish);
     table = new Table(document, dish);

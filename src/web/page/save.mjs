@@ -1,6 +1,6 @@
 // save.mjs: saves files: the script, or, with a dialog, the picture, a video, the particles or the state.
 
-const SUFFIXES = { picture: 'png', film: 'webm', particles: 'csv', state: 'csv' };
+const SUFFIXES = { film: 'webm', particles: 'csv', state: 'csv' };
 const SECONDS = 5; // default length of a video in seconds; longer if more frames have been computed
 
 export function saveAs(name, blob) {
@@ -49,11 +49,18 @@ export class SaveDialog {
         $('saving-range').classList.toggle('off', !ranged);
     }
 
+    // Saves the picture of the current frame as PNG, unless the script draws nothing.
+    savePicture() {
+        const { dish } = this, name = `${this.stem()}-${dish.frame}.png`;
+        if (dish.draws && dish.loaded !== null)
+            dish.canvas.toBlob(blob => blob && saveAs(name, blob));
+    }
+
     async save() {
         const { dish, kind, get: $ } = this;
-        const name = `${this.stem()}${kind === 'picture' || kind === 'state' ? `-${dish.frame}` : ''}.${SUFFIXES[kind]}`;
+        const name = `${this.stem()}${kind === 'state' ? `-${dish.frame}` : ''}.${SUFFIXES[kind]}`;
         if (kind === 'picture') {
-            dish.canvas.toBlob(blob => blob && saveAs(name, blob));
+            this.savePicture();
             this.dialog.close();
             return;
         }
