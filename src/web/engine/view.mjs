@@ -50,7 +50,7 @@ export async function serveScript(script, report = () => {}) {
     const contents = file => {
         if (file === 'index.html')
             return fs.readFileSync(join(PACKAGE, 'page/index.html'), 'utf8').replace('<script', '<script src="view.js"></script>\n<script')
-                .replace(/<a href="manual[^]*?<\/a>/, '');
+                .replaceAll(/<a href="(manual|tour)[^]*?<\/a>/g, '');
         if (file === 'view.js')
             return `history.replaceState(null, '', ${JSON.stringify(link)});\n`
                 + 'new EventSource("events").onmessage = event => { location.hash = event.data; };\n';

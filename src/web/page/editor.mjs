@@ -7,6 +7,7 @@ import { highlightSelectionMatches, searchKeymap } from '@codemirror/search';
 import { EditorState } from '@codemirror/state';
 import { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
+import { dragNumbers } from './drag_numbers.mjs';
 
 const KEYWORDS = /^(let|func|for|in|if|elif|else|where|import|from|stable|and|or|not|true|false|null|debug)\b/;
 
@@ -76,6 +77,7 @@ export class Editor {
             hoverTooltip((view, at) => this.explain(view, at)),
             EditorView.contentAttributes.of({ 'aria-label': 'The script', 'aria-describedby': 'advice', tabindex: '0' }),
             EditorView.updateListener.of(update => update.docChanged && onChange(this.text)),
+            dragNumbers,
             keymap.of([{ key: 'Mod-Enter', run: () => (onRun(), true), shift: () => (onRestart(), true), preventDefault: true }]),
             keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap, indentWithTab]),
         ];

@@ -5,6 +5,7 @@ import { makeFilm, makeState, makeTable } from './exports.mjs';
 import { Forces } from './forces.mjs';
 import { addImage, imageOf } from './paint.mjs';
 import { Player } from './player.mjs';
+import { passes } from './task.mjs';
 import { StateTable, Watches } from './tables.mjs';
 
 const STEP_TIME = 30; // ms that the frames of one picture may take
@@ -139,6 +140,7 @@ const acts = {
     prompt({ text }) {
         return { type: 'printed', text: player.session.prompt(text), told: take() };
     },
+    task: message => ({ type: 'task', passed: passes(engine, message, { files: player.files, shouldInterrupt }) }),
     async command({ text }) {
         const { moved, ...done } = await execute(player, text, shouldInterrupt);
         return moved ? shown(done) : { type: 'printed', told: take(), ...done };

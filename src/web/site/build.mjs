@@ -112,7 +112,8 @@ const cards = GROUPS.map(([title, pages]) => `<h2>${title}</h2>\n<ul class="card
     `<li><a href="${name}.html">${escape(its)}</a><br>${escape(about)}</li>`).join('\n')}\n</ul>\n`).join('');
 writeFileSync(join(output, 'index.html'), html('index', 'The manual', `<h1>The petri manual</h1>
 <p>petri ${escape(site.tables.title)}. It gives bit-identical results on every machine. Your browser computes the dish below and all
-examples on these pages. Change a number or move a slider to see the effect.</p>
+examples on these pages. Change a number or move a slider to see the effect. The
+<a href="../tour/index.html">tour</a> begins with one particle and ends with a film.</p>
 <petri-dish src="dish.fl" controls label="A dish of drops, and a spoon that stirs them">${
     site.text.image('pictures/dish.png', 'A dish of drops', { file: 'samples/README.md' })}</petri-dish>
 ${cards}`, []));
