@@ -289,7 +289,7 @@ test('deep recursion does not end the engine in a worker', options, () => opened
     },
 }));
 
-test('axe finds no serious problems, in dark and light', options, async () => {
+test('axe finds no serious problems, in dark and light', { ...options, timeout: 180000 }, async () => {
     const axe = readFileSync(join(root, 'src/web/page/node_modules/axe-core/axe.min.js'), 'utf8');
     for (const colorScheme of ['light', 'dark'])
         await opened('', {
@@ -311,9 +311,9 @@ test('axe finds no serious problems, in dark and light', options, async () => {
                 await page.keyboard.press('Escape');
                 await page.click('#new');
                 await page.click('#scripts');
-                await page.waitForSelector('#own-scripts .name');
-                await look();
-                await page.click('#own-scripts [aria-label^=Delete]');
+                await page.click('[aria-label="Duplicate script.fl"]');
+                await page.click('#scripts');
+                await page.click('[aria-label="Delete script.fl"]');
                 await look();
                 await page.keyboard.press('Escape');
                 await page.evaluate(async () => {

@@ -212,7 +212,7 @@ export class Dish {
             this.took = end - now;
             if (this.frame - before < count || this.took > SLOW_PICTURE)
                 this.behind = Math.min(this.behind, 1);
-            if (answer && turn === this.turn)
+            if (answer && this.running && turn === this.turn)
                 this.host.ran?.(this.rate.see(end, this.frame));
         }
         requestAnimationFrame(later => this.tick(later, turn));

@@ -30,7 +30,10 @@ export class Gallery {
         $('sample-cards').append(...this.cards.map(({ item }) => item));
     }
 
+    // Opens the dialog. Meanwhile the page's script rests, so that the thumbnails do not wait for it.
     show() {
+        this.rests = this.page.dish.running;
+        this.page.dish.pause();
         this.fill();
         this.dialog.showModal();
         this.work();
@@ -38,6 +41,7 @@ export class Gallery {
 
     // Closes the dialog and opens a script.
     leave(open) {
+        this.rests = false;
         this.dialog.close();
         open();
     }
@@ -136,5 +140,7 @@ export class Gallery {
         this.left?.();
         this.dish?.end();
         this.dish = null;
+        if (this.rests)
+            this.page.dish.run();
     }
 }
