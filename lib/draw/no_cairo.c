@@ -2,6 +2,7 @@
 // canvases.
 #include "draw/painter.h"
 
+#include <math.h>
 #include <string.h>
 
 void draw_tools_close(PetriPainter *painter) {
@@ -170,9 +171,22 @@ Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture,
 }
 
 const char *draw_measure_text(void *user_data, const BuiltinText *text, double *width, bool *loaded) {
-    (void)user_data;
-    (void)text;
-    (void)width;
+    PetriPainter *painter = user_data;
+    const PetriCanvasBackend *backend = &painter->backend;
+    TextStyle style;
+    const char *problem = draw_read_style(text, &style);
     (void)loaded;
-    return "not supported: this build has no fonts";
+    if (problem)
+        return problem;
+    double unit = NAN;
+    if (backend->measure) {
+        ArenaMark mark = arena_mark(&painter->arena);
+        const char *bytes = str_to_c(&painter->arena, text->text);
+        unit = backend->measure(backend->user_data, bytes, style.family, style.weight, style.width, style.slant);
+        arena_rewind(&painter->arena, mark);
+    }
+    if (isnan(unit))
+        return "not supported: there are no fonts";
+    *width = unit * style.size;
+    return NULL;
 }

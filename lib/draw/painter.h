@@ -83,6 +83,18 @@ const double *draw_canvas_display_list(PetriPainter *painter, const DrawNode *ca
 const double *draw_picture_display_list(Arena *arena, const CanvasPicture *picture, double scale, size_t *count);
 
 // text.c, or no_cairo.c
+enum { MAX_TEXT_LENGTH = 10000, MAX_FONT_SIZE = 4000 }; // maximum length of a text in bytes, and font size in pixels
+
+// The style of a text that is measured, with the defaults filled in. `family` is a list of names, separated by commas.
+typedef struct TextStyle {
+    double size;
+    double weight;
+    int width;
+    int slant;
+    char family[1000];
+} TextStyle;
+// Reads the style of a text. Returns NULL, or the reason if an argument is not valid.
+const char *draw_read_style(const BuiltinText *text, TextStyle *out);
 // A BuiltinPictures.measure. `user_data` is the painter.
 const char *draw_measure_text(void *user_data, const BuiltinText *text, double *width, bool *loaded);
 

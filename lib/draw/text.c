@@ -10,9 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { MAX_TEXT_LENGTH = 10000 };         // maximum length of a text in bytes
-enum { MAX_FONTS = 5000 };                // maximum number of fonts that a painter loads to measure texts
-static const double MAX_FONT_SIZE = 4000; // maximum font size in pixels
+enum { MAX_FONTS = 5000 }; // maximum number of fonts that a painter loads to measure texts
 
 // Creates the fonts on first use, not earlier, because Pango then starts a background thread that loads the list of
 // fonts. A process that exits while the thread runs would free data that the thread still reads.
@@ -163,7 +161,7 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
 static bool has_drawable_size(Canvas *canvas, double size) {
     double pixels = size * draw_scale_of(canvas->cr);
     if (pixels > MAX_FONT_SIZE || size > MAX_FONT_SIZE)
-        draw_report_canvas(canvas, DIAG_WARNING, "bad-font-size", "!text: text larger than %g pixels is not drawn",
+        draw_report_canvas(canvas, DIAG_WARNING, "bad-font-size", "!text: text larger than %d pixels is not drawn",
                            MAX_FONT_SIZE);
     return pixels > 0.1 && size > 0.001 && pixels <= MAX_FONT_SIZE && size <= MAX_FONT_SIZE;
 }
@@ -214,24 +212,6 @@ void draw_text(Canvas *canvas, const DisplayCommand *command, const DisplayPaint
     draw_forget_path(canvas);
 }
 
-// Reads a word or, for the weight, a number. An empty word leaves the default in *value.
-static bool read_word(AttrType type, Str word, double *value) {
-    int found;
-    char text[32], *end;
-    if (word.len == 0)
-        return true;
-    if (schema_find_word(type, word, &found)) {
-        *value = found;
-        return true;
-    }
-    if (type != TYPE_WEIGHT || word.len >= sizeof text)
-        return false;
-    memcpy(text, word.bytes, word.len);
-    text[word.len] = 0;
-    *value = strtod(text, &end);
-    return *end == 0 && *value >= 0 && *value <= 1000;
-}
-
 // Returns true if the font was measured recently. Otherwise, adds it to the recent fonts and counts it.
 static bool is_recent_font(PetriPainter *painter, uint64_t hash) {
     for (uint32_t i = 0; i < RECENT_FONTS; i++)
@@ -243,41 +223,28 @@ static bool is_recent_font(PetriPainter *painter, uint64_t hash) {
 
 const char *draw_measure_text(void *user_data, const BuiltinText *text, double *width, bool *loaded) {
     PetriPainter *painter = user_data;
-    char family[1000];
-    double weight = 400, stretch = 4, slant = SLANT_UPRIGHT;
-    Str list =
-        text->family.len > 0 ? text->family : str_from(schema_row(KIND_CANVAS, ATTR_FONT_FAMILY)->default_value.string);
-    if (!read_word(TYPE_WEIGHT, text->weight, &weight))
-        return "weight should be 0 to 1000, or a word such as :bold";
-    if (!read_word(TYPE_FONT_WIDTH, text->width, &stretch))
-        return "width should be a word such as :condensed";
-    if (!read_word(TYPE_SLANT, text->slant, &slant))
-        return "slant should be :upright, :oblique or :italic";
-    if (text->text.len > MAX_TEXT_LENGTH || list.len >= sizeof family)
-        return "text longer than 10000 bytes, or family longer than 999";
-    const double default_size = 20;
-    double size = isnan(text->size) ? default_size : text->size;
-    if (size > MAX_FONT_SIZE)
-        return "size should be at most 4000";
+    TextStyle style;
+    const char *problem = draw_read_style(text, &style);
+    if (problem)
+        return problem;
     TextContext *text_context = draw_text_context(painter);
     if (!text_context)
         return "out of memory";
-    memcpy(family, list.bytes, list.len);
-    family[list.len] = 0;
-    const double style[] = {weight, stretch, slant};
-    *loaded = !is_recent_font(painter, hash_bytes(hash_bytes(0, family, strlen(family)), style, sizeof style));
+    const double face[] = {style.weight, style.width, style.slant};
+    *loaded =
+        !is_recent_font(painter, hash_bytes(hash_bytes(0, style.family, strlen(style.family)), face, sizeof face));
     if (painter->font_count > MAX_FONTS)
         return "a run can measure text in at most 5000 fonts"; // the font library keeps each in memory
     bool known;
     // Advances are proportional to the size. A fixed size is more precise than a small one.
     const double measured_size = 1000;
     use_font(text_context,
-             &(DisplayText){.size = measured_size, .weight = weight, .width = (int)stretch, .slant = (int)slant},
-             find_family(painter, family, &known));
+             &(DisplayText){.size = measured_size, .weight = style.weight, .width = style.width, .slant = style.slant},
+             find_family(painter, style.family, &known));
     text_context->family = NULL; // the next text that is drawn sets its own font
     PangoRectangle logical;
     pango_layout_set_text(text_context->layout, text->text.bytes, (int)text->text.len);
     pango_layout_get_extents(text_context->layout, NULL, &logical);
-    *width = logical.width / (double)PANGO_SCALE * (size / measured_size);
+    *width = logical.width / (double)PANGO_SCALE * (style.size / measured_size);
     return NULL;
 }

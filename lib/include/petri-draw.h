@@ -373,6 +373,10 @@ typedef struct PetriCanvasBackend {
     // image. If `image` itself is NULL, there are no images.
     const uint32_t *(*image)(void *user_data, const char *file, int *width, int *height);
     void *user_data; // passed to the functions
+    // Returns the width of a text, in units of the font size, for measure_text() of scripts. `family` is a list of
+    // names, separated by commas. `weight`, `width` and `slant` are as in PETRI_DRAW_TEXT. Returns NaN if there are no
+    // fonts. If `measure` itself is NULL, texts cannot be measured.
+    double (*measure)(void *user_data, const char *text, const char *family, double weight, int width, int slant);
 } PetriCanvasBackend;
 
 // Sets the functions that a painter draws canvases with. Copies the struct. Returns PETRI_UNSUPPORTED in a build with

@@ -267,16 +267,29 @@ static const uint32_t *find_image(void *user_data, const char *file, int *width,
     return host_image(file, width, height);
 }
 
-// Returns a painter, or NULL if WebGL 2 is not available.
-EXPORT(PetriPainter *, web_painter, void) {
-    const PetriCanvasBackend host = {.size = sizeof host, .draw = draw_canvas, .image = find_image};
+static double measure_text(void *user_data, const char *text, const char *family, double weight, int width, int slant) {
+    (void)user_data;
+    return host_measure(text, family, weight, width, slant);
+}
+
+// Returns a painter, which also serves the scripts of the session, or NULL if out of memory.
+EXPORT(PetriPainter *, web_painter, PetriSession *session) {
+    const PetriCanvasBackend host = {
+        .size = sizeof host, .draw = draw_canvas, .image = find_image, .measure = measure_text};
     PetriPainter *painter = petri_painter_open();
-    if (painter && (petri_painter_use_backend(painter, &host) != PETRI_OK || petri_painter_use_gl(painter) != PETRI_OK))
+    if (painter &&
+        (petri_painter_use_backend(painter, &host) != PETRI_OK || petri_painter_serve(painter, session) != PETRI_OK))
         petri_painter_close(&painter);
     return painter;
 }
 
-EXPORT(void, web_painter_close, PetriPainter *painter) {
+// Lets the painter render effects. Returns false if WebGL 2 is not available.
+EXPORT(bool, web_painter_use_gl, PetriPainter *painter) {
+    return petri_painter_use_gl(painter) == PETRI_OK;
+}
+
+EXPORT(void, web_painter_close, PetriPainter *painter, PetriSession *session) {
+    petri_painter_serve(NULL, session);
     petri_painter_close(&painter);
 }
 

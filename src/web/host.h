@@ -47,6 +47,9 @@ HOST(screen) void host_screen(int width, int height);
 HOST(shown) void host_shown(const char *title, bool ready);
 // Implement PetriCanvasBackend: host_draw draws a canvas into cleared pixels, host_image returns an image.
 HOST(draw) bool host_draw(const double *numbers, size_t count, int width, int height, uint32_t *pixels);
+// Returns the width of a text, in units of the font size.
+HOST(measure)
+double host_measure(const char *text, const char *family, double weight, int width, int slant);
 HOST(image) const uint32_t *host_image(const char *file, int *width, int *height);
 // Fills pixels, in the format of ImageData, with the paint of a filter (PetriPaintCallback).
 HOST(paint) void host_paint(const double *commands, size_t count, uint32_t *pixels);

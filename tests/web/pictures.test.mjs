@@ -87,6 +87,18 @@ async function install() {
             colours: new Set(here).size,
         };
     };
+    // Returns the state after some frames.
+    window.run = (text, frames) => {
+        const told = [], session = engine.open({ onDiagnostic: ({ rendered }) => told.push(rendered) });
+        session.load(text);
+        for (let i = 0; i < frames; i++) {
+            session.step();
+            session.renderIfNeeded();
+        }
+        const state = Object.fromEntries(session.state);
+        session.close();
+        return { told, state };
+    };
     window.draw = async (text, frame, given, png) => {
         const files = Object.fromEntries(Object.entries(given).map(([name, bytes]) => [name, bytesOf(bytes)])), told = [];
         const images = new Map();
@@ -146,6 +158,31 @@ test('the page shows 3-D scenes', options, async () => {
     await page.waitForFunction(() => document.body.dataset.frame === '2');
     assert.equal(await page.textContent('#message'), '');
     judge(await page.evaluate(png => window.compare(document.getElementById('picture'), png), render(script, 2)), 0);
+});
+
+const SAMPLED = `!window size=60;20
+    !canvas id=:pic
+        !rect size=60;20 color=0.2;0.4;0.6 fill=true antialias=false
+        !rect size=6;2 color=1;0;0 fill=true antialias=false
+!counter state=(:points;frame) rate=0 initial=sample(:pic, 0.05;0.95;0.5;0.5;3;3, 7)
+!counter state=:mono rate=0 initial=measure_text('petri dish', 'DejaVu Sans Mono', 40)
+!counter state=:bold rate=0 initial=measure_text('petri dish', 'DejaVu Sans', 20, :bold)
+!counter state=:serif rate=0 initial=measure_text('petri dish', 'DejaVu Serif', 12)
+`;
+
+test('in the page, scripts measure texts and sample pictures as with petri render', options, async () => {
+    const script = written('sampled.fl', SAMPLED), file = join(scratch, 'sampled.state');
+    execFileSync(petri, ['render', script, '--quiet', '--frames', '3', '--state', file, '-o', join(scratch, 'sampled%d.png')]);
+    const native = Object.fromEntries([...readFileSync(file, 'utf8').matchAll(/^\$\((.*?)\) = (.*)$/gm)].map(([, key, value]) =>
+        [key, value.split(';').map(Number)]));
+    const shown = await page.evaluate(text => window.run(text, 3), SAMPLED);
+    assert.deepEqual(shown.told, []);
+    for (const [key, value] of Object.entries(native).filter(([key]) => /^:(points|mono|bold|serif)/.test(key))) {
+        const share = key.startsWith(':points') ? 1e-6 : 0.01, near = shown.state[key];
+        assert.ok(near?.length === value.length && value.every((number, i) => Math.abs(number - near[i]) <= share * Math.abs(number)),
+            `${key} is ${near} in the page, ${value} in petri render`);
+    }
+    assert.equal(native[':points;2'].length, 12);
 });
 
 const samples = join(root, 'samples'), pictures = join(root, 'tests/pictures');

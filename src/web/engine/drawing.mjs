@@ -21,6 +21,30 @@ const SLANTS = WORDS.slant.map(name => name === 'upright' ? 'normal' : name);
 const FONT_SIZE = 100; // in pixels; text is drawn at this size and scaled, because some browsers do not draw sizes below 1
 const NO_ENGINE = 'filters and noise, which need the option engine';
 
+// Returns a font of Canvas 2D with the size FONT_SIZE.
+function fontOf(familyText, weight, width, slant) {
+    const families = familyText.split(',').map(name => FONTS[name.trim()] ? `${FONTS[name.trim()]},${name}` : name);
+    return `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${STRETCHES[width] ?? 'normal'} ${FONT_SIZE}px ${
+        families.join(',') || 'sans-serif'}`;
+}
+
+const plainText = text => text.replace(/\s/g, ' ');
+
+function setFont(context, font) {
+    context.font = font;
+    if (context.fontKerning !== undefined)
+        context.fontKerning = 'none';
+}
+
+let measuring; // the context that measures texts
+
+// Returns the width of a text, in units of the font size.
+export function measureText(text, familyText, weight, width, slant) {
+    measuring ??= new OffscreenCanvas(1, 1).getContext('2d');
+    setFont(measuring, fontOf(familyText, weight, width, slant));
+    return measuring.measureText(plainText(text)).width / FONT_SIZE;
+}
+
 // Multiplies a canvas by another canvas, including alpha. Canvas 2D has no such mode.
 function multiply(context, { canvas }) {
     const { width, height } = canvas, image = context.getImageData(0, 0, width, height);
@@ -413,9 +437,7 @@ class Painter {
     }
 
     text(fill, stroke, x, y, size, weight, width, slant, centred, familyText, text) {
-        const families = familyText.split(',').map(name => FONTS[name.trim()] ? `${FONTS[name.trim()]},${name}` : name);
-        this.filtered(() => this.paintText(fill, stroke, x, y, size, `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${
-            STRETCHES[width] ?? 'normal'} ${FONT_SIZE}px ${families.join(',') || 'sans-serif'}`, centred, text.replace(/\s/g, ' ')));
+        this.filtered(() => this.paintText(fill, stroke, x, y, size, fontOf(familyText, weight, width, slant), centred, plainText(text)));
     }
 
     paintText(fill, stroke, x, y, size, font, centred, text) {
@@ -424,9 +446,7 @@ class Painter {
             return;
         this.paintPath(fill, stroke, (here, isFill) => {
             here.save();
-            here.font = font;
-            if (here.fontKerning !== undefined)
-                here.fontKerning = 'none';
+            setFont(here, font);
             here.translate(x, y);
             here.scale(size / FONT_SIZE, size / FONT_SIZE);
             here.lineWidth *= FONT_SIZE / size;

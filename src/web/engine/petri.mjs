@@ -3,7 +3,7 @@
 import { Archive, Statements } from './archive.mjs';
 import { callEngine } from './call.mjs';
 import { LEVELS, SECTIONS, STATUSES, TOKENS } from './constants.mjs';
-import { drawPicture, needsEngine, pictureSize } from './drawing.mjs';
+import { drawPicture, measureText, needsEngine, pictureSize } from './drawing.mjs';
 import { pixelContext, readPixels } from './pixels.mjs';
 import { compile, instantiate } from './wasm.mjs';
 
@@ -80,6 +80,7 @@ class Engine {
             screen: (width, height) => this.memory.screen.resize(width, height),
             shown: (title, ready) => now().taken.push({ image: this.memory.screen.take(), title: text(title), ready: !!ready }),
             draw: (numbers, count, width, height, pixels) => now().drawCanvas(numbers, count, width, height, pixels),
+            measure: (words, family, ...style) => measureText(text(words), text(family), ...style),
             image: (name, width, height) => now().imagePixels(text(name), width, height),
             paint: (commands, count, pixels) => this.paint(this.memory.numbers(commands, count).slice(), pixels),
             archive: (script, command, version, sha256, firstFrame, lastFrame) =>
@@ -143,6 +144,7 @@ export class Session {
         this.archive = archive;
         this.database = archive?.database; // for the functions host_sql_...
         this.painter = null; // null: not opened yet; 0: not available
+        this.renders = null; // true if the painter has a WebGL context; null: not tried yet
         this.context = 0; // the WebGL context of the painter (Screen.context)
         this.followed = null; // the last rendered picture, if later pictures depend on it
         this.unsupported = new Set();
@@ -196,6 +198,7 @@ export class Session {
 
     load(text, name = 'script.fl') {
         this.closePainter();
+        this.serve();
         const encoded = typeof text === 'string' ? new TextEncoder().encode(text) : text;
         this.setFile(name, encoded);
         return this.check('load the script', this.with(name, (wasm, called) =>
@@ -372,13 +375,21 @@ export class Session {
         return true;
     }
 
+    // Opens the painter, with which scripts measure texts and sample pictures, in browsers only: Node.js has no fonts.
+    serve() {
+        if (typeof OffscreenCanvas !== 'undefined')
+            this.painter ??= this.run(wasm => wasm.web_painter(this.handle));
+    }
+
     // Returns the painter, or 0 if there is no WebGL context. After the context was lost or restored, replaces the painter.
     openPainter() {
         const { context } = this.memory.screen;
-        if (context !== this.context)
+        if (context !== this.context && this.renders !== null)
             this.closePainter();
         this.context = context;
-        return (this.painter ??= this.run(wasm => wasm.web_painter()));
+        this.serve();
+        this.renders ??= !!this.painter && !!context && !!this.run(wasm => wasm.web_painter_use_gl(this.painter));
+        return this.renders ? this.painter : 0;
     }
 
     forgetPicture() {
@@ -390,22 +401,22 @@ export class Session {
     closePainter() {
         this.forgetPicture();
         if (this.painter)
-            this.run(wasm => wasm.web_painter_close(this.painter));
-        this.painter = null;
+            this.run(wasm => wasm.web_painter_close(this.painter, this.handle));
+        this.painter = this.renders = null;
     }
 
     // Like displayList, but renders content that needs WebGL 2 to an image, if WebGL 2 is available.
     render({ automatic = false } = {}) {
-        this.openPainter();
+        const painter = this.openPainter();
         this.unsupported.clear();
         const followed = this.renderIfNeeded() && !automatic ? this.followed?.at ?? 0 : 0;
-        this.run(wasm => wasm.web_picture(this.handle, this.painter, followed, automatic ? 1 : 0));
+        this.run(wasm => wasm.web_picture(this.handle, painter, followed, automatic ? 1 : 0));
         const shown = this.taken[0] ?? null, { lost } = this.memory.screen;
-        if (this.painter && lost) // the context was lost while the picture was drawn
+        if (painter && lost) // the context was lost while the picture was drawn
             return this.render({ automatic });
         if (shown?.numbers && needsEngine(shown.numbers) && typeof OffscreenCanvas !== 'undefined')
             this.drawList(shown);
-        return shown && { ...shown, screen: this.painter > 0, lost, ...(shown.image && { unsupported: [...this.unsupported] }) };
+        return shown && { ...shown, screen: painter > 0, lost, ...(shown.image && { unsupported: [...this.unsupported] }) };
     }
 
     // Replaces a display list by an image.
@@ -485,6 +496,7 @@ export class Session {
     // Restores a snapshot. Pictures that depend on earlier pictures start again.
     rewind(snapshot) {
         this.closePainter();
+        this.serve();
         return this.check('restore the snapshot', wasm => wasm.petri_rewind(this.handle, snapshot.at));
     }
 
