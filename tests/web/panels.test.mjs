@@ -310,6 +310,9 @@ test('a click on a particle that the script draws shows the forces on it', optio
             [['gravity', '0', 'dish.fl:4'], ['gravity', '20', 'dish.fl:4'], ['constant', '', 'dish.fl:5'], ['sum', '', '']]);
         const vectors = rows.map(row => row[2].split(';').map(Number));
         assert.deepEqual([0, 1].map(k => vectors[0][k] + vectors[1][k] + vectors[2][k]), vectors[3]);
+        assert.equal(await page.textContent('#particle-origin'), 'made by line 3');
+        await page.click('#particle-origin button');
+        assert.match(await page.textContent('.cm-activeLine'), /!particle id=i\*10/);
         await page.click('#particle-forces tr:nth-child(3) button');
         assert.ok(await page.evaluate(() => document.activeElement.classList.contains('cm-content')));
         await page.click('#step'); // the panel follows the particle

@@ -1,5 +1,6 @@
 // forces.mjs: the chosen particle and the forces on it, in the worker.
 import { pictureSize } from '../engine/drawing.mjs';
+import { originsOf } from './origin.mjs';
 import { pick } from './pick.mjs';
 
 // Returns true if two display lists are equal. If the list of the script equals the automatic one, the script draws nothing.
@@ -40,16 +41,17 @@ export class Forces {
 
     // Returns what the page shows of the chosen particle: its key, entries of the state, contributions and their sum. If there is nothing
     // to show, `note` gives the reason.
-    describe({ session }) {
+    describe({ session, text, name: file }) {
         if (!this.chosen)
             return { key: null };
         const { name, id } = this.chosen, key = `${name};${id}`, system = this.find(session);
+        const origin = { file, origins: originsOf(text, name, id) };
         if (!system)
-            return { key, note: 'is not in this frame' };
+            return { key, ...origin, note: 'is not in this frame' };
         const state = [`$(${key})`, `$(${key};:velocity)`].map(entry => [entry, session.evaluate(entry).text]);
         if (!system.steps)
-            return { key, state, note: 'took no step in this frame' };
+            return { key, ...origin, state, note: 'took no step in this frame' };
         const { contributions, sum } = session.explain(this.chosen.system, this.chosen.particle);
-        return { key, state, contributions, sum, note: contributions.length ? '' : 'no force acts on it' };
+        return { key, ...origin, state, contributions, sum, note: contributions.length ? '' : 'no force acts on it' };
     }
 }

@@ -17,8 +17,8 @@ export class Particle {
     constructor(root, dish, goTo, choose) {
         const $ = id => root.getElementById(id);
         Object.assign(this, {
-            dish, goTo, choose, title: $('particle-title'), state: $('particle-state'), rows: $('particle-forces'),
-            seen: false, asking: false,
+            dish, goTo, choose, title: $('particle-title'), state: $('particle-state'), origin: $('particle-origin'),
+            rows: $('particle-forces'), seen: false, asking: false,
         });
         dish.canvas.addEventListener('click', event => this.pick(event));
     }
@@ -46,11 +46,13 @@ export class Particle {
             this.show(answer);
     }
 
-    show({ key, state = [], contributions = [], sum, note = '', frame }) {
+    show({ key, state = [], contributions = [], sum, note = '', frame, origins = [], file }) {
         const count = contributions.length;
         this.title.textContent = key === null ? 'Click a particle to see its state and the forces on it.'
             : `${key} ${note || `in frame ${frame}: ${count} contribution${count === 1 ? '' : 's'} in the order of summation`}`;
         this.state.textContent = state.map(([name, value]) => `${name} = ${value}`).join('\n');
+        this.origin.replaceChildren(...origins.flatMap(({ line, column }, i) =>
+            [i ? ' or ' : 'made by ', this.link(`line ${line}`, file, line, column)]));
         this.rows.replaceChildren(...contributions.slice(0, MAX_ROWS).map(each => this.row(each)));
         if (count > MAX_ROWS)
             this.rows.append(rowOf([`and ${count - MAX_ROWS} more`, '', '', '']));
@@ -58,10 +60,15 @@ export class Particle {
             this.rows.append(rowOf(['sum', '', sum.join(';'), ''], 'th'));
     }
 
-    row({ kind, partner, vector, file, line, column }) {
+    link(text, file, line, column) {
         const link = document.createElement('button');
-        link.textContent = file ? `${file}:${line}` : '';
+        link.textContent = text;
         link.onclick = () => this.goTo(file, line, column);
-        return rowOf([kind ?? 'own force', partner ?? '', vector.join(';'), file ? link : '']);
+        return link;
+    }
+
+    row({ kind, partner, vector, file, line, column }) {
+        const link = file ? this.link(`${file}:${line}`, file, line, column) : '';
+        return rowOf([kind ?? 'own force', partner ?? '', vector.join(';'), link]);
     }
 }
