@@ -75,6 +75,18 @@ test('a text with an error keeps the last version without errors running', optio
     assert.deepEqual([await page.textContent('#message'), await page.textContent('#problems')], ['', '']);
 }));
 
+test('a script that is renamed while it runs continues', options, () => whileRunning(async page => {
+    await page.fill('#name', 'other.fl');
+    await page.press('#name', 'Enter');
+    const frame = await frameOf(page);
+    await typed(page, GREEN);
+    await hasColour(page, '0;255;0');
+    assert.ok(await frameOf(page) >= frame && await isRunning(page));
+    await typed(page, '!a x=1)\n');
+    await page.waitForSelector('.cm-lintRange-error');
+    assert.match(await page.textContent('#problems'), /^1:7: error/);
+}));
+
 test('Ctrl+Enter takes the text and continues, Shift+Ctrl+Enter restarts', options, () => whileRunning(async page => {
     await page.click('.cm-content');
     await page.keyboard.press('Control+Enter');

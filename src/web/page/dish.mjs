@@ -131,9 +131,9 @@ export class Dish {
 
     // Takes over a changed script: state, frame number and clocks continue. Returns false if it has errors: then, the last script is kept.
     async edit(text, name) {
-        if (this.loaded === null || this.replays || name !== this.name)
+        if (this.loaded === null || this.replays)
             return this.load(text, name);
-        const answer = await this.attempt('edit', { text, name, again: !this.running });
+        const answer = await this.attempt('edit', { text, name: this.name, again: !this.running });
         if (!answer) {
             if (this.frame <= FIRST_SEEN) // the script was loaded from scratch
                 this.loaded = null;

@@ -1,40 +1,49 @@
 // live.mjs: takes over the script while it is edited, and reports its errors.
 
-const PAUSE = 40; // ms without an edit after which a changed script is taken over
-
 const count = (number, noun) => `${number} ${noun}${number === 1 ? '' : 's'}`;
 
 export class Live {
     // page: has the editor, the dish, the problems, the script's name and say().
     constructor(page) {
         this.page = page;
-        this.waits = 0;
+        this.stale = false; // true if the text was edited since it was taken over
         this.taken = Promise.resolve();
         this.pending = 0; // number of texts that are being taken over
         this.outdated = false; // true if the text has errors and the picture shows the last script without errors
     }
 
+    // Takes over the text after an edit, or after the text before it.
     changed() {
-        clearTimeout(this.waits);
-        this.waits = setTimeout(() => this.page.dish.replays ? this.check() : this.apply(), PAUSE);
+        this.stale = true;
+        if (!this.pending)
+            this.page.dish.replays ? this.check() : this.apply();
     }
 
     // Takes over the editor's text. Returns false if it has errors.
     apply() {
-        clearTimeout(this.waits);
-        return this.queue(() => this.page.dish.edit(this.page.editor.text, this.page.name));
+        return this.queue(({ dish, editor, name }) => dish.edit(editor.text, name));
+    }
+
+    // Checks the text without using it, because this would end the replay of an archive.
+    check() {
+        return this.queue(async ({ dish, editor, file }) => {
+            const answer = await dish.attempt('check', { text: editor.text, name: file });
+            if (answer)
+                this.show(answer.problems);
+        });
     }
 
     queue(act) {
         this.pending++;
-        return (this.taken = this.taken.then(act).finally(() => this.pending--));
-    }
-
-    // Checks the text without using it, because this would end the replay of an archive.
-    async check() {
-        const { dish, editor, name } = this.page, answer = await dish.attempt('check', { text: editor.text, name });
-        if (answer)
-            this.show(answer.problems);
+        this.taken = this.taken.then(() => {
+            this.stale = false;
+            return act(this.page);
+        }).finally(() => {
+            this.pending--;
+            if (this.stale)
+                this.changed();
+        });
+        return this.taken;
     }
 
     // Takes over the editor's text unless it is already used. Returns false if it has errors.
@@ -47,9 +56,7 @@ export class Live {
 
     // Loads the text again and shows frame 0.
     restart() {
-        const { dish, editor, name } = this.page;
-        clearTimeout(this.waits);
-        return this.queue(() => dish.load(editor.text, name));
+        return this.queue(({ dish, editor, name }) => dish.load(editor.text, name));
     }
 
     // Shows the result of a check of the text.
@@ -64,7 +71,7 @@ export class Live {
     }
 
     show(problems) {
-        this.page.problems.show(problems, this.page.name);
+        this.page.problems.show(problems, this.page.file);
         document.body.dataset.checked = String(problems.length);
     }
 

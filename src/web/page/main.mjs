@@ -25,7 +25,13 @@ const EMPTY = 'This script draws nothing: it has no `!window`.';
 const encoder = new TextEncoder();
 
 // What the modules of the page share: the script's name, the samples, editor, dish, problems, live, scripts and controls.
-const page = { name: FIRST, samples: {}, say, openText };
+const page = {
+    name: FIRST, samples: {}, say, openText,
+    // The name of the script in diagnostics: the one that it had when it was loaded.
+    get file() {
+        return page.dish.loaded === null ? page.name : page.dish.name;
+    },
+};
 let prompt, plot, table, particle, saves, help = [], empty = false;
 
 function say(text, bad = false) {
@@ -40,7 +46,7 @@ const host = {
         say('');
         empty = false;
         page.live.loaded();
-        page.problems.show([], page.name);
+        page.problems.show([], page.file);
     },
     checked(answer) {
         page.live.checked(answer);
@@ -164,7 +170,7 @@ async function begin() {
     new Gallery(document, page, start.source);
     plot = new Plot(document, dish);
     table = new Table(document, dish);
-    const goTo = (file, line, column) => file === page.name && page.editor.goTo(line, column);
+    const goTo = (file, line, column) => file === page.file && page.editor.goTo(line, column);
     particle = new Particle(document, dish, goTo, () => tabs.choose($('tab-particle')));
     const tabs = new Tabs($('tabs'), panel => {
         plot.seen = panel === 'panel-plot';
