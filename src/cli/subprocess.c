@@ -2,6 +2,7 @@
 #include "cli/subprocess.h"
 
 #include "base/file.h"
+#include "base/os.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -28,7 +29,11 @@ int subprocess_temporary_file(void) {
     return fd;
 }
 
-#ifdef __EMSCRIPTEN__ // there are no processes, so that JavaScript runs each command to its end
+#ifdef __EMSCRIPTEN__ // there are no processes, so that JavaScript runs each command in a thread
+int subprocess_default_jobs(void) {
+    return host_processors();
+}
+
 bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv) {
     (void)program;
     *child = (Subprocess){.output = subprocess_temporary_file(), .errors = subprocess_temporary_file()};
@@ -56,6 +61,11 @@ int subprocess_wait_for(pid_t pid) {
     return status;
 }
 #else
+int subprocess_default_jobs(void) {
+    int processors = os_processor_count();
+    return processors < 1 ? 1 : processors;
+}
+
 // Runs in the child after fork. Must not take locks or allocate memory, because another thread may have
 // held a lock during fork.
 static void exec_program(const Subprocess *child, const char *program, const char *folder, char **argv) {

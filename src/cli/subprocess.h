@@ -14,6 +14,8 @@ typedef struct Subprocess {
 
 enum { SUBPROCESS_MAX_SECONDS = 120 };
 
+// Returns the number of children that should run in parallel by default, at least 1.
+int subprocess_default_jobs(void);
 // Returns the descriptor of a file that is deleted when it is closed, or -1. Unlike a pipe, the file never blocks a
 // process that writes to it.
 int subprocess_temporary_file(void);

@@ -3,6 +3,8 @@
 // failure.
 #pragma once
 
+#include <stdbool.h>
+
 #ifdef __EMSCRIPTEN__
 #define HOST(name) __attribute__((import_module("petri"), import_name(#name)))
 #else // so that each header compiles alone
@@ -15,7 +17,20 @@ HOST(duplicate) int host_duplicate(int descriptor, int least);
 HOST(descriptor_flags) int host_descriptor_flags(int descriptor);
 // Ends the program as if by a signal.
 HOST(end_by_signal) _Noreturn void host_end_by_signal(int number);
-// Runs petri with other arguments in another instance, without standard input, and returns its process id after it has
-// ended. host_wait returns it and sets *status like waitpid.
+// Returns the number of processors.
+HOST(processors) int host_processors(void);
+// Starts petri with other arguments in another instance and thread, without standard input. Returns its process id.
+// host_wait waits until it ends, returns its process id and sets *status like waitpid.
 HOST(start) int host_start(const char *folder, char *const *argv, int output, int errors);
 HOST(wait) int host_wait(int pid, int *status);
+// Starts helpers: `count` instances of this command that share a list of runs. Their output is discarded.
+HOST(start_helpers) int host_start_helpers(int count, const int *runs, int run_count);
+HOST(is_helper) bool host_is_helper(void);
+// In a helper, removes a run from the list and returns it; -1 if the list is empty.
+HOST(take_run) int host_take_run(void);
+// Sends a result from a helper.
+HOST(send) void host_send(const char *bytes, int length);
+// Waits for a result of a helper and returns its length; -1 if all helpers have ended, or after a signal. host_read
+// copies the result.
+HOST(receive) int host_receive(void);
+HOST(read) void host_read(char *bytes);

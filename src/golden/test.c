@@ -1,6 +1,5 @@
 // test.c: the command `petri test`, which runs scripts and compares their output with goldens.
 #include "base/clock.h"
-#include "base/os.h"
 #include "base/source.h"
 #include "cli/options.h"
 #include "cli/output.h"
@@ -222,8 +221,8 @@ static void free_suite(Suite *suite) {
 static int test_run(const CommandContext *context, Options *options) {
     Suite suite = {.host = context, .options = options, .output.fd = STDOUT_FILENO};
     if (options->jobs == 0) {
-        long processors = os_processor_count();
-        options->jobs = processors < 1 ? 1 : processors > MAX_CPUS ? MAX_CPUS : processors;
+        int jobs = subprocess_default_jobs();
+        options->jobs = jobs > MAX_CPUS ? MAX_CPUS : jobs;
     }
     int status = output_finish(&suite.output, run_suite(&suite));
     free_suite(&suite);

@@ -2,9 +2,9 @@
 #include "sweep/sweep.h"
 
 #include "base/clock.h"
-#include "base/os.h"
 #include "cli/helper_exec.h"
 #include "cli/mpi_channel.h"
+#include "cli/subprocess.h"
 #include "petri.h"
 #include "sweep/cache.h"
 #include "sweep/measure.h"
@@ -143,10 +143,9 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t mad
 }
 
 static int64_t jobs_of(const Sweep *sweep) {
-    long processors = os_processor_count();
     // Under mpirun, which starts one process per processor, each process executes one run at a time.
     bool alone = !sweep->host->channel && (sweep->shards == 1 || sweep->options->shard);
-    return sweep->options->jobs > 0 ? sweep->options->jobs : alone && processors > 1 ? processors : 1;
+    return sweep->options->jobs > 0 ? sweep->options->jobs : alone ? subprocess_default_jobs() : 1;
 }
 
 static int make_runs(Sweep *sweep, Journal *journal) {
@@ -169,7 +168,7 @@ static int run_sweep(Sweep *sweep) {
     int status = cache_open(sweep) ? dry_run(sweep) : STATUS_FAILED;
     if (status != STATUS_DONE)
         return status;
-    if (sweep->host->channel && sweep->host->channel->rank > 0) {
+    if (worker_pool_is_remote(sweep)) {
         sweep->results = memory_calloc(sweep->design.run_count * sizeof *sweep->results);
         return worker_pool_run(sweep, &journal, jobs_of(sweep));
     }

@@ -11,6 +11,7 @@
 #include "cli/progress.h"
 #include "cli/subprocess.h"
 #include "sweep/measure.h"
+#include "sweep/worker_result.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -33,15 +34,6 @@ typedef struct PoolWorker {
     int64_t assigned[RUNS_PER_WORKER]; // assigned runs, the current one first
     int count;                         // number of assigned runs
 } PoolWorker;
-
-// Precedes the rows and the diagnostics of a run.
-typedef struct ResultHeader {
-    int64_t run;
-    int64_t frames;
-    int64_t origin;       // ResultOrigin
-    uint64_t rows;        // length in bytes
-    uint64_t diagnostics; // length in bytes
-} ResultHeader;
 
 typedef struct WorkerPool {
     Sweep *sweep;
@@ -68,20 +60,10 @@ static void on_signal(int number) {
 
 // --- in a worker process
 
-// Stores a diagnostic for the parent: a letter for the level, the text, NUL. Ignores diagnostics after 64 KiB.
-static void add_diagnostic(void *context, PetriLevel level, const char *rendered) {
-    enum { MAX_DIAGNOSTIC_BYTES = 1 << 16 };
-    Text *diagnostics = context;
-    if (diagnostics->len < MAX_DIAGNOSTIC_BYTES) {
-        text_add_format(diagnostics, "%c", 'a' + (int)level);
-        text_add(diagnostics, (Str){rendered, strlen(rendered) + 1});
-    }
-}
-
 static int worker_loop(const Sweep *sweep, int requests, int results) {
     Measure measure;
     Text diagnostics = {0};
-    if (!measure_open(&measure, sweep, add_diagnostic, &diagnostics))
+    if (!measure_open(&measure, sweep, result_add_diagnostic, &diagnostics))
         return STATUS_FAILED;
     int64_t run = 0;
     while (file_read_bytes(requests, &run, sizeof run)) {
@@ -173,22 +155,16 @@ static void assign_runs(WorkerPool *pool) {
 // Stores a result, or sends it to rank 0. `bytes` contains the rows followed by the diagnostics. Returns false after a
 // message.
 static bool store_result(WorkerPool *pool, const ResultHeader *head, const char *bytes) {
-    size_t length = (size_t)(head->rows + head->diagnostics), run = (size_t)head->run;
     pool->done++;
     if (is_remote(pool)) {
         SCOPED_TEXT packet = {0};
         text_add(&packet, (Str){(const char *)head, sizeof *head});
-        text_add(&packet, (Str){bytes, length});
+        text_add(&packet, (Str){bytes, (size_t)(head->rows + head->diagnostics)});
         pool->channel->send(0, packet.bytes, packet.len);
         return true;
     }
     progress_erase(&pool->progress);
-    for (const char *diagnostics = bytes + head->rows; diagnostics < bytes + length;
-         diagnostics += strlen(diagnostics) + 1)
-        sweep_report(pool->sweep, (PetriLevel)(diagnostics[0] - 'a'), diagnostics + 1);
-    pool->sweep->origins[head->origin]++;
-    sweep_store_result(pool->sweep, run, head->frames, bytes, (size_t)head->rows);
-    return journal_add(pool->journal, run, &pool->sweep->results[run]);
+    return result_store(pool->sweep, pool->journal, head, bytes);
 }
 
 static bool read_result(WorkerPool *pool, PoolWorker *worker, bool *gone) {
@@ -316,6 +292,10 @@ static void stop_workers(WorkerPool *pool) {
 
 static bool has_work(const WorkerPool *pool) {
     return is_remote(pool) ? !pool->ended : pool->done < pool->wanted;
+}
+
+bool worker_pool_is_remote(const Sweep *sweep) {
+    return sweep->host->channel && sweep->host->channel->rank > 0;
 }
 
 int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs) {

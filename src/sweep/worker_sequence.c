@@ -1,10 +1,15 @@
-// worker_sequence.c: replaces worker_pool.c where there are no processes: executes the runs one after the other.
+// worker_sequence.c: replaces worker_pool.c where there are no processes. Helpers, which are instances of this command
+// in other threads, execute the runs. A single job, and the runs that helpers have not executed, need no helpers.
 #include "base/clock.h"
 #include "cli/progress.h"
+#include "cli/wasm_host.h"
 #include "sweep/measure.h"
 #include "sweep/worker_pool.h"
+#include "sweep/worker_result.h"
 
 #include <signal.h>
+#include <stdlib.h>
+#include <string.h>
 
 static volatile sig_atomic_t stopped; // number of the signal that stops the sweep; 0: none
 
@@ -21,40 +26,107 @@ static bool is_wanted(const Sweep *sweep, size_t run) {
     return sweep_owns_run(sweep, run) && !sweep->results[run].rows;
 }
 
-static bool execute(Sweep *sweep, Journal *journal, Measure *measure, size_t run) {
+bool worker_pool_is_remote(const Sweep *sweep) {
+    (void)sweep;
+    return host_is_helper();
+}
+
+// --- in a helper
+
+static int help(const Sweep *sweep) {
+    Measure measure;
+    SCOPED_TEXT diagnostics = {0};
+    if (!measure_open(&measure, sweep, result_add_diagnostic, &diagnostics))
+        return STATUS_FAILED;
+    for (int run = host_take_run(); run >= 0; run = host_take_run()) {
+        SCOPED_TEXT packet = {0};
+        diagnostics.len = 0;
+        measure_run(&measure, (size_t)run);
+        ResultHeader head = {run, measure.frames, measure.origin, measure.rows.len, diagnostics.len};
+        text_add(&packet, (Str){(const char *)&head, sizeof head});
+        text_add(&packet, (Str){measure.rows.bytes, measure.rows.len});
+        text_add(&packet, (Str){diagnostics.bytes, diagnostics.len});
+        host_send(packet.bytes, (int)packet.len);
+    }
+    measure_close(&measure);
+    return STATUS_DONE;
+}
+
+// --- in the command
+
+typedef struct Sequence {
+    Sweep *sweep;
+    Journal *journal;
+    Progress progress;
+    int64_t wanted; // number of runs to execute
+    int64_t done;   // number of executed runs
+} Sequence;
+
+// Lists the runs to execute for the helpers, starts them, and stores their results. Returns false after a message.
+static bool receive_results(Sequence *sequence, int64_t jobs) {
+    int *runs = memory_calloc((size_t)sequence->wanted * sizeof *runs), count = 0;
+    for (size_t run = 0; run < sequence->sweep->design.run_count; run++)
+        if (is_wanted(sequence->sweep, run))
+            runs[count++] = (int)run;
+    bool good = host_start_helpers((int)(jobs < count ? jobs : count), runs, count) == 0;
+    free(runs);
+    for (int length = 0; good && !stopped && (length = host_receive()) >= 0;) {
+        SCOPED_STRING bytes = memory_calloc((size_t)length + 1);
+        ResultHeader head;
+        host_read(bytes);
+        memcpy(&head, bytes, sizeof head);
+        progress_erase(&sequence->progress);
+        good = result_store(sequence->sweep, sequence->journal, &head, bytes + sizeof head);
+        progress_update(&sequence->progress, ++sequence->done);
+    }
+    return good;
+}
+
+static bool execute(Sequence *sequence, Measure *measure, size_t run) {
+    Sweep *sweep = sequence->sweep;
+    progress_erase(&sequence->progress);
     measure_run(measure, run);
     sweep->origins[measure->origin]++;
     sweep_store_result(sweep, run, measure->frames, measure->rows.bytes, measure->rows.len);
-    return journal_add(journal, (int64_t)run, &sweep->results[run]);
+    progress_update(&sequence->progress, ++sequence->done);
+    return journal_add(sequence->journal, (int64_t)run, &sweep->results[run]);
+}
+
+// Executes the runs that are not done. Returns false after a message.
+static bool execute_rest(Sequence *sequence) {
+    Sweep *sweep = sequence->sweep;
+    Measure measure;
+    if (sequence->done == sequence->wanted)
+        return true;
+    if (!measure_open(&measure, sweep, report, sweep))
+        return false;
+    bool good = true;
+    for (size_t run = 0; good && !stopped && run < sweep->design.run_count; run++) {
+        if (is_wanted(sweep, run))
+            good = execute(sequence, &measure, run);
+        clock_seconds(); // a system call, during which signals are delivered
+    }
+    measure_close(&measure);
+    return good;
 }
 
 int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs) {
-    (void)jobs;
-    Measure measure;
-    Progress progress;
-    int64_t wanted = 0, done = 0;
+    if (worker_pool_is_remote(sweep))
+        return help(sweep);
+    Sequence sequence = {.sweep = sweep, .journal = journal};
     for (size_t run = 0; run < sweep->design.run_count; run++)
-        wanted += is_wanted(sweep, run);
+        sequence.wanted += is_wanted(sweep, run);
     stopped = 0;
     signal_catch(SIGINT, on_signal, 0);
     signal_catch(SIGTERM, on_signal, 0);
     signal_catch(SIGHUP, on_signal, 0);
-    if (!measure_open(&measure, sweep, report, sweep))
-        return STATUS_FAILED;
-    progress_start(&progress, sweep->options->verbosity > LOG_QUIET && progress_possible(), wanted);
-    progress.things = "runs";
-    bool good = true;
-    for (size_t run = 0; good && !stopped && run < sweep->design.run_count; run++) {
-        if (is_wanted(sweep, run)) {
-            progress_erase(&progress);
-            good = execute(sweep, journal, &measure, run);
-            progress_update(&progress, ++done);
-        }
-        clock_seconds(); // a system call, during which signals are delivered
-    }
-    progress_erase(&progress);
-    measure_close(&measure);
-    return !good ? STATUS_FAILED : done == wanted ? STATUS_DONE : STATUS_SIGNAL + (int)stopped;
+    progress_start(&sequence.progress, sweep->options->verbosity > LOG_QUIET && progress_possible(), sequence.wanted);
+    sequence.progress.things = "runs";
+    // Helpers cannot read a script from standard input again.
+    bool parallel = jobs > 1 && sequence.wanted > 1 && strcmp(sweep->options->script, "-") != 0;
+    bool good = (!parallel || receive_results(&sequence, jobs)) && execute_rest(&sequence);
+    progress_erase(&sequence.progress);
+    return !good ? STATUS_FAILED : sequence.done == sequence.wanted ? STATUS_DONE : STATUS_SIGNAL + (int)stopped;
 }
 
 int worker_pool_signal(void) {

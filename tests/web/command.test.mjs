@@ -114,6 +114,48 @@ test('plans, archives and HDF5 are reported as not supported', () => within(work
     assert.match(run('run', 'a.fl', '--frames', '1', '--trajectory', 'a.h5'), table);
 }));
 
+test('sweeps and tests have the same output with any number of threads', () => within(work => {
+    fs.writeFileSync(join(work, 'a.fl'), `!physics state=:p dimensions=2
+    for i in ..20
+        !particle id=i position=20*uniform(:x;SEED)[2*i..2*i+2] radius=1
+    !collision strength=A
+    !drag foo=1
+if SEED == 4
+    !window size=1/0 foo=2
+`);
+    const sweep = (jobs, ...more) => petri(['sweep', 'a.fl', '-D', 'A=1..3', '--seeds', '5', '--frames', '9', '--every', '3', '--metric',
+        'energy', '--jobs', jobs, ...more], { cwd: work });
+    const [one, two] = [sweep('1'), sweep('2')];
+    assert.deepEqual([one.status, one.stdout.split('\n').length], [0, 3 * 5 * 4 + 2]);
+    assert.deepEqual([two.status, two.stdout], [one.status, one.stdout]);
+    const lines = text => [...new Set(text.split('\n'))].sort();
+    assert.ok(one.stderr.includes("unknown attribute 'foo'"));
+    assert.deepEqual(lines(two.stderr), lines(one.stderr));
+    // A table with some rows is completed, and the thread that loads the script reports its errors once.
+    assert.equal(sweep('2', '--shard', '1/2', '-o', 'a.csv').status, 0);
+    assert.equal(sweep('2', '--shard', '2/2', '-o', 'a.csv').status, 0);
+    assert.equal(fs.readFileSync(join(work, 'a.csv'), 'utf8'), one.stdout);
+    const tests = jobs => petri(['test', '--jobs', jobs, join(root, 'tests/golden'), join(root, 'samples/hello.fl')]).stdout;
+    assert.match(tests('1'), /^[1-9]\d* passed, 0 failed\n$/m);
+    assert.equal(tests('2'), tests('1'));
+}));
+
+test('a sweep in threads ends with a signal and can be resumed', async () => {
+    const work = fs.mkdtempSync(join(tmpdir(), 'petri-sweep-'));
+    const args = ['sweep', join(root, 'samples/dish.fl'), '-D', 'A=1..40', '--frames', '400', '--metric', 'energy', '--jobs', '2', '-o',
+        join(work, 'a.csv')];
+    const child = spawn('node', [cli, ...args], { stdio: ['ignore', 'ignore', 'pipe'] });
+    let errors = '';
+    child.stderr.on('data', data => { errors += data; });
+    const rows = () => (fs.existsSync(join(work, 'a.csv.part')) ? fs.readFileSync(join(work, 'a.csv.part'), 'utf8').split('\n').length : 0);
+    while (rows() < 6)
+        await new Promise(resolve => setTimeout(resolve, 20));
+    child.kill('SIGINT');
+    assert.equal(await new Promise(resolve => { child.on('close', resolve); }), 130);
+    assert.match(errors, /stopped; run the same command to resume/);
+    fs.rmSync(work, { recursive: true });
+});
+
 test('SIGTERM ends a run with its summary', async () => {
     const options = ['--frames', '100000000', '--stats', '--print', 'hash'];
     const child = spawn('node', [cli, 'run', join(root, 'samples/dish.fl'), ...options], { stdio: ['ignore', 'pipe', 'pipe'] });

@@ -18,27 +18,38 @@ const toBytes = text => Buffer.from(text).toString('latin1');
 
 // Runs petri-command.wasm.
 function runCommand(words) {
-    const signals = new Int32Array(new SharedArrayBuffer(4));
-    const worker = new Worker(new URL('./command.mjs', import.meta.url), {
-        resourceLimits: { stackSizeMb: STACK_MEBIBYTES },
-        workerData: {
-            petri: {
-                signals,
-                args: ['petri', ...words.map(argument => paths.fromArgument(argument, fs.existsSync))],
-                environment: Object.entries({ PETRI_STANDALONE: standalone, ...process.env })
-                    .map(([name, value]) => toBytes(`${name}=${value}`)),
-                folder: paths.fromSystem(process.cwd()),
-                terminal: [1, 2].some(isatty) ? (isatty(1) ? process.stdout : process.stderr).getWindowSize() : [0, 0],
-            },
-        },
-    });
+    const shared = new Int32Array(new SharedArrayBuffer(8)); // the number of a signal, and a counter of events
+    const petri = {
+        args: ['petri', ...words.map(argument => paths.fromArgument(argument, fs.existsSync))],
+        environment: Object.entries({ PETRI_STANDALONE: standalone, ...process.env })
+            .map(([name, value]) => toBytes(`${name}=${value}`)),
+        folder: paths.fromSystem(process.cwd()),
+        terminal: [1, 2].some(isatty) ? (isatty(1) ? process.stdout : process.stderr).getWindowSize() : [0, 0],
+    };
+    const resourceLimits = { stackSizeMb: STACK_MEBIBYTES };
+    const worker = new Worker(new URL('./command.mjs', import.meta.url), { resourceLimits, workerData: { petri: { ...petri, shared } } });
     // Compiled while the thread starts.
-    worker.postMessage(new WebAssembly.Module(fs.readFileSync(new URL('./petri-command.wasm', import.meta.url))));
+    const module = new WebAssembly.Module(fs.readFileSync(new URL('./petri-command.wasm', import.meta.url)));
+    worker.postMessage(module);
+    const wake = () => {
+        Atomics.add(shared, 1, 1);
+        Atomics.notify(shared, 1);
+    };
+    const send = message => {
+        worker.postMessage(message);
+        wake();
+    };
+    let threads = null;
+    worker.on('message', job => {
+        threads ??= import('./threads.mjs').then(({ Threads }) => new Threads(module, { resourceLimits, workerData: { petri } }, send));
+        threads.then(started => started.start(job));
+    });
     for (const name of ['SIGINT', 'SIGTERM', 'SIGHUP'])
         process.on(name, () => {
             // The second signal ends a command that does not react.
-            if (Atomics.exchange(signals, 0, constants.signals[name]) !== 0)
+            if (Atomics.exchange(shared, 0, constants.signals[name]) !== 0)
                 process.exit(128 + constants.signals[name]);
+            wake();
         });
     worker.on('error', error => {
         console.error(`petri: the program failed: ${error.message}`);

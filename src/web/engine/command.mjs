@@ -1,6 +1,6 @@
 // command.mjs: runs petri-command.wasm, the `petri` command, in a thread of Node.js (cli.mjs).
 import fs from 'node:fs';
-import { isMainThread, parentPort, workerData } from 'node:worker_threads';
+import { isMainThread, parentPort, receiveMessageOnPort, workerData } from 'node:worker_threads';
 import { linkFunctions } from './links.mjs';
 import { runtime } from './runtime.mjs';
 import { Exit, System } from './system.mjs';
@@ -36,23 +36,34 @@ export function runCommand(module, options) {
     }
 }
 
-// Runs another command, as petri test does, without standard input. Returns its status as waitpid does.
-function start(module, options, folder, args, output, errors) {
-    const input = fs.openSync(options.windows ? '\\\\.\\nul' : '/dev/null');
-    const { status, signal } = runCommand(module, { ...options, args, folder, files: [input, output, errors] });
-    fs.closeSync(input);
+// Runs another instance for `petri test` or `petri sweep`, without standard input. Without `output`, its output is discarded. Returns its
+// status as waitpid does.
+function runJob(module, options, { output, errors, ...job }) {
+    const nothing = fs.openSync(options.windows ? '\\\\.\\nul' : '/dev/null', 'r+');
+    const { status, signal } = runCommand(module, { ...options, ...job, files: [nothing, output ?? nothing, errors ?? nothing] });
+    fs.closeSync(nothing);
     return signal ?? status << 8;
 }
 
+// Indices in the memory that the command shares with the main thread: the number of a signal, and a counter of events.
+const SIGNALS = 0, EVENTS = 1;
+
 if (!isMainThread && workerData?.petri) {
-    const { args, environment, folder, signals, terminal } = workerData.petri;
+    const { args, environment, folder, shared, terminal } = workerData.petri;
+    const options = { args, environment, folder, terminal, windows: process.platform === 'win32' };
     parentPort.once('message', module => {
-        const options = {
-            args, environment, folder, terminal,
-            windows: process.platform === 'win32',
-            pending: () => Atomics.exchange(signals, 0, 0),
-            start: (...values) => start(module, options, ...values),
-        };
-        process.exit(runCommand(module, options).status);
+        if (shared) {
+            const pending = () => Atomics.exchange(shared, SIGNALS, 0);
+            const start = job => parentPort.postMessage(job);
+            const receive = () => {
+                const seen = Atomics.load(shared, EVENTS), message = receiveMessageOnPort(parentPort)?.message;
+                if (!message)
+                    Atomics.wait(shared, EVENTS, seen);
+                return message ?? null;
+            };
+            process.exit(runCommand(module, { ...options, pending, start, receive }).status);
+        }
+        const send = message => parentPort.postMessage(message);
+        parentPort.on('message', job => send({ status: runJob(module, { ...options, send }, job) }));
     });
 }

@@ -3,6 +3,7 @@
 // Paths are strings with one byte per character (paths.mjs). Descriptors are the command's own; each refers to an open file of Node.js.
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
+import os from 'node:os';
 import { isatty } from 'node:tty';
 import { joinPath, posixPaths, windowsPaths } from './paths.mjs';
 
@@ -60,9 +61,10 @@ class OpenFile {
 
 export class System {
     // `options`: args, environment, folder (the working directory), files (descriptors 0, 1 and 2 of Node.js), start (runs another
-    // command), pending (returns the number of a signal to deliver, or 0), terminal (columns and rows), windows, and procfs (whether
-    // /proc/self/fd names open files).
-    constructor({ args, environment, folder, files = [0, 1, 2], start, pending = () => 0, terminal = [0, 0],
+    // instance in another thread), receive (returns the next message of an instance; null after a wait), runs and send (in a helper: the
+    // shared runs, and a function that sends a result), pending (returns the number of a signal to deliver, or 0), terminal (columns and
+    // rows), windows, and procfs (whether /proc/self/fd names open files).
+    constructor({ args, environment, folder, files = [0, 1, 2], start, receive, runs = null, send, pending = () => 0, terminal = [0, 0],
         windows = process.platform === 'win32', procfs = process.platform === 'linux' && fs.existsSync('/proc/self/fd') }) {
         this.args = args;
         this.environment = environment;
@@ -74,7 +76,12 @@ export class System {
         this.start = start;
         this.pending = pending;
         this.terminal = terminal;
-        this.ended = []; // commands that have ended and were not waited for: { pid, status }
+        this.receive = receive;
+        this.runs = runs;
+        this.send = send;
+        this.running = new Set(); // process ids of other instances
+        this.ended = []; // instances that have ended and were not waited for: { pid, status }
+        this.results = []; // bytes from helpers
         this.lastPid = 1;
     }
 
@@ -324,11 +331,47 @@ export class System {
 
     // --- processes, signals and time
 
-    // Delivers a signal that the launcher has received. Without a handler, the signal ends the command.
+    // Delivers a signal that the launcher has received. Without a handler, the signal ends the command. Returns true if there was a signal.
     deliver() {
         const number = this.pending();
         if (number && this.wasm.raise_signal(number) < 0)
             throw new Exit(128 + number, number);
+        return number !== 0;
+    }
+
+    // Starts another instance. Returns its process id.
+    launch(job) {
+        if (!this.start)
+            throw new SystemError('ENOSYS');
+        this.start({ id: ++this.lastPid, ...job });
+        this.running.add(this.lastPid);
+        return this.lastPid;
+    }
+
+    // Waits for a message of another instance. Returns false after a signal.
+    listen() {
+        for (;;) {
+            if (this.deliver())
+                return false;
+            const message = this.receive();
+            if (message?.result)
+                this.results.push(message.result);
+            else if (message && this.running.delete(message.id))
+                this.ended.push({ pid: message.id, status: message.status });
+            if (message)
+                return true;
+        }
+    }
+
+    wait(pid) {
+        for (;;) {
+            const index = this.ended.findIndex(child => pid < 0 || child.pid === pid);
+            if (index >= 0)
+                return this.ended.splice(index, 1)[0];
+            if (this.running.size === 0)
+                throw new SystemError('ECHILD');
+            this.listen();
+        }
     }
 
     poll(list, count, timeout) {
@@ -459,19 +502,36 @@ export class System {
             end_by_signal: number => {
                 throw new Exit(128 + number, number);
             },
-            start: (folder, argv, output, errors) => {
-                const target = this.realPath(this.paths.toSystem(joinPath(this.folder, this.string(folder))));
-                const status = this.start(target, this.strings(argv), this.find(output).real, this.find(errors).real);
-                this.ended.push({ pid: ++this.lastPid, status });
-                return this.lastPid;
-            },
+            processors: () => os.availableParallelism?.() ?? os.cpus().length,
+            start: (folder, argv, output, errors) => this.launch({
+                folder: this.realPath(this.paths.toSystem(joinPath(this.folder, this.string(folder)))),
+                args: this.strings(argv), output: this.find(output).real, errors: this.find(errors).real,
+            }),
             wait: (pid, to) => {
-                const index = this.ended.findIndex(child => pid < 0 || child.pid === pid);
-                if (index < 0)
-                    throw new SystemError('ECHILD');
-                const [child] = this.ended.splice(index, 1);
+                const child = this.wait(pid);
                 set(to, child.status);
                 return child.pid;
+            },
+            start_helpers: (count, list, length) => {
+                const runs = new Int32Array(new SharedArrayBuffer(4 * (length + 1))); // the index of the next run, and the runs
+                runs.set(new Int32Array(this.wasm.memory.buffer, list, length), 1);
+                for (let i = 0; i < count; i++)
+                    this.launch({ folder: this.folder, args: this.args, runs });
+                return 0;
+            },
+            is_helper: () => (this.runs ? 1 : 0),
+            take_run: () => {
+                const index = Atomics.add(this.runs, 0, 1) + 1;
+                return index < this.runs.length ? this.runs[index] : -1;
+            },
+            send: (bytes, length) => this.send({ result: this.bytes(bytes, length).slice() }),
+            receive: () => {
+                while (this.results.length === 0 && this.running.size > 0 && this.listen());
+                return this.results.length > 0 ? this.results[0].length : -1;
+            },
+            read: bytes => {
+                const result = this.results.shift();
+                this.bytes(bytes, result.length).set(result);
             },
         };
         const catching = (call, sign) => (...values) => {
