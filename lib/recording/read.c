@@ -9,6 +9,7 @@
 
 #define DEFAULT_MEMORY_LIMIT ((size_t)2 << 30)
 
+// Reads the keyframes, and raises archive->recorded_end to the last one. Rows of a damaged file need not be in order.
 static bool read_keyframes(PetriArchive *archive) {
     sqlite3_stmt *rows = archive_statement(archive, SQL_KEYFRAMES);
     while (archive_next(archive, rows)) {
@@ -16,10 +17,13 @@ static bool read_keyframes(PetriArchive *archive) {
         if (!archive_column_integer(archive, rows, 0, -1, ARCHIVE_MAX_FRAME, &frame) ||
             !archive_column_integer(archive, rows, 1, 0, 1, &given))
             return false;
+        if (archive->keyframe_count > 0 && frame <= archive->keyframes[archive->keyframe_count - 1].frame)
+            return archive_fail(archive, "the archive is damaged: table keyframe: the rows are not in order");
         if (!heap_reserve((void **)&archive->keyframes, &archive->keyframe_capacity, archive->keyframe_count,
                           sizeof *archive->keyframes))
             return archive_fail(archive, "out of memory");
         archive->keyframes[archive->keyframe_count++] = (ArchiveKeyframe){frame, given};
+        archive->recorded_end = frame > archive->recorded_end ? frame : archive->recorded_end;
     }
     bool good = archive->keyframe_count == 0 || archive->keyframes[0].given;
     return !archive_fails(archive) &&
@@ -53,9 +57,6 @@ PetriArchive *petri_archive_open(const char *file, size_t memory_limit) {
     if (archive_open_database(archive, file) && archive_read_files(archive) && read_keyframes(archive)) {
         count_rows(archive, SQL_COUNT_DIGESTS, true);
         count_rows(archive, SQL_COUNT_INPUTS, false);
-        if (archive->keyframe_count > 0 &&
-            archive->keyframes[archive->keyframe_count - 1].frame > archive->recorded_end)
-            archive->recorded_end = archive->keyframes[archive->keyframe_count - 1].frame;
     }
     return archive;
 }

@@ -62,6 +62,9 @@ static bool is_detected(void) {
     detected = !petri_archive_info(archive, &info, sizeof info) || detected;
     for (size_t i = 0; petri_archive_file(archive, i, &file, sizeof file);)
         i++;
+    PetriArchiveKeyframe keyframe;
+    for (size_t i = 0; petri_archive_keyframe(archive, i, &keyframe, sizeof keyframe); i++)
+        assert_true(keyframe.end >= keyframe.frame);
     detected = detected || petri_archive_problem(archive);
     petri_archive_close(&archive);
     return detected;
