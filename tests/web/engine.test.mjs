@@ -69,7 +69,7 @@ test('petri.d.ts declares exactly the methods that exist', () => {
     const declared = [...types.matchAll(/^ {4}(?:readonly )?(\w+)[(:]/gm)].map(match => match[1]).sort();
     const session = engine.open();
     const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'imagePixels',
-        'openPainter', 'closePainter', 'forgetPicture', 'drawList'];
+        'openPainter', 'closePainter', 'forgetPicture', 'drawList', 'servePainter'];
     const real = Object.getOwnPropertyNames(Object.getPrototypeOf(session)).filter(name => !inner.includes(name)).sort();
     assert.deepEqual(declared, real);
     session.close();

@@ -198,7 +198,7 @@ export class Session {
 
     load(text, name = 'script.fl') {
         this.closePainter();
-        this.serve();
+        this.servePainter();
         const encoded = typeof text === 'string' ? new TextEncoder().encode(text) : text;
         this.setFile(name, encoded);
         return this.check('load the script', this.with(name, (wasm, called) =>
@@ -376,7 +376,7 @@ export class Session {
     }
 
     // Opens the painter, with which scripts measure texts and sample pictures, in browsers only: Node.js has no fonts.
-    serve() {
+    servePainter() {
         if (typeof OffscreenCanvas !== 'undefined')
             this.painter ??= this.run(wasm => wasm.web_painter(this.handle));
     }
@@ -387,7 +387,7 @@ export class Session {
         if (context !== this.context && this.renders !== null)
             this.closePainter();
         this.context = context;
-        this.serve();
+        this.servePainter();
         this.renders ??= !!this.painter && !!context && !!this.run(wasm => wasm.web_painter_use_gl(this.painter));
         return this.renders ? this.painter : 0;
     }
@@ -496,7 +496,7 @@ export class Session {
     // Restores a snapshot. Pictures that depend on earlier pictures start again.
     rewind(snapshot) {
         this.closePainter();
-        this.serve();
+        this.servePainter();
         return this.check('restore the snapshot', wasm => wasm.petri_rewind(this.handle, snapshot.at));
     }
 
