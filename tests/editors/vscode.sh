@@ -16,7 +16,8 @@ scratch
 mkdir -p checkout/src/editors/vscode checkout/src/packaging
 ln -s checkout/src/editors/vscode extension
 cp "$root/meson.build" "$root/LICENSE" "$root/CHANGELOG.md" checkout/
-cp "$root/src/packaging/fill.sh" "$root/src/packaging/identity.ini" "$root/src/packaging/icon.png" checkout/src/packaging/
+cp "$root/src/packaging/fill.sh" "$root/src/packaging/identity.ini" "$root/src/packaging/icon.png" \
+    "$root/src/packaging/licences.mjs" checkout/src/packaging/
 cp "$folder"/*.js "$folder"/*.json "$folder"/*.md "$folder"/*.py extension/
 ln -s "$folder/node_modules" extension/node_modules
 (cd extension && npm run bundle) >out 2>err
@@ -40,6 +41,11 @@ for (const { command } of commands) if (!source.includes(`"${command}"`)) throw 
 if (typeof require("./unpacked/extension/" + about.main).activate !== "function") throw new Error("no activate");' >out 2>err
 status=$?
 check "the package is complete and can be loaded" status_is 0
+licences=unpacked/extension/third-party-licences.txt
+for package in $(grep -o 'node_modules/\(@[^/"]*/\)\?[^/"]*' extension/dist/meta.json | sed 's/.*node_modules.//' | sort -u); do
+    check "the licence of $package is in the extension" grep -q "^$package [0-9]" $licences
+done
+check "the extension has the text of each licence" [ "$(grep -c '^Copyright' $licences)" -ge 5 ]
 version=$("$petri" --version)
 check "the extension has the version of petri" has unpacked/extension/package.json "\"version\": \"${version#petri }\""
 # Bytes 16 to 23 of a PNG file are width and height.

@@ -13,6 +13,12 @@ export PETRI
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$2" -m zipfile -e "$3"/petri-*.whl "$scratch"
+for holder in 'petri authors' 'Yann Collet'; do
+    find "$scratch" -name 'LICENSE*' -exec cat {} + | grep -q "$holder" || {
+        echo "the wheel has no licence of $holder"
+        exit 1
+    }
+done
 PYTHONPATH=$scratch
 PYTHONDONTWRITEBYTECODE=1
 export PYTHONPATH PYTHONDONTWRITEBYTECODE

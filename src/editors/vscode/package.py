@@ -28,6 +28,7 @@ with tempfile.TemporaryDirectory() as name:
     shutil.copy(sys.argv[1], folder / "flitter.tmLanguage.json")
     for path in ("README.md", "language-configuration.json", "dist/extension.js"):
         shutil.copy(here / path, folder / path)
+    shutil.copy(here / "dist/third-party-licences.txt", folder)
     for path in ("LICENSE", "CHANGELOG.md", "src/packaging/icon.png"):
         shutil.copy(root / path, folder)
     # The marketplace shows only pictures with a complete address.

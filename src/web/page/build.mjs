@@ -4,17 +4,19 @@ import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
+import { packagesOf, writeLicences } from '../../packaging/licences.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [, , output, samples] = process.argv;
-await build({
+const { metafile } = await build({
     entryPoints: {
         page: join(here, 'main.mjs'), start: join(here, 'preload.mjs'), worker: join(here, 'worker.mjs'),
         'petri-dish': join(here, 'embed.mjs'), sqlite: join(here, 'sqlite.mjs'),
     },
     outdir: output, bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.css': 'text' },
-    external: ['node:fs/promises'], logLevel: 'warning',
+    external: ['node:fs/promises'], logLevel: 'warning', metafile: true,
 });
+writeLicences(join(output, 'third-party-licences.txt'), packagesOf(metafile));
 for (const name of ['index.html', 'style.css', 'offline.js'])
     copyFileSync(join(here, name), join(output, name));
 copyFileSync(join(here, 'node_modules/sql.js/dist/sql-wasm.wasm'), join(output, 'sql-wasm.wasm'));

@@ -3,6 +3,7 @@
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { packagesOf, writeLicences } from '../../packaging/licences.mjs';
 import { build } from '../page/node_modules/esbuild/lib/main.js';
 import { loadEngine } from '../engine/petri.mjs';
 import { Examples } from './examples.mjs';
@@ -123,9 +124,10 @@ for (const name of ['site.css', 'site.js'])
     copyFileSync(join(here, name), join(output, name));
 const bundle = (name, format) => build({
     entryPoints: [join(here, `${name}.mjs`)], outfile: join(output, `${name}.js`), bundle: true, minify: true, format,
-    external: ['node:fs/promises'], legalComments: 'inline', logLevel: 'warning',
+    external: ['node:fs/promises'], legalComments: 'inline', logLevel: 'warning', metafile: true,
 });
-await bundle('try', 'esm');
-await bundle('search', 'iife');
+const bundles = [await bundle('try', 'esm'), await bundle('search', 'iife')];
+const inputs = Object.assign({}, ...bundles.map(({ metafile }) => metafile.inputs));
+writeLicences(join(output, 'third-party-licences.txt'), packagesOf({ inputs }));
 const count = kind => site.examples.all.filter(one => one.kind === kind || (kind === 'text' && one.kind !== 'dish')).length;
 console.log(`${PAGES.length + 1} pages, ${count('dish')} dishes, ${count('text')} other runnable examples`);
