@@ -79,6 +79,8 @@ typedef struct Hdf5System {
     uint64_t particles;
     uint64_t dimensions;
     uint64_t name_bytes;
+    double kinetic_energy; // NaN: the run does not record energies
+    double potential_energy;
 } Hdf5System;
 
 enum { HDF5_NUMBERS = 5 }; // eight-byte values per particle besides position and velocity

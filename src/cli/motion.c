@@ -132,6 +132,16 @@ static PetriStatus add_potential_energy(PetriSession *session, size_t number, co
     return PETRI_OK;
 }
 
+void motion_energies(PetriSession *session, size_t number, const PetriSystem *system, double *kinetic,
+                     double *potential) {
+    Motion motion = measure_motion(system);
+    *kinetic = motion.kinetic_energy;
+    *potential = 0;
+    if (add_potential_energy(session, number, system, potential) != PETRI_OK)
+        *potential = NAN;
+    free(motion.momentum);
+}
+
 PetriStatus motion_add_quantity(PetriSession *session, MotionQuantity quantity, Text *out) {
     PetriSystem system;
     double energy = 0, angular[SPACE] = {0}, *momentum = NULL;

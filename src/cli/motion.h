@@ -10,6 +10,11 @@ double particle_speed(const PetriSystem *system, uint32_t particle);
 // Returns the number of particles that are not anchors.
 uint32_t motion_count(const PetriSystem *system);
 
+// Computes the kinetic energy of system `number`, and the sum of the potential energies of its forces. Forces without a
+// potential count as 0. *potential is NaN if petri_potential_energy fails.
+void motion_energies(PetriSession *session, size_t number, const PetriSystem *system, double *kinetic,
+                     double *potential);
+
 typedef void MotionRow(void *user_data, const char *name, const char *value);
 // Calls `row` for each row of a table about system `number`: kinetic energy, the sum of mass * speed^2 / 2 over all
 // particles except anchors; momentum, with at most `max_components` components; in two and three dimensions, angular

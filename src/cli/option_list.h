@@ -62,6 +62,7 @@ FIELD(bool,         no_batches,   false)
 FIELD(bool,         show,         false)          // run: show the picture if output is a terminal
 FIELD(bool,         stats,        false)
 FIELD(const char *, trajectory,   NULL)           // file; NULL: none
+FIELD(bool,         energies,     false)          // in the trajectory
 FIELD(bool,         profile,      false)
 FIELD(Verbosity,    verbosity,    LOG_NORMAL)
 FIELD(bool,         colour,       colour_by_default())
@@ -155,6 +156,7 @@ OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "show the picture in the termi
 OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "print timings and each system's energy at the end")
 OPTION(FOR_CHECK, "stats", 0, NULL, read_flag, stats, "print how many triangles the solids, distance fields and models of the first frame have")
 OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write all particles to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state, append to FILE")
+OPTION(FOR_RUN, "energies", 0, NULL, read_flag, energies, "also write kinetic and potential energy of each system to the trajectory, which takes time")
 OPTION(FOR_RUN | FOR_VIEW, "archive", 0, "FILE", read_text, archive, "write an archive of the run, which 'petri verify' can verify, to FILE.petri")
 OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW | FOR_REPL, "from", 0, "FRAME", WHOLE(0, INT64_MAX - 1), from, "start the replay of an archive with this frame (default: the first)")
 OPTION(FOR_RUN | FOR_VIEW, "keyframe-every", 0, "N", WHOLE(1, INT64_MAX - 1), keyframe_every, "store the state in the archive every N frames (default: 1000)")

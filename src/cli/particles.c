@@ -56,16 +56,17 @@ uint32_t particles_dimensions(PetriSession *session) {
     return max_dimensions;
 }
 
-void particles_header(uint32_t dimensions, PetriWriteCallback *write, void *user_data) {
+void particles_header(uint32_t dimensions, bool energies, PetriWriteCallback *write, void *user_data) {
     const RowWriter writer = {dimensions, write, user_data};
     write_format(&writer, "frame,time,system,id,anchor");
     for (const char *name = "xv"; *name != '\0'; name++)
         for (uint32_t k = 1; k <= dimensions; k++)
             write_format(&writer, ",%c%" PRIu32, *name, k);
-    write_format(&writer, ",radius,mass,charge\n");
+    write_format(&writer, ",radius,mass,charge%s\n", energies ? ",kinetic_energy,potential_energy" : "");
 }
 
-bool particles_rows(PetriSession *session, uint32_t dimensions, PetriWriteCallback *write, void *user_data) {
+bool particles_rows(PetriSession *session, uint32_t dimensions, const ParticlesEnergies *energies,
+                    PetriWriteCallback *write, void *user_data) {
     const RowWriter writer = {dimensions, write, user_data};
     PetriFrame frame;
     petri_frame(session, &frame, sizeof frame);
@@ -85,6 +86,8 @@ bool particles_rows(PetriSession *session, uint32_t dimensions, PetriWriteCallba
             write_number(&writer, system.radius, i);
             write_number(&writer, system.mass, i);
             write_number(&writer, system.charge, i);
+            if (energies)
+                write_format(&writer, ",%.17g,%.17g", energies[s].kinetic, energies[s].potential);
             write_format(&writer, "\n");
         }
     }

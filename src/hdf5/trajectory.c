@@ -12,13 +12,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum Kind { POSITION, VELOCITY, RADIUS, MASS, CHARGE, ID, ANCHOR, EDGES, KINDS } Kind;
-static const char *const NAMES[] = {"position", "velocity", "radius", "mass", "charge", "id", "anchor", "edges"};
+// The energies are in the group `observables`, the edges in the group `box`, the others in the group of the system.
+typedef enum Kind { POSITION, VELOCITY, RADIUS, MASS, CHARGE, ID, ANCHOR, EDGES, KINETIC, POTENTIAL, KINDS } Kind;
+static const char *const NAMES[] = {"position", "velocity", "radius", "mass",           "charge",
+                                    "id",       "anchor",   "edges",  "kinetic_energy", "potential_energy"};
 
 struct Group {
     char *system_name; // name in the script
     uint64_t dimensions;
     hid_t group;
+    Kind kinds;       // KINDS; KINETIC: the group has no energies
     StoreColumn step; // frame numbers
     StoreColumn time; // seconds
     StoreColumn columns[KINDS];
@@ -43,7 +46,7 @@ static const void *fill_of(Kind kind) {
 }
 
 static int rank_of(Kind kind) {
-    return kind == POSITION || kind == VELOCITY ? 3 : 2;
+    return kind == POSITION || kind == VELOCITY ? 3 : kind >= KINETIC ? 1 : 2;
 }
 
 static void add_author(TrajectoryFile *file) {
@@ -78,6 +81,10 @@ static void choose_name(const TrajectoryFile *file, const char *called, Text *na
     }
 }
 
+static hid_t parent_of(Kind kind, hid_t group, hid_t box, hid_t observables) {
+    return kind < EDGES ? group : kind == EDGES ? box : observables;
+}
+
 // Adds an H5MD element, a quantity that changes with time. All elements of a group share the step and time data sets.
 static void add_element(TrajectoryFile *file, Group *group, hid_t parent, Kind kind, hsize_t particles) {
     Store *store = file->store;
@@ -95,6 +102,15 @@ static void add_element(TrajectoryFile *file, Group *group, hid_t parent, Kind k
     }
 }
 
+// Opens the group of a system in `observables`, and creates it if necessary.
+static hid_t observables_group(const TrajectoryFile *file, const char *name) {
+    bool exists = H5Lexists(file->store->file, "observables", H5P_DEFAULT) > 0;
+    hid_t all = exists ? store_open(file->store, file->store->file, "observables")
+                       : store_group(file->store, file->store->file, "observables");
+    return exists && H5Lexists(all, name, H5P_DEFAULT) > 0 ? store_open(file->store, all, name)
+                                                           : store_group(file->store, all, name);
+}
+
 static void add_group(TrajectoryFile *file, const char *called, const Hdf5System *system) {
     Store *store = file->store;
     SCOPED_TEXT name = {0};
@@ -108,8 +124,10 @@ static void add_group(TrajectoryFile *file, const char *called, const Hdf5System
     int dimensions = (int)system->dimensions;
     store_numbers(store, box, "dimension", &dimensions, 1);
     store_texts(store, box, "boundary", "none", system->dimensions);
-    for (Kind kind = POSITION; kind < KINDS; kind++)
-        add_element(file, group, kind == EDGES ? box : group->group, kind, system->particles);
+    group->kinds = isnan(system->kinetic_energy) ? KINETIC : KINDS;
+    hid_t observables = group->kinds == KINDS ? observables_group(file, name.bytes) : -1;
+    for (Kind kind = POSITION; kind < group->kinds; kind++)
+        add_element(file, group, parent_of(kind, group->group, box, observables), kind, system->particles);
 }
 
 static Group *find_group(TrajectoryFile *file, const char *called, const Hdf5System *system) {
@@ -158,6 +176,10 @@ static char *add_system(TrajectoryFile *file, const Hdf5Frame *frame, char *byte
         store_write_row(file->store, &group->columns[kind], row, sizes, at);
         at += system->particles * (kind <= VELOCITY ? system->dimensions : 1) * sizeof(double);
     }
+    if (group->kinds == KINDS) {
+        store_write_row(file->store, &group->columns[KINETIC], row, sizes, &system->kinetic_energy);
+        store_write_row(file->store, &group->columns[POTENTIAL], row, sizes, &system->potential_energy);
+    }
     store_write_row(file->store, &group->step, row, sizes, &frame->number);
     store_write_row(file->store, &group->time, row, sizes, &frame->time);
     return at;
@@ -205,13 +227,17 @@ void trajectory_file_add(TrajectoryFile *file, char *bytes) {
 
 // Opens an existing group and counts its frames up to `after` and the particles in them. Lowers *min_id to the smallest
 // id in these frames. Returns false if no frame is left.
-static bool read_group(TrajectoryFile *file, Group *group, int64_t after, int64_t *min_id) {
+static bool read_group(TrajectoryFile *file, Group *group, const char *name, int64_t after, int64_t *min_id) {
     Store *store = file->store;
+    bool has_energies = H5Lexists(store->file, "observables", H5P_DEFAULT) > 0 &&
+                        H5Lexists(store_open(store, store->file, "observables"), name, H5P_DEFAULT) > 0;
+    hid_t observables = has_energies ? observables_group(file, name) : -1;
+    group->kinds = has_energies ? KINDS : KINETIC;
     group->system_name = store_read_text(store, group->group, "system");
     hid_t box = store_open(store, group->group, "box");
     group->dimensions = (uint64_t)store_read_number(store, box, "dimension");
-    for (Kind kind = POSITION; kind < KINDS; kind++) {
-        hid_t element = store_open(store, kind == EDGES ? box : group->group, NAMES[kind]);
+    for (Kind kind = POSITION; kind < group->kinds; kind++) {
+        hid_t element = store_open(store, parent_of(kind, group->group, box, observables), NAMES[kind]);
         group->columns[kind] = store_open_column(store, element, "value", type_of(kind), rank_of(kind), fill_of(kind));
         if (kind == POSITION) {
             group->step = store_open_column(store, element, "step", H5T_NATIVE_INT64, 1, &NO_ANCHOR);
@@ -220,7 +246,7 @@ static bool read_group(TrajectoryFile *file, Group *group, int64_t after, int64_
     }
     // Every frame has a row in each column. The file of a stranger can claim more rows.
     bool equal = group->time.sizes[0] == group->step.sizes[0];
-    for (Kind kind = POSITION; kind < KINDS; kind++)
+    for (Kind kind = POSITION; kind < group->kinds; kind++)
         equal = equal && group->columns[kind].sizes[0] == group->step.sizes[0];
     store->failed = store->failed || !equal;
     hsize_t one[STORE_RANKS] = {1, group->columns[ID].sizes[1]};
@@ -243,7 +269,7 @@ static bool read_group(TrajectoryFile *file, Group *group, int64_t after, int64_
 }
 
 static void cut_group(Store *store, Group *group) {
-    for (Kind kind = POSITION; kind < KINDS; kind++) {
+    for (Kind kind = POSITION; kind < group->kinds; kind++) {
         hsize_t rows[STORE_RANKS] = {group->frames, group->max_particles, group->dimensions};
         hsize_t edges[STORE_RANKS] = {group->frames, group->dimensions};
         store_truncate(store, &group->columns[kind], kind == EDGES ? edges : rows);
@@ -258,11 +284,15 @@ static void read_groups(TrajectoryFile *file, int64_t after, int64_t *min_id) {
     SCOPED_TEXT name = {0};
     for (hsize_t i = 0; store_name_at(file->store, file->particles, i, &name);) {
         Group group = {.group = store_open(file->store, file->particles, name.bytes)};
-        bool any = read_group(file, &group, after, min_id);
+        bool any = read_group(file, &group, name.bytes, after, min_id);
         if (file->store->failed || !any) {
             free(group.system_name);
             if (file->store->failed)
                 return;
+            if (group.kinds == KINDS) {
+                hid_t observables = store_open(file->store, file->store->file, "observables");
+                store_check(file->store, H5Ldelete(observables, name.bytes, H5P_DEFAULT));
+            }
             store_check(file->store, H5Ldelete(file->particles, name.bytes, H5P_DEFAULT));
             continue;
         }

@@ -4,6 +4,7 @@
 #include "run/frames.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -78,8 +79,10 @@ static void send_column(Output *output, PetriColumn column, size_t width, uint32
         output_write(output, (const char *)(column.data + i * column.stride), width * sizeof(double));
 }
 
-static void send_system(Output *output, const PetriSystem *system, const int64_t *ids) {
-    Hdf5System head = {system->particle_count, system->dimensions, hdf5_padded(strlen(system->name))};
+static void send_system(Output *output, const PetriSystem *system, const int64_t *ids,
+                        const ParticlesEnergies *energies) {
+    Hdf5System head = {system->particle_count, system->dimensions, hdf5_padded(strlen(system->name)),
+                       energies ? energies->kinetic : NAN, energies ? energies->potential : NAN};
     output_write(output, (const char *)&head, sizeof head);
     send_text(output, system->name, strlen(system->name));
     send_column(output, system->position, system->dimensions, system->particle_count);
@@ -99,7 +102,7 @@ static void send_head(Output *output, Hdf5Command act, uint64_t bytes) {
     output_write(output, (const char *)&head, sizeof head);
 }
 
-bool h5md_add(H5md *file, PetriSession *session, Output *output) {
+bool h5md_add(H5md *file, PetriSession *session, const ParticlesEnergies *energies, Output *output) {
     SCOPED_TEXT texts = {0};
     PetriFrame now;
     petri_frame(session, &now, sizeof now);
@@ -124,7 +127,7 @@ bool h5md_add(H5md *file, PetriSession *session, Output *output) {
     send_text(output, texts.bytes, texts.len);
     const int64_t *ids = (const int64_t *)(const void *)file->ids.bytes;
     for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
-        send_system(output, &system, ids);
+        send_system(output, &system, ids, energies ? &energies[s] : NULL);
         ids += system.particle_count;
     }
     output_flush(output); // so that petri-hdf5 has all complete frames if this process is killed

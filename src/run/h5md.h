@@ -5,6 +5,7 @@
 #include "cli/hdf5.h"
 #include "cli/memory.h"
 #include "cli/output.h"
+#include "cli/particles.h"
 #include "petri.h"
 #include "run/resume.h"
 
@@ -19,8 +20,9 @@ typedef struct H5md {
 // Starts petri-hdf5 and makes `output` write to it. `resume` describes the state from which the run continues; if it is
 // NULL, later runs cannot continue the file. Returns false after a message.
 bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *output);
-// Adds the last frame of a session. Returns false if out of memory. Write errors are stored in `output`.
-bool h5md_add(H5md *file, PetriSession *session, Output *output);
+// Adds the last frame of a session. `energies` has an element for each system; NULL: none. Returns false if out of
+// memory. Write errors are stored in `output`.
+bool h5md_add(H5md *file, PetriSession *session, const ParticlesEnergies *energies, Output *output);
 // Waits until all frames are on disk. Returns false after a message of petri-hdf5.
 bool h5md_sync(H5md *file, Output *output);
 // Completes the file, or discards it if `keep` is false. Returns false, after a message of petri-hdf5, on failure.

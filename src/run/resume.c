@@ -68,13 +68,15 @@ static bool read_xyz(Lines *lines, int64_t after, ResumeFile *file) {
     return true;
 }
 
-// Reads the header `frame,time,system,id,anchor,x1,…,v1,…,radius,mass,charge`.
+// Reads the header `frame,time,system,id,anchor,x1,…,v1,…,radius,mass,charge`, perhaps with
+// `kinetic_energy,potential_energy`.
 static bool read_header(const Lines *lines, ResumeFile *file) {
     static const char first[] = "frame,time,system,id,anchor,x1";
     if (strncmp(lines->line, first, sizeof first - 1) != 0)
         return false;
     for (const char *at = lines->line; (at = strstr(at, ",x")); at++)
         file->dimensions++;
+    file->energies = strstr(lines->line, ",potential_energy");
     file->end = lines->end;
     return true;
 }

@@ -20,6 +20,7 @@ typedef struct ResumeFile {
     size_t end;          // length of the file in bytes, after later frames were removed
     int64_t last;        // last frame in the file; -1: none
     uint32_t dimensions; // number of dimensions in a CSV header; 0: no header yet
+    bool energies;       // true if a CSV header has columns for energies
 } ResumeFile;
 
 // Opens an XYZ file, or a CSV file if `csv` is true, and removes the frames after frame `after`. Returns false after a

@@ -143,7 +143,7 @@ static bool open_trajectory(Run *run) {
     }
     frames->state.before = trajectory_sync;
     frames->state.context = &run->trajectory;
-    return trajectory_open(&run->trajectory, options->trajectory, &resume);
+    return trajectory_open(&run->trajectory, options->trajectory, options->energies, &resume);
 }
 
 static int run_frames(Run *run) {

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "cli/cli.h"
 #include "cli/memory.h"
+#include "cli/motion.h"
 #include "cli/particles.h"
 #include "cli/script.h"
 #include "cli/signal_cleanup.h"
@@ -69,6 +70,8 @@ static bool resume_file(Trajectory *trajectory, const Resume *resume) {
         return false;
     if (file.fd >= 0) {
         trajectory->dimensions = file.dimensions;
+        if (file.dimensions > 0)
+            trajectory->energies = file.energies;
         write_named(trajectory, file.fd, file.end);
         resume_report_gap(trajectory->path, file.last, resume);
     }
@@ -80,7 +83,8 @@ static bool is_regular_file(const char *path) {
     return stat(path, &info) != 0 || S_ISREG(info.st_mode);
 }
 
-bool trajectory_open(Trajectory *trajectory, const char *path, const Resume *resume) {
+bool trajectory_open(Trajectory *trajectory, const char *path, bool energies, const Resume *resume) {
+    trajectory->energies = energies;
     trajectory->path = path;
     trajectory->format = format_of(path);
     trajectory->resumable = resume->wanted && is_regular_file(path);
@@ -109,17 +113,24 @@ static void add_xyz_vector(Output *output, PetriColumn column, uint32_t particle
         output_format(output, " %.17g", k < dimensions ? column.data[particle * column.stride + k] : 0);
 }
 
-static void add_xyz(Output *output, PetriSession *session) {
+static void add_xyz(Output *output, PetriSession *session, const ParticlesEnergies *energies) {
     PetriFrame frame;
     petri_frame(session, &frame, sizeof frame);
     PetriSystem system;
     uint64_t count = 0;
-    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++)
+    ParticlesEnergies sum = {0};
+    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
         count += system.particle_count;
+        sum.kinetic += energies ? energies[s].kinetic : 0;
+        sum.potential += energies ? energies[s].potential : 0;
+    }
     output_format(output,
                   "%" PRIu64 "\nProperties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:charge:R:1:"
-                  "id:I:1:system:I:1:anchor:I:1 Time=%.17g Frame=%" PRId64 "\n",
-                  count, frame.time, frame.number);
+                  "id:I:1:system:I:1:anchor:I:1",
+                  count);
+    if (energies)
+        output_format(output, " kinetic_energy=%.17g potential_energy=%.17g", sum.kinetic, sum.potential);
+    output_format(output, " Time=%.17g Frame=%" PRId64 "\n", frame.time, frame.number);
     uint64_t id = 0;
     for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
         for (uint32_t i = 0; i < system.particle_count; i++) {
@@ -133,29 +144,42 @@ static void add_xyz(Output *output, PetriSession *session) {
     }
 }
 
-static bool add_csv(Trajectory *trajectory, PetriSession *session) {
+static bool add_csv(Trajectory *trajectory, PetriSession *session, const ParticlesEnergies *energies) {
     if (trajectory->dimensions == 0) {
         trajectory->dimensions = particles_dimensions(session);
-        particles_header(trajectory->dimensions, output_write, &trajectory->output);
+        particles_header(trajectory->dimensions, trajectory->energies, output_write, &trajectory->output);
     }
-    return particles_rows(session, trajectory->dimensions, output_write, &trajectory->output);
+    return particles_rows(session, trajectory->dimensions, energies, output_write, &trajectory->output);
 }
 
-static bool add_frame(Trajectory *trajectory, PetriSession *session) {
+// Returns the energies of all systems, which the caller frees. Returns NULL if the file has no energies.
+static ParticlesEnergies *measure_energies(const Trajectory *trajectory, PetriSession *session) {
+    ParticlesEnergies *energies = NULL;
+    PetriSystem system;
+    for (size_t s = 0; trajectory->energies && petri_system(session, s, &system, sizeof system); s++) {
+        energies = memory_realloc(energies, (s + 1) * sizeof *energies);
+        motion_energies(session, s, &system, &energies[s].kinetic, &energies[s].potential);
+    }
+    return energies;
+}
+
+static bool add_frame(Trajectory *trajectory, PetriSession *session, const ParticlesEnergies *energies) {
     switch (trajectory->format) {
     case TRAJECTORY_XYZ:
-        add_xyz(&trajectory->output, session);
+        add_xyz(&trajectory->output, session, energies);
         return true;
     case TRAJECTORY_CSV:
-        return add_csv(trajectory, session);
+        return add_csv(trajectory, session, energies);
     default:
-        return h5md_add(&trajectory->h5md, session, &trajectory->output);
+        return h5md_add(&trajectory->h5md, session, energies, &trajectory->output);
     }
 }
 
 void trajectory_add(Trajectory *trajectory, PetriSession *session) {
     uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
-    bool whole = add_frame(trajectory, session);
+    ParticlesEnergies *energies = measure_energies(trajectory, session);
+    bool whole = add_frame(trajectory, session, energies);
+    free(energies);
     if (!whole || petri_diagnostic_count(session, PETRI_ERROR) != errors) { // part of the frame is missing
         report_error(trajectory, ENOMEM);
         return;

@@ -17,6 +17,7 @@ typedef struct Trajectory {
     const char *path;
     TrajectoryFormat format;
     bool open;
+    bool energies;  // true if the file has the energies of each system
     bool resumable; // true if a later run can continue the file
     bool named;     // true if the file has its final name and is extended in place
     Replacement file;
@@ -30,8 +31,8 @@ typedef struct Trajectory {
 } Trajectory;
 
 // Opens a file whose name ends in .xyz, .csv, .h5 or .h5md. Returns false, after a message, if it cannot be created or
-// continued.
-bool trajectory_open(Trajectory *trajectory, const char *path, const Resume *resume);
+// continued. `energies`: also write the energies of each system; a CSV file that is continued keeps its columns.
+bool trajectory_open(Trajectory *trajectory, const char *path, bool energies, const Resume *resume);
 // Adds the last frame of a session. On failure, prints a message and sets `failed`.
 void trajectory_add(Trajectory *trajectory, PetriSession *session);
 // Writes all frames to disk. Must be called before a state is saved, so that a run can continue from that state. If it

@@ -145,8 +145,8 @@ EXPORT(uint32_t, web_particles, PetriSession *session, uint32_t dimensions) {
     TextBuffer gathered = {.used = 0};
     uint32_t have = dimensions ? dimensions : particles_dimensions(session);
     if (!dimensions)
-        particles_header(have, append_text, &gathered);
-    bool done = particles_rows(session, have, append_text, &gathered);
+        particles_header(have, false, append_text, &gathered);
+    bool done = particles_rows(session, have, NULL, append_text, &gathered);
     flush_text(&gathered);
     return done ? have : petri_clear_interrupt(session) ? UINT32_MAX : 0;
 }

@@ -35,24 +35,24 @@ equals_whole() {
     esac
 }
 saved_frames() { echo $(($(sed -n 's/^frame //p' s 2>/dev/null || echo -1) + 1)); }
-run_rest() { petri run w.fl --frames $((100 - $(saved_frames))) --state s --trajectory "$@"; }
+run_rest() { petri run w.fl --frames $((100 - $(saved_frames))) --state s --energies --trajectory "$@"; }
 
 for format in $formats; do
     way=way.$format
-    petri run w.fl --frames 100 --trajectory whole.$format
+    petri run w.fl --frames 100 --energies --trajectory whole.$format
     rm -f s
     for frames in 1 10 25 40; do
-        petri run w.fl --frames $frames --state s --trajectory $way
+        petri run w.fl --frames $frames --state s --energies --trajectory $way
     done
     run_rest $way
     check "$format: five consecutive runs make one trajectory" eval 'status_is 0 && empty err && equals_whole $way'
-    petri run w.fl --frames 0 --state s --trajectory $way
+    petri run w.fl --frames 0 --state s --energies --trajectory $way
     check "$format: a run of 0 frames changes nothing" eval 'status_is 0 && equals_whole $way'
     cp $way longer.$format
 
     # The state is older than the end of the trajectory, so later frames are computed again.
     rm -f s
-    petri run w.fl --frames 33 --state s --trajectory short.$format
+    petri run w.fl --frames 33 --state s --energies --trajectory short.$format
     run_rest longer.$format
     check "$format: frames later than the state are computed again" eval 'status_is 0 && equals_whole longer.$format'
     rm -f s
@@ -61,22 +61,22 @@ for format in $formats; do
 
     # The trajectory ends before the state, so the missing frames are reported.
     rm -f s
-    petri run w.fl --frames 3 --state s --trajectory $way
+    petri run w.fl --frames 3 --state s --energies --trajectory $way
     petri run w.fl --frames 4 --state s
-    petri run w.fl --frames 4 --state s --trajectory $way
+    petri run w.fl --frames 4 --state s --energies --trajectory $way
     check "$format: missing frames are reported" has err "frames 3 to 6 are missing in $way, which continues with frame 7"
-    petri run w.fl --frames 5 --every 5 --state s --trajectory $way
+    petri run w.fl --frames 5 --every 5 --state s --energies --trajectory $way
     check "$format: frames that --every omits are not reported as missing" empty err
 
     echo something else >other.$format
-    petri run w.fl --frames 2 --state s --trajectory other.$format
+    petri run w.fl --frames 2 --state s --energies --trajectory other.$format
     check "$format: a file of another kind is rejected" status_is 1
     check "$format: a file of another kind is reported" has err "cannot continue other.$format: it was not written by '--trajectory'"
     check "$format: a file of another kind is not modified" [ "$(cat other.$format)" = "something else" ]
     echo bad >bad.state
-    petri run w.fl --frames 2 --state bad.state --trajectory $way.copy.$format
+    petri run w.fl --frames 2 --state bad.state --energies --trajectory $way.copy.$format
     cp $way before
-    petri run w.fl --frames 2 --state bad.state --trajectory $way
+    petri run w.fl --frames 2 --state bad.state --energies --trajectory $way
     check "$format: an unreadable state leaves the trajectory unchanged" eval 'status_is 1 && cmp before $way'
 
     # petri is killed at any moment, with or without petri-hdf5.
@@ -84,7 +84,7 @@ for format in $formats; do
     i=0
     while [ $i -lt $kills ]; do
         [ "$(saved_frames)" -lt 90 ] || rm -f s $way
-        setsid "$petri" run w.fl --frames $((100 - $(saved_frames))) --state s --save-every 3 --trajectory $way --trace 2>err </dev/null &
+        setsid "$petri" run w.fl --frames $((100 - $(saved_frames))) --state s --save-every 3 --energies --trajectory $way --trace 2>err </dev/null &
         job=$!
         min_frames=$((i * 7 % 20))
         while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt $min_frames ]; do :; done
@@ -98,7 +98,7 @@ for format in $formats; do
 done
 if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
     rm -f s run.h5
-    "$petri" run w.fl --frames 100000000 --state s --trajectory run.h5 --trace 2>err </dev/null &
+    "$petri" run w.fl --frames 100000000 --state s --energies --trajectory run.h5 --trace 2>err </dev/null &
     job=$!
     while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt 5 ]; do :; done
     kill -9 $(cat /proc/$job/task/*/children)
@@ -106,14 +106,14 @@ if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
     status=$?
     check "the run ends if petri-hdf5 is killed" status_is 1
     check "the end of petri-hdf5 is reported" has err "petri-hdf5, which writes the file, was terminated by signal 9"
-    petri run w.fl --frames 1 --state s --trajectory run.h5
+    petri run w.fl --frames 1 --state s --energies --trajectory run.h5
     check "the next run resumes after petri-hdf5 was killed" eval 'status_is 0 && empty err'
 fi
 rm -f s
 (
     trap '' XFSZ # the disk is full
     ulimit -f 200
-    exec timeout 100 "$petri" run w.fl --frames 100 --state s --save-every 3 --trajectory full.csv >out 2>err </dev/null
+    exec timeout 100 "$petri" run w.fl --frames 100 --state s --save-every 3 --energies --trajectory full.csv >out 2>err </dev/null
 )
 status=$?
 check "a full disk ends a run with a trajectory" status_is 1
