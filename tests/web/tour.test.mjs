@@ -92,6 +92,7 @@ test('each lesson has a page with a running dish, and the next is one click away
         await page.waitForFunction(() => document.body.dataset.task === 'open' && Number(document.body.dataset.frame) > 3);
         assert.equal(await page.textContent('h1'), LESSONS[i].title);
         assert.equal(await page.textContent('#message'), '');
+        assert.equal(await page.textContent('#problems'), '', LESSONS[i].name);
         assert.ok((await pixels(page)).all > 5, LESSONS[i].name);
         if (i + 1 < LESSONS.length) {
             await page.click('#next');
