@@ -1,7 +1,8 @@
 // file_watch.c: see file_watch.h.
 //
 // On Linux, one epoll descriptor combines inotify and a timer that expires when a changed file has been stable long
-// enough. Elsewhere the files are only polled.
+// enough. Elsewhere the files are only polled. With kqueue, macOS and BSD could report changes earlier, but every file
+// and folder would need an open descriptor.
 #include "cli/file_watch.h"
 
 #include "base/clock.h"
