@@ -169,7 +169,8 @@ typedef struct SmallFrame {
 } SmallFrame;
 
 static void add_frame(TrajectoryFile *file, int64_t number) {
-    SmallFrame frame = {.frame = {number, 0.5, 8, number == 0, 1}, .texts = "a", .system = {2, 2, 8}, .name = ":s"};
+    SmallFrame frame = {
+        .frame = {number, 0.5, 8, number == 0, 1}, .texts = "a", .system = {2, 2, 8, 1.5, -2}, .name = ":s"};
     frame.ids[1] = -2;
     trajectory_file_add(file, (char *)&frame);
 }

@@ -258,7 +258,7 @@ static void write_frames(void) {
         double numbers[7];
         int64_t id, anchor;
     } frame = {
-        .frame = {0, 0.5, 8, 1, 1}, .texts = "a", .system = {1, 2, 8}, .name = ":s", .numbers = {1, 2}, .id = -2};
+        .frame = {0, 0.5, 8, 1, 1}, .texts = "a", .system = {1, 2, 8, 0, 0}, .name = ":s", .numbers = {1, 2}, .id = -2};
     char all[2 * sizeof frame + 1];
     memcpy(all, &frame, sizeof frame);
     all[sizeof frame] = 30;
