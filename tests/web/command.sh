@@ -9,12 +9,11 @@ trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
 cat >"$work/petri" <<END
 #!/bin/sh
-exec node "$folder/petri/cli.mjs" "\$@"
+# Pictures are tested by render.test.mjs, if there is a browser.
+CHROME_PATH=none exec node "$folder/petri/cli.mjs" "\$@"
 END
 chmod +x "$work/petri"
 cd "$root"
-# Pictures are tested by render.test.mjs, if there is a browser.
-export CHROME_PATH=none
 
 # The parts of tests/cli that need neither drawing nor SQLite, except those that test messages only (suggest, syntax_hints). Some need files
 # of the parts before them. `state` follows `record`, because it kills a run: without locks of files, the run's temporary
