@@ -63,16 +63,9 @@ static uint32_t send_blocks(const GroupView *view, const SceneGroup *group, GLui
     return room == 0 ? 0 : number;
 }
 
-static const AttrValue *find_custom(const DrawNode *node, const char *name) {
-    for (uint32_t i = 0; i < node->attr_count; i++)
-        if (node->attrs[i].name == ATTR_NONE && strcmp(node->attrs[i].custom_name, name) == 0)
-            return &node->attrs[i];
-    return NULL;
-}
-
 // Binds the picture whose id is the value of the attribute `name`.
 static void set_picture(const GroupView *view, const DrawNode *node, const char *name, GLint at, GLint unit) {
-    const AttrValue *attr = find_custom(node, name);
+    const AttrValue *attr = gl_custom_attr(node, name);
     GlImage image = {0};
     if (attr && attr->count == 0)
         image = view->pictures->find(view->pictures->user_data, attr->as.text);
@@ -113,21 +106,17 @@ static void set_uniforms(const GroupView *view, const SceneGroup *group, GLuint 
     GLint count = 0, unit = FIRST_UNIT;
     glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
     for (GLint i = 0; i < count; i++) {
-        char name[1024] = ""; // OpenGL ES 3 limits names to 1024 bytes
-        GLint elements = 0;
-        GLenum type = 0;
-        glGetActiveUniform(program, (GLuint)i, sizeof name, NULL, &elements, &type, name);
-        GLint at = glGetUniformLocation(program, name);
-        name[strcspn(name, "[")] = 0; // removes the index of array elements
-        if (type == GL_SAMPLER_2D && !is_texture_name(name) && unit < MAX_UNITS)
-            set_picture(view, group->program, name, at, unit++);
-        const AttrValue *attr = find_custom(group->program, name);
+        GlUniform uniform = gl_uniform(program, (unsigned)i);
+        const char *name = uniform.name;
+        if (uniform.type == GL_SAMPLER_2D && !is_texture_name(name) && unit < MAX_UNITS)
+            set_picture(view, group->program, name, uniform.at, unit++);
+        const AttrValue *attr = gl_custom_attr(group->program, name);
         const double *numbers = attr && attr->count > 0 ? attr->as.list : &none;
         uint32_t length = attr && attr->count > 0 ? attr->count : 1;
         for (size_t k = 0; k < sizeof given / sizeof *given; k++)
             if (strcmp(given[k].name, name) == 0)
                 numbers = given[k].numbers, length = given[k].count;
-        gl_set_uniform(at, type, elements, numbers, length); // does nothing for samplers
+        gl_set_uniform(&uniform, numbers, length); // does nothing for samplers
     }
 }
 

@@ -78,16 +78,23 @@ static void find_matrix(const GlEffect *effect, double m[9]) {
         memset(m, 0, 9 * sizeof *m);
 }
 
+const AttrValue *gl_custom_attr(const DrawNode *node, const char *name) {
+    for (uint32_t i = 0; i < node->attr_count; i++)
+        if (node->attrs[i].name == ATTR_NONE && strcmp(node->attrs[i].custom_name, name) == 0)
+            return &node->attrs[i];
+    return NULL;
+}
+
 // Sets *out to the value of a node's attribute, or to the default if the attribute is not set. Returns false if the
 // node has no such attribute.
 static bool find_attribute(const DrawNode *node, const char *name, Numbers *out) {
     if (strcmp(name, "other") == 0)
         name = "default"; // `default` is a keyword of GLSL
-    for (uint32_t i = 0; i < node->attr_count; i++)
-        if (node->attrs[i].name == ATTR_NONE && strcmp(node->attrs[i].custom_name, name) == 0) {
-            set_list(out, node->attrs[i].as.list, node->attrs[i].count);
-            return true;
-        }
+    const AttrValue *custom = gl_custom_attr(node, name);
+    if (custom) {
+        set_list(out, custom->as.list, custom->count);
+        return true;
+    }
     for (int i = 1; i < ATTR_COUNT; i++) {
         const SchemaRow *row =
             strcmp(schema_names[i], name) == 0 ? schema_row((NodeKind)node->kind, (AttrName)i) : NULL;
@@ -204,13 +211,25 @@ static void send_uniform(GLint at, GLenum type, uint32_t size, GLsizei count, bo
         is_integer ? glUniform4iv(at, count, n) : glUniform4fv(at, count, x);
 }
 
-void gl_set_uniform(int at, unsigned type, int count, const double *numbers, uint32_t length) {
+GlUniform gl_uniform(unsigned program, unsigned index) {
+    GlUniform uniform = {.name = ""}; // in a browser, the name is not written if the context was lost
+    GLint size = 0;
+    GLenum type = 0;
+    glGetActiveUniform(program, index, sizeof uniform.name, NULL, &size, &type, uniform.name);
+    uniform.at = glGetUniformLocation(program, uniform.name);
+    uniform.name[strcspn(uniform.name, "[")] = 0;
+    uniform.count = size;
+    uniform.type = type;
+    return uniform;
+}
+
+void gl_set_uniform(const GlUniform *uniform, const double *numbers, uint32_t length) {
     enum { MAX_NUMBERS = 256 };
     bool is_integer;
-    uint32_t size = size_of(type, &is_integer);
-    if (size == 0 || (uint32_t)count > MAX_NUMBERS / size)
+    uint32_t size = size_of(uniform->type, &is_integer);
+    if (size == 0 || (uint32_t)uniform->count > MAX_NUMBERS / size)
         return;
-    uint32_t all = size * (uint32_t)count;
+    uint32_t all = size * (uint32_t)uniform->count;
     float x[MAX_NUMBERS];
     GLint n[MAX_NUMBERS];
     bool fits = length == all || length == 1 || length == size;
@@ -219,7 +238,7 @@ void gl_set_uniform(int at, unsigned type, int count, const double *numbers, uin
         x[i] = (float)number;
         n[i] = fabs(number) < 1e9 ? (GLint)floor(number) : 0;
     }
-    send_uniform(at, type, size, count, is_integer, x, n);
+    send_uniform(uniform->at, uniform->type, size, uniform->count, is_integer, x, n);
 }
 
 static void set_picture(const Gl *gl, GLint at, const GlState *state, const char *name, GLint unit) {
@@ -243,19 +262,13 @@ void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state) {
     glUseProgram(program);
     glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
     for (GLint i = 0; i < count; i++) {
-        char name[1024]; // OpenGL ES 3 limits names to 1024 bytes
-        name[0] = 0;     // in a browser, it is not written if the context was lost
-        GLint size = 0;
-        GLenum type = 0;
+        GlUniform uniform = gl_uniform(program, (unsigned)i);
         Numbers numbers = {.list = NULL};
-        glGetActiveUniform(program, (GLuint)i, sizeof name, NULL, &size, &type, name);
-        GLint at = glGetUniformLocation(program, name);
-        name[strcspn(name, "[")] = 0; // removes the index of array elements
-        if (type == GL_SAMPLER_2D) {
-            set_picture(gl, at, state, name, unit++);
+        if (uniform.type == GL_SAMPLER_2D) {
+            set_picture(gl, uniform.at, state, uniform.name, unit++);
         } else {
-            find_numbers(state, name, &numbers);
-            gl_set_uniform(at, type, size, numbers.list, numbers.count);
+            find_numbers(state, uniform.name, &numbers);
+            gl_set_uniform(&uniform, numbers.list, numbers.count);
         }
     }
     glActiveTexture(GL_TEXTURE0);

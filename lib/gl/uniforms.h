@@ -14,8 +14,19 @@ typedef struct GlState {
     int downsample; // factor by which the target of this pass is smaller; 1 if it is not reduced
 } GlState;
 
-// Sets a uniform of the current program, at a location and of a type that OpenGL has returned; `count` is the number of
-// elements of an array. A list of matching length is used as it is. One number fills all elements, and a vector fills
-// each element of an array. Other lists are treated as 0. Does nothing if the type is not supported.
-void gl_set_uniform(int at, unsigned type, int count, const double *numbers, uint32_t length);
+// An active uniform of a program. `count` is the number of elements of an array.
+typedef struct GlUniform {
+    char name[1024]; // without the index of array elements. OpenGL ES 3 limits names to 1024 bytes
+    int at;
+    int count;
+    unsigned type;
+} GlUniform;
+
+// Returns uniform number `index` of a program.
+GlUniform gl_uniform(unsigned program, unsigned index);
+// Returns the attribute of a node that the schema does not have, or NULL if it is not set.
+const AttrValue *gl_custom_attr(const DrawNode *node, const char *name);
+// Sets a uniform of the current program. A list of matching length is used as it is. One number fills all elements, and
+// a vector fills each element of an array. Other lists are treated as 0. Does nothing if the type is not supported.
+void gl_set_uniform(const GlUniform *uniform, const double *numbers, uint32_t length);
 void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state);
