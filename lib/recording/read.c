@@ -9,7 +9,7 @@
 
 #define DEFAULT_MEMORY_LIMIT ((size_t)2 << 30)
 
-// Reads the keyframes, and raises archive->recorded_end to the last one. Rows of a damaged file need not be in order.
+// Reads the keyframes, and sets archive->recorded_end to the last one. Rows of a damaged file need not be in order.
 static bool read_keyframes(PetriArchive *archive) {
     sqlite3_stmt *rows = archive_statement(archive, SQL_KEYFRAMES);
     while (archive_next(archive, rows)) {
@@ -23,7 +23,7 @@ static bool read_keyframes(PetriArchive *archive) {
                           sizeof *archive->keyframes))
             return archive_fail(archive, "out of memory");
         archive->keyframes[archive->keyframe_count++] = (ArchiveKeyframe){frame, given};
-        archive->recorded_end = frame > archive->recorded_end ? frame : archive->recorded_end;
+        archive->recorded_end = frame;
     }
     bool good = archive->keyframe_count == 0 || archive->keyframes[0].given;
     return !archive_fails(archive) &&
