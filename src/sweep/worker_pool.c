@@ -10,7 +10,6 @@
 #include "cli/mpi_channel.h"
 #include "cli/progress.h"
 #include "cli/subprocess.h"
-#include "sweep/measure.h"
 #include "sweep/worker_result.h"
 
 #include <errno.h>
@@ -62,21 +61,15 @@ static void on_signal(int number) {
 
 static int worker_loop(const Sweep *sweep, int requests, int results) {
     Measure measure;
-    Text diagnostics = {0};
+    SCOPED_TEXT diagnostics = {0}, packet = {0};
     if (!measure_open(&measure, sweep, result_add_diagnostic, &diagnostics))
         return STATUS_FAILED;
-    int64_t run = 0;
-    while (file_read_bytes(requests, &run, sizeof run)) {
-        diagnostics.len = 0;
-        measure_run(&measure, (size_t)run);
-        ResultHeader head = {run, measure.frames, measure.origin, measure.rows.len, diagnostics.len};
-        if (!file_write(results, (const char *)&head, sizeof head) ||
-            !file_write(results, measure.rows.bytes, measure.rows.len) ||
-            !file_write(results, diagnostics.bytes, diagnostics.len))
-            break;
+    bool good = true;
+    for (int64_t run = 0; good && file_read_bytes(requests, &run, sizeof run);) {
+        result_execute(&measure, run, &diagnostics, &packet);
+        good = file_write(results, packet.bytes, packet.len);
     }
     measure_close(&measure);
-    text_free(&diagnostics);
     return STATUS_DONE;
 }
 

@@ -12,6 +12,15 @@ void result_add_diagnostic(void *context, PetriLevel level, const char *rendered
     }
 }
 
+void result_execute(Measure *measure, int64_t run, Text *diagnostics, Text *packet) {
+    diagnostics->len = packet->len = 0;
+    measure_run(measure, (size_t)run);
+    ResultHeader head = {run, measure->frames, measure->origin, measure->rows.len, diagnostics->len};
+    text_add(packet, (Str){(const char *)&head, sizeof head});
+    text_add(packet, (Str){measure->rows.bytes, measure->rows.len});
+    text_add(packet, (Str){diagnostics->bytes, diagnostics->len});
+}
+
 bool result_store(Sweep *sweep, Journal *journal, const ResultHeader *head, const char *bytes) {
     size_t run = (size_t)head->run, length = (size_t)(head->rows + head->diagnostics);
     for (const char *diagnostics = bytes + head->rows; diagnostics < bytes + length;

@@ -3,7 +3,6 @@
 #include "base/clock.h"
 #include "cli/progress.h"
 #include "cli/wasm_host.h"
-#include "sweep/measure.h"
 #include "sweep/worker_pool.h"
 #include "sweep/worker_result.h"
 
@@ -35,17 +34,11 @@ bool worker_pool_is_remote(const Sweep *sweep) {
 
 static int help(const Sweep *sweep) {
     Measure measure;
-    SCOPED_TEXT diagnostics = {0};
+    SCOPED_TEXT diagnostics = {0}, packet = {0};
     if (!measure_open(&measure, sweep, result_add_diagnostic, &diagnostics))
         return STATUS_FAILED;
     for (int run = host_take_run(); run >= 0; run = host_take_run()) {
-        SCOPED_TEXT packet = {0};
-        diagnostics.len = 0;
-        measure_run(&measure, (size_t)run);
-        ResultHeader head = {run, measure.frames, measure.origin, measure.rows.len, diagnostics.len};
-        text_add(&packet, (Str){(const char *)&head, sizeof head});
-        text_add(&packet, (Str){measure.rows.bytes, measure.rows.len});
-        text_add(&packet, (Str){diagnostics.bytes, diagnostics.len});
+        result_execute(&measure, run, &diagnostics, &packet);
         host_send(packet.bytes, (int)packet.len);
     }
     measure_close(&measure);
