@@ -151,39 +151,34 @@ static void check_all(Server *server, const Json *params) {
 
 // --- folders
 
-static void add_root(Server *server, const char *uri) {
+// texts_add or texts_remove.
+typedef void ChangeList(TextList *list, const char *text);
+
+static void change_root(Server *server, const char *uri, ChangeList *change) {
     SCOPED_STRING path = !uri ? NULL : uri_path(uri);
     if (path) {
         SCOPED_STRING canonical = path_canonical(path);
-        texts_add(&server->roots, canonical);
+        change(&server->roots, canonical);
     }
 }
 
-static void remove_root(Server *server, const char *uri) {
-    SCOPED_STRING path = !uri ? NULL : uri_path(uri);
-    if (path) {
-        SCOPED_STRING canonical = path_canonical(path);
-        texts_remove(&server->roots, canonical);
-    }
-}
-
-// Calls `change` for each folder of a list. Returns the number of folders.
-static size_t for_each_folder(Server *server, const Json *folders, void (*change)(Server *server, const char *uri)) {
+// Returns the number of folders.
+static size_t change_roots(Server *server, const Json *folders, ChangeList *change) {
     size_t count = json_object_is_type(folders, json_type_array) ? json_object_array_length(folders) : 0;
     for (size_t i = 0; i < count; i++)
-        change(server, json_text(json_object_array_get_idx(folders, i), "uri"));
+        change_root(server, json_text(json_object_array_get_idx(folders, i), "uri"), change);
     return count;
 }
 
 static void add_roots(Server *server, const Json *params) {
-    if (for_each_folder(server, json_get(params, "workspaceFolders"), add_root) == 0)
-        add_root(server, json_text(params, "rootUri"));
+    if (change_roots(server, json_get(params, "workspaceFolders"), texts_add) == 0)
+        change_root(server, json_text(params, "rootUri"), texts_add);
 }
 
 static void change_folders(Server *server, const Json *params) {
     const Json *event = json_get(params, "event");
-    for_each_folder(server, json_get(event, "removed"), remove_root);
-    for_each_folder(server, json_get(event, "added"), add_root);
+    change_roots(server, json_get(event, "removed"), texts_remove);
+    change_roots(server, json_get(event, "added"), texts_add);
 }
 
 static void ignore_notification(Server *server, const Json *params) {
