@@ -6,13 +6,15 @@ import { extname } from 'node:path';
 
 const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css',
     '.json': 'application/json', '.wasm': 'application/wasm' };
-// The page runs untrusted scripts, so it must not exchange data with other sites. The stop button needs cross-origin isolation.
-export const HEADERS = {
+// The page runs untrusted scripts, so it must not exchange data with other sites. The stop button needs shared memory, which browsers allow
+// only on cross-origin isolated pages.
+export const ISOLATION = {
     'Content-Security-Policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
         + "img-src 'self' data: blob:; connect-src 'self'; object-src 'none'; base-uri 'none'",
     'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp',
-    'Referrer-Policy': 'no-referrer', 'X-Content-Type-Options': 'nosniff', 'Cache-Control': 'no-store',
+    'X-Content-Type-Options': 'nosniff',
 };
+export const HEADERS = { ...ISOLATION, 'Referrer-Policy': 'no-referrer', 'Cache-Control': 'no-store' };
 
 // Starts a server. `contents(file)` returns the content of a file, or null if there is none. `answer(file, request, response)` returns true
 // if it answers the request itself. Returns { url, close }.

@@ -1,4 +1,5 @@
 // hint.mjs: the line that tells a new visitor what to do.
+import { readSetting, storeSetting } from './settings.mjs';
 
 const PLACE = 'petri.hint';
 
@@ -7,19 +8,11 @@ export class Hint {
     constructor(root, isNew) {
         this.element = root.getElementById('hint');
         root.getElementById('hint-close').onclick = () => this.close();
-        try {
-            this.element.hidden = !isNew || localStorage.getItem(PLACE) === 'closed' || location.hash.length > 1;
-        } catch {
-            this.element.hidden = false; // the browser blocks its storage
-        }
+        this.element.hidden = !isNew || readSetting(PLACE) === 'closed' || location.hash.length > 1;
     }
 
     close() {
         this.element.hidden = true;
-        try {
-            localStorage.setItem(PLACE, 'closed');
-        } catch {
-            // the line appears again at the next visit
-        }
+        storeSetting(PLACE, 'closed');
     }
 }

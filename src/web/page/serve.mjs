@@ -4,17 +4,10 @@ import { createServer } from 'node:http';
 import { join, resolve, sep } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import sirv from 'sirv';
+import { ISOLATION } from '../engine/local_server.mjs';
 
-// The page runs untrusted scripts, so it must not exchange data with other sites.
-const HEADERS = {
-    'Content-Security-Policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
-        + "img-src 'self' data: blob:; connect-src 'self'; object-src 'none'; base-uri 'none'",
-    // The stop button needs shared memory, which browsers allow only on cross-origin isolated pages.
-    'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp',
-    // Allow <petri-dish> in pages of other sites.
-    'Cross-Origin-Resource-Policy': 'cross-origin', 'Access-Control-Allow-Origin': '*',
-    'X-Content-Type-Options': 'nosniff',
-};
+// Allows <petri-dish> in pages of other sites.
+const HEADERS = { ...ISOLATION, 'Cross-Origin-Resource-Policy': 'cross-origin', 'Access-Control-Allow-Origin': '*' };
 const HOSTS = new Set(['127.0.0.1', 'localhost']); // other names may be those of other sites (DNS rebinding)
 const METHODS = new Set(['GET', 'HEAD']);
 

@@ -1,4 +1,5 @@
 // splitter.mjs: the line between script and picture, which the pointer and arrow keys move.
+import { readSetting, storeSetting } from './settings.mjs';
 
 const PLACE = 'petri.split';
 const MIN = 15, MAX = 85, STEP = 2, USUAL = 50; // per cent of the width
@@ -6,7 +7,7 @@ const MIN = 15, MAX = 85, STEP = 2, USUAL = 50; // per cent of the width
 export class Splitter {
     constructor(line) {
         this.line = line;
-        this.set(this.stored(), false);
+        this.set(Number(readSetting(PLACE)), false);
         line.onpointerdown = event => {
             line.setPointerCapture(event.pointerId);
             line.onpointermove = move => this.set(move.clientX / innerWidth * 100);
@@ -22,24 +23,11 @@ export class Splitter {
         };
     }
 
-    stored() {
-        try {
-            return Number(localStorage.getItem(PLACE) ?? USUAL);
-        } catch {
-            return USUAL; // the browser blocks its storage
-        }
-    }
-
     set(share, store = true) {
         this.share = Math.round(Math.min(Math.max(share || USUAL, MIN), MAX));
         this.line.parentElement.style.setProperty('--split', this.share);
         this.line.setAttribute('aria-valuenow', this.share);
-        if (!store)
-            return;
-        try {
-            localStorage.setItem(PLACE, this.share);
-        } catch {
-            // the next visit has the usual width
-        }
+        if (store)
+            storeSetting(PLACE, this.share);
     }
 }

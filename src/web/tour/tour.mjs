@@ -5,6 +5,7 @@ import { Editor } from '../page/editor.mjs';
 import { Live } from '../page/live.mjs';
 import { Problems } from '../page/problems.mjs';
 import { saveAs } from '../page/save.mjs';
+import { readSetting, storeSetting } from '../page/settings.mjs';
 import { applyTheme, listenForTheme } from '../page/theme.mjs';
 
 const $ = id => document.getElementById(id);
@@ -16,19 +17,15 @@ const lesson = JSON.parse($('lesson').textContent);
 
 function stored() {
     try {
-        return JSON.parse(localStorage.getItem(PLACE)) ?? {};
+        return JSON.parse(readSetting(PLACE)) ?? {};
     } catch {
-        return {};
+        return {}; // the text was damaged
     }
 }
 
 function keep(changes) {
-    try {
-        const all = stored();
-        localStorage.setItem(PLACE, JSON.stringify({ ...all, [lesson.name]: { ...all[lesson.name], ...changes } }));
-    } catch {
-        // without storage, the tour does not remember what was done
-    }
+    const all = stored();
+    storeSetting(PLACE, JSON.stringify({ ...all, [lesson.name]: { ...all[lesson.name], ...changes } }));
 }
 
 function showSolved() {
