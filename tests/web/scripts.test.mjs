@@ -1,7 +1,7 @@
 // scripts.test.mjs: the first visit, the gallery, and the user's scripts in the browser's storage.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { choose, frameOf, opened, options, typed } from './browser.mjs';
+import { choose, frameOf, opened, options, typed, visibleWithin } from './browser.mjs';
 
 const MOVES = { reducedMotion: 'no-preference' };
 const SQUARE = '!window size=64;32\n    !canvas\n        !rect size=64;32 color=1;0.5;0 fill=true\n';
@@ -33,29 +33,7 @@ test('the first visit shows a running dish and says what to change', options, ()
     },
 }));
 
-// As in page.test.mjs, the limit is longer on a slow or busy machine.
-test('the first picture moves within 1.5 seconds, with nothing cached', options, async () => {
-    let best = Infinity, limit = 1500;
-    for (let i = 0; i < 6 && best > limit; i++)
-        await opened('', {
-            settings: MOVES,
-            prepare: page => page.addInitScript(() => new MutationObserver(() => {
-                if (Number(document.body?.dataset.frame) > 2)
-                    globalThis.seenAt ??= performance.now();
-            }).observe(document, { attributes: true, subtree: true })),
-            use: async page => {
-                await passes(page, 2);
-                best = Math.min(best, await page.evaluate(() => globalThis.seenAt));
-                limit = Math.max(1500, 6 * await page.evaluate(() => {
-                    const start = performance.now();
-                    for (let i = 0, sum = 0; i < 3e7; i++)
-                        sum = (sum * 31 + i) | 0;
-                    return performance.now() - start;
-                }));
-            },
-        });
-    assert.ok(best <= limit, `${best} ms, at most ${limit} ms`);
-});
+test('the first picture moves within 1.5 seconds, with nothing cached', options, () => visibleWithin(1500, '', frame => frame > 2, MOVES));
 
 test('the gallery draws samples, moves the one under the pointer, and opens it', options, () => opened('', {
     settings: MOVES,
