@@ -135,8 +135,8 @@ static void reset_script(View *view) {
     view_notice(view, "reset");
 }
 
-// Handles a key for the script's parameters.
-static void change_parameters(View *view, const char *key) {
+// Handles a key for the script's parameters. Returns false if it is no such key.
+static bool change_parameters(View *view, const char *key) {
     SCOPED_TEXT text = {0};
     ParameterResult act = parameter_key(&view->parameters, &view->live, key, &text);
     if (act != PARAMETER_NOT_A_KEY) {
@@ -147,9 +147,11 @@ static void change_parameters(View *view, const char *key) {
         view->step_once = view->step_once || view->paused;
         view_update_error_text(view);
     }
+    return act != PARAMETER_NOT_A_KEY;
 }
 
-static void execute_key(View *view, const char *key) {
+// Executes the view's action for a key. Returns false if there is none.
+static bool execute_key(View *view, const char *key) {
     if (strcmp(key, "q") == 0 || strcmp(key, "escape") == 0) {
         view->closing = true;
     } else if (strcmp(key, "space") == 0) {
@@ -174,20 +176,22 @@ static void execute_key(View *view, const char *key) {
     } else if (strcmp(key, "p") == 0) {
         view_toggle_sliders(view);
     } else {
-        change_parameters(view, key);
+        return change_parameters(view, key);
     }
+    return true;
 }
 
-// Executes the view's action for a key, unless the script binds this key and Control is not held. Reports every key to
-// the session.
+// Executes the view's action for a key, unless the script binds this key and Control is not held. Reports the key to
+// the session, unless it was meant for the view because Control is held.
 static void handle_key(View *view, const Event *event) {
     if (!event->key)
         return;
     bool pressed = event->kind == EVENT_KEY_TAP || event->pressed;
     bool repeated = event->repeated && !parameter_key_repeats(event->key);
-    if (pressed && !repeated && (event->control || !petri_key_is_bound(view->live.session, event->key)))
-        execute_key(view, event->key);
-    petri_report_key(view->live.session, event->key, pressed);
+    bool executed = pressed && !repeated && (event->control || !petri_key_is_bound(view->live.session, event->key)) &&
+                    execute_key(view, event->key);
+    if (!(pressed && event->control && (executed || repeated)))
+        petri_report_key(view->live.session, event->key, pressed);
     if (event->kind == EVENT_KEY_TAP)
         petri_report_key(view->live.session, event->key, false);
 }

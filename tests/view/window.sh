@@ -436,6 +436,7 @@ cat >hands.fl <<'END'
 !window size=300;200 title='hands'
     !pointer state=:mouse
     !key name=:q state=:q
+    !key name=:w state=:w
     !canvas
         !rect size=300;200 color=0 fill=true
         if $(:q;:toggled)
@@ -461,10 +462,13 @@ xdotool mousemove --window "$window" 300 50
 check "a pointer beside the picture is outside" point 300 300 000000
 xdotool mousemove --window "$window" 450 200
 check "the pointer is scaled with the picture" point 450 200 00ff00
+press ctrl+w
 press ctrl+q
 check "Control and q quit" ended 0
 "$petri" run hands.fl --state hands.state --frames 1 --print state >out 2>err
 check "the state has the pointer's position" has out '$:mouse = 0.75'
+check "the state has the script's key" has out '$(:q;:toggled) = 1'
+check "a key with Control does not reach the script" has out '$(:w;:toggled) = 0'
 if "$petri" run hands.fl --frames 1 --archive probe.petri >out 2>err; then # otherwise built without SQLite
     view hands hands.fl --archive hands.petri
     xdotool mousemove --window "$window" 150 100
