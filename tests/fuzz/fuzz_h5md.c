@@ -98,8 +98,11 @@ static void replace_attribute(hid_t file, const char *name, unsigned first, unsi
 static bool is_small(hid_t space) {
     hsize_t sizes[H5S_MAX_RANK] = {0};
     bool small = H5Sget_simple_extent_dims(space, sizes, NULL) >= 0;
-    for (int k = 0; k < 4; k++)
-        small = small && sizes[k] < 1 << 20;
+    hsize_t count = 1;
+    for (int k = 0; k < 4 && small; k++) {
+        count *= sizes[k] > 0 ? sizes[k] : 1;
+        small = count < 1 << 20;
+    }
     return small;
 }
 
