@@ -101,7 +101,7 @@ static bool is_small(hid_t space) {
     hsize_t count = 1;
     for (int k = 0; k < 4 && small; k++) {
         count *= sizes[k] > 0 ? sizes[k] : 1;
-        small = count < 1 << 20;
+        small = sizes[k] < 1 << 20 && count < 1 << 20;
     }
     return small;
 }
