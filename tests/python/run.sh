@@ -9,7 +9,8 @@ root=${here%/tests/*}
     exit 77
 }
 PETRI=$1
-export PETRI
+PATH=$(cd "$(dirname "$PETRI")" && pwd):$PATH # petri.sweep starts petri
+export PETRI PATH
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$2" -m zipfile -e "$3"/petri-*.whl "$scratch"
@@ -26,5 +27,6 @@ export PYTHONPATH PYTHONDONTWRITEBYTECODE
 "$2" "$here/test_lexer.py" "$root/samples"
 cd "$root/samples" # the tutorial uses these scripts
 "$2" -m doctest "$root/src/python/TUTORIAL.md"
-"$2" "$here/notebooks.py" "$root"/samples/notebooks/*.ipynb
+# Jupyter stores files in the home folder.
+HOME=$scratch "$2" "$here/notebooks.py" "$root"/samples/notebooks/*.ipynb
 "$2" "$root/tests/bench/python.py" petri.fl 1

@@ -1,8 +1,11 @@
 """Tests of the Python module, after its docstrings."""
 
+import ast
 import base64
 import copy
+import csv
 import gc
+import importlib.util
 import os
 import pickle
 import re
@@ -409,6 +412,142 @@ class Sweeps(unittest.TestCase):
         self.assertIn("exceeded its limit", table["error"][1])
         with self.assertRaises(ValueError):
             petri.sweep("!a\n", {"N": [1]}, {"N": "1"})
+
+
+class CommandSweeps(unittest.TestCase):
+    """Sweeps with options of `petri sweep` that the command executes."""
+
+    SCRIPT = "let A=A or 1\nlet B=B or 1\nlet SEED=SEED or 1\n!physics state=:d dimensions=2\n    !particle id=1 velocity=A;SEED\n"
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.script = self.folder / "a.fl"
+        self.script.write_text(self.SCRIPT)
+
+    def command(self, *words):
+        run = subprocess.run([os.environ["PETRI"], "sweep", "--quiet", self.script, "--frames=3", "--metric=x=A*SEED", *words],
+                             check=True, stdout=subprocess.PIPE, text=True)
+        return list(csv.DictReader(run.stdout.splitlines()))
+
+    def assert_same(self, table, rows):
+        self.assertEqual(table["x"], [float(row["x"]) for row in rows])
+        self.assertEqual(table["A"], [float(row["A"]) for row in rows])
+
+    def test_sample_is_that_of_the_command(self):
+        for sample, words in ((5, "latin:5"), ("latin:5:9", "latin:5:9")):
+            table = petri.sweep(self.script, {"A": "0..1", "B": [1, 2, 3]}, {"x": "A*SEED"}, frames=3, seeds=2, sample=sample)
+            self.assertEqual((len(table["x"]), len(set(table["A"]))), (10, 5))
+            self.assertLessEqual(set(table["B"]), {1, 2, 3})
+            self.assert_same(table, self.command("-D", "A=0..1", "-D", "B=1;2;3", "--seeds=2", "--sample", words))
+
+    def test_values_keep_their_types(self):
+        table = petri.sweep(self.SCRIPT, {"A": "1..3", "B": [(1, 2), 0.5]}, {"b": "B", "t": "'a, b'", "n": "null"}, frames=2,
+                            where="A > 1", every=1, until="frame==0")
+        self.assertEqual(table, {"A": [2, 2, 3, 3], "B": [(1, 2), 0.5] * 2, "frame": [0] * 4, "b": [(1.0, 2.0), 0.5] * 2,
+                                 "t": ["a, b"] * 4, "n": [None] * 4, "error": [None] * 4})
+
+    def test_quantities_are_metrics(self):
+        table = petri.sweep(self.script, {"A": [3]}, {"kinetic_energy": None, "momentum": None}, frames=2)
+        self.assertEqual((table["kinetic_energy"], table["momentum"]), ([5.0], [(3.0, 1.0)]))
+
+    def test_output_and_summary_are_those_of_the_command(self):
+        mine, theirs = self.folder / "mine.csv", self.folder / "theirs.csv"
+        table = petri.sweep(self.script, {"A": [1, 2]}, {"x": "A*SEED"}, frames=3, seeds=3, output=mine,
+                            summary=self.folder / "summary.csv")
+        self.command("-D", "A=1;2", "--seeds=3", "-o", theirs)
+        self.assertEqual(mine.read_bytes(), theirs.read_bytes())
+        self.assertEqual((table["x"], table["SEED"]), ([1, 2, 3, 2, 4, 6], [1, 2, 3] * 2))
+        with open(self.folder / "summary.csv", newline="") as file:
+            self.assertEqual([(row["A"], row["mean"], row["std"]) for row in csv.DictReader(file)],
+                             [("1", "2", "1"), ("2", "4", "2")])
+
+    @unittest.skipUnless(importlib.util.find_spec("h5py"), "h5py is not installed")
+    def test_output_can_be_hdf5(self):
+        arguments = {"defines": {"A": [1, 2], "B": [(1, 2)]}, "metrics": {"x": "A/3", "b": "B", "n": "null"}, "frames": 3}
+        try:
+            table = petri.sweep(self.script, **arguments, output=self.folder / "a.h5")
+        except petri.PetriError as error:
+            self.skipTest(str(error))
+        self.assertEqual(table, petri.sweep(self.script, **arguments))
+
+    def test_interrupted_sweep_resumes(self):
+        script = "let A=A or 1\nlet X=sum(i*frame for i in ..100000)\n"
+        output = self.folder / "a.csv"
+        program = ("import glob, os, petri, signal, sys, threading, time\n"
+                   "def stop():\n"
+                   "    while not any(open(name).read().count('\\n') > 3 for name in glob.glob(sys.argv[2] + '.part*')):\n"
+                   "        time.sleep(0.01)\n"
+                   "    os.kill(os.getpid(), signal.SIGINT)\n"
+                   "if sys.argv[3] == 'stop':\n    threading.Thread(target=stop, daemon=True).start()\n"
+                   "try:\n    print(petri.sweep(sys.argv[1], {'A': range(1, 21)}, {'x': 'A'}, jobs=1, output=sys.argv[2], frames=30))\n"
+                   "except KeyboardInterrupt:\n    print('aborted')\n")
+
+        def run(what):
+            return subprocess.run([sys.executable, "-c", program, script, output, what], check=True, timeout=100,
+                                  stdout=subprocess.PIPE, text=True).stdout
+
+        self.assertEqual(run("stop"), "aborted\n")
+        self.assertFalse(output.exists())
+        self.assertTrue(list(self.folder.glob("a.csv.part*")))
+        resumed = ast.literal_eval(run("resume"))
+        self.assertFalse(list(self.folder.glob("a.csv.part*")))
+        self.assertEqual(resumed["x"], list(range(1, 21)))
+
+    def test_plan_is_read(self):
+        plan = self.folder / "plan.yaml"
+        plan.write_text(f"script: {self.script}\nframes: 3\ndefine:\n  A: [1, 2]\nmetric:\n  x: A\noutput: never.csv\n")
+        try:
+            table = petri.sweep(plan=plan)
+        except petri.PetriError as error:
+            self.skipTest(str(error))
+        self.assertEqual(table, {"A": [1, 2], "frame": [2, 2], "x": [1, 2], "error": [None] * 2})
+        self.assertEqual(petri.sweep(plan=plan, frames=9)["frame"], [8, 8])
+
+    def test_plot_is_drawn(self):
+        plot = self.folder / "plot.svg"
+        try:
+            petri.sweep(self.script, {"A": [1, 2, 3]}, {"x": "A"}, frames=2, plot=plot)
+        except petri.PetriError as error:
+            self.skipTest(str(error))
+        self.assertIn("<svg", plot.read_text())
+
+    def test_cache_keeps_results(self):
+        cache = self.folder / "cache"
+        cache.mkdir()
+        arguments = {"defines": {"A": [1, 2]}, "metrics": {"x": "A"}, "frames": 3, "cache": cache}
+        first = petri.sweep(self.script, **arguments)
+        self.assertTrue(any(path.is_file() for path in cache.rglob("*")))
+        self.assertEqual(petri.sweep(self.script, **arguments, verify_cache=100), first)
+
+    def test_last_shard_has_the_table(self):
+        def shard(number):
+            return petri.sweep(self.script, {"A": [1, 2, 3]}, {"x": "A"}, frames=2, output=self.folder / "a.csv", shard=f"{number}/2")
+
+        self.assertEqual(shard(1), {})
+        self.assertEqual(shard(2)["x"], [1, 2, 3])
+
+    def test_options_reach_the_command(self):
+        slow = "let A=A or 1\nlet X=sum(i for i in ..A*100000)\n"
+        options = petri.Options(work_limit=1 << 20, fps=10, neighbours="never", simplify=False, no_files=True, threads=2,
+                                memory_limit=100 << 20, read_folders=[self.folder])
+        with self.assertWarnsRegex(petri.PetriWarning, "exceeded its limit"):
+            table = petri.sweep(slow, {"A": "1;1000"}, {"t": "time"}, frames=11, options=options, jobs=1)
+        self.assertEqual(table["t"], [1.0, None])
+        self.assertIn("exceeded its limit", table["error"][1])
+
+    def test_errors_and_warnings_are_raised(self):
+        with self.assertRaisesRegex(petri.PetriError, "expects latin:COUNT"):
+            petri.sweep(self.script, {"A": [1]}, {"x": "A"}, sample="square:3")
+        with self.assertRaisesRegex(ValueError, "given, functions"):
+            petri.sweep(self.script, {"A": [1]}, {"x": "A"}, sample=3, functions={"twice": twice})
+        with self.assertWarnsRegex(petri.PetriWarning, "unbound name 'foo'"):
+            petri.sweep(self.script, {"A": "1"}, {"x": "foo"}, frames=2)
+        with unittest.mock.patch.dict(os.environ, PATH=""), self.assertRaises(petri.MissingLibraryError):
+            petri.sweep(self.script, {"A": "1"}, {"x": "A"}, frames=2)
+        with self.assertRaises(ValueError):
+            petri.Session("\n", options=petri.Options(neighbours="some"))
 
 
 class Threads(unittest.TestCase):

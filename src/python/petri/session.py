@@ -32,6 +32,7 @@ class Options:
     work_limit: Optional[int] = None
     realtime: bool = False
     simplify: bool = True
+    neighbours: str = "auto"  #: "auto", "never" or "always"
     keep_forces: bool = False
     no_files: bool = False
     read_folders: Sequence[Union[str, os.PathLike]] = ()
@@ -148,6 +149,10 @@ class Session:
             value = getattr(wanted, name)
             if value is not None:
                 setattr(options, name, value)
+        try:
+            options.neighbours = getattr(lib, f"PETRI_NEIGHBOURS_{wanted.neighbours.upper()}")
+        except AttributeError:
+            raise ValueError(f"invalid options: {wanted}") from None
         keep = []
         for name in ("read_folders", "write_folders"):
             folders = [os.fsencode(folder) for folder in getattr(wanted, name)]
