@@ -70,6 +70,8 @@ pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 "
+# To execute the notebooks of samples/ as Jupyter does; otherwise the tests execute their cells in order:
+NOTEBOOK_NEEDS="/usr/bin/python3 -I -c 'import ipykernel, nbconvert': python3-ipykernel python3-nbconvert"
 CLANG_NEEDS='command -v clang: clang'
 # The memory sanitizer of clang 14, Debian's default, does not support fstat of Debian's glibc.
 MEMORY_NEEDS='command -v clang-16: clang-16 libclang-rt-16-dev'
