@@ -103,9 +103,19 @@ class Views(unittest.TestCase):
         self.assertEqual(system.kinetic_energy, (2 + 3) / 2)
         self.assertEqual(system.potential_energies[0], -5 * 2 * 3 / 4)
         self.assertTrue(numpy.isnan(system.potential_energies[1]))
-        self.assertEqual(system.potential_energy, -7.5)
+        self.assertEqual((system.potential_energy, system.energy), (-7.5, -5))
+        self.assertEqual((system.momentum.tolist(), system.angular_momentum), ([0, -1], -12))
         session.step(60)
         self.assertAlmostEqual(session.systems["e"].kinetic_energy + session.systems["e"].potential_energy, -5, delta=0.01)
+
+    def test_momenta_leave_out_anchors(self):
+        session = petri.Session("!physics state=:e dimensions=3\n    !particle id=0 position=1;0;0 velocity=0;2;3 mass=2\n"
+                                "    !anchor id=1 position=5;5;5 velocity=1;1;1 mass=9\n"
+                                "!physics state=:line dimensions=1\n    !particle id=0 position=1 velocity=2\n")
+        session.step()
+        system = session.systems["e"]
+        self.assertEqual((system.momentum.tolist(), system.angular_momentum.tolist()), ([0, 4, 6], [0, -6, 4]))
+        self.assertEqual((session.systems["line"].momentum.tolist(), session.systems["line"].angular_momentum), ([2], None))
 
     def test_are_read_only_views(self):
         self.assertTrue(numpy.shares_memory(self.dish.position, self.dish.position))
@@ -837,6 +847,10 @@ class Notebooks(unittest.TestCase):
         for use in (session.step, lambda: session.evaluate("1"), lambda: list(session.parameters), session.copy):
             with self.assertRaisesRegex(ValueError, "closed"):
                 use()
+
+    def test_unknown_sections_are_errors(self):
+        with self.assertRaisesRegex(ValueError, "no such section: 'bogus'"):
+            petri.Session(self.KNOBS).text("bogus")
 
     def test_number_returns_a_number(self):
         session = petri.Session(self.KNOBS)

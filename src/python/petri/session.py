@@ -375,6 +375,8 @@ class Session:
         and "digest"."""
         bits = 0
         for section in sections:
+            if section not in ("tree", "state", "log", "error", "hash", "digest"):
+                raise ValueError(f"no such section: {section!r}")
             bits |= getattr(lib, f"PETRI_PRINT_{section.upper()}")
         return self._collect(lib.petri_print, bits)
 

@@ -61,7 +61,9 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
             return sweep_command.run(printer, source, defines, metrics, chosen, sweep_command.option_words(options or Options()))
     if source is None:
         raise ValueError("a sweep needs a script or a plan")
-    frames = 600 if frames is None else frames
+    script, last = source, 599 if frames is None else frames - 1
+    select = where if callable(where) else None
+    expressions = {name: text for name, text in metrics.items() if text is not None}
     axes = {name: list(values) for name, values in defines.items()}
     if seeds > 0:
         axes["SEED"] = list(range(1, seeds + 1))
@@ -70,17 +72,17 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
     if double:
         raise ValueError(f"the metric {double[0]!r} has the name of another column")
     runs = [dict(zip(axes, chosen)) for chosen in itertools.product(*axes.values())]
-    runs = [run for run in runs if where is None or where(run)]
+    runs = [run for run in runs if select is None or select(run)]
     stopped = threading.Event()
     active: List[Session] = []
 
     def measure(session: Session, chosen: Mapping[str, Any], rows: List[dict]) -> None:
-        for i in range(frames):
+        for i in range(last + 1):
             session.step()
-            ends = i + 1 == frames or until is not None and bool(session.evaluate(until))
+            ends = i == last or until is not None and bool(session.evaluate(until))
             if ends or every > 0 and i % every == 0:
                 rows.append({**chosen, "frame": session.frame.number, "error": None,
-                             **{name: session.evaluate(text) for name, text in metrics.items()}})
+                             **{name: session.evaluate(text) for name, text in expressions.items()}})
             if ends or stopped.is_set():
                 break
 
@@ -88,7 +90,7 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
         rows: List[dict] = []
         frame = None
         try:
-            with Session(source, options=options or Options(threads=1), given=given, functions=functions, **chosen) as session:
+            with Session(script, options=options or Options(threads=1), given=given, functions=functions, **chosen) as session:
                 active.append(session)
                 try:
                     if not stopped.is_set():

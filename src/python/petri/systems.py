@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Iterator, List, Optional
+from typing import TYPE_CHECKING, Any, Iterator, List, Optional, Union
 
 import numpy
 import numpy.typing
@@ -209,6 +209,28 @@ class System:
     def potential_energy(self) -> float:
         """Sum of `potential_energies`, without forces that have none."""
         return float(numpy.nansum(self.potential_energies))
+
+    @property
+    def energy(self) -> float:
+        """Sum of kinetic_energy and potential_energy."""
+        return self.kinetic_energy + self.potential_energy
+
+    @property
+    def momentum(self) -> Array:
+        """Sum of mass * velocity over all particles except anchors."""
+        moving = ~self.anchor
+        return numpy.asarray(numpy.sum(self.mass[moving, None] * self.velocity[moving], axis=0))
+
+    @property
+    def angular_momentum(self) -> Union[None, float, Array]:
+        """Sum of mass * position × velocity over all particles except anchors: a number in two dimensions, a vector in
+        three, and None otherwise."""
+        moving, d = ~self.anchor, self.dimensions
+        if d not in (2, 3):
+            return None
+        x, v = (numpy.pad(array[moving], ((0, 0), (0, 3 - d))) for array in (self.position, self.velocity))
+        total = numpy.sum(self.mass[moving, None] * numpy.cross(x, v), axis=0)
+        return float(total[2]) if d == 2 else numpy.asarray(total)
 
     def explain(self, id: Any, step: int = -1) -> Explanation:
         """Returns the contributions of all forces to the force on the particle with this id, in the order of summation.
