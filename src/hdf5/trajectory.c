@@ -6,6 +6,7 @@
 #include "hdf5/trajectory.h"
 
 #include "cli/hdf5.h"
+#include "hdf5/scale.h"
 
 #include <errno.h>
 #include <math.h>
@@ -268,8 +269,15 @@ static bool read_group(TrajectoryFile *file, Group *group, const char *name, int
     return group->frames > 0;
 }
 
+// Removes an object that trajectory_file_end writes again.
+static void remove_object(Store *store, const Group *group, const char *name) {
+    if (H5Lexists(group->group, name, H5P_DEFAULT) > 0)
+        store_check(store, H5Ldelete(group->group, name, H5P_DEFAULT));
+}
+
 static void cut_group(Store *store, Group *group) {
     for (Kind kind = POSITION; kind < group->kinds; kind++) {
+        scale_remove(store, group->columns[kind].set);
         hsize_t rows[STORE_RANKS] = {group->frames, group->max_particles, group->dimensions};
         hsize_t edges[STORE_RANKS] = {group->frames, group->dimensions};
         store_truncate(store, &group->columns[kind], kind == EDGES ? edges : rows);
@@ -277,7 +285,11 @@ static void cut_group(Store *store, Group *group) {
     hsize_t frames[STORE_RANKS] = {group->frames};
     store_truncate(store, &group->step, frames);
     store_truncate(store, &group->time, frames);
-    store_check(store, H5Ldelete(group->group, "species", H5P_DEFAULT)); // written again by trajectory_file_end
+    scale_remove(store, group->step.set);
+    scale_remove(store, group->time.set);
+    remove_object(store, group, "species");
+    remove_object(store, group, "particle");
+    remove_object(store, group, "axis");
 }
 
 static void read_groups(TrajectoryFile *file, int64_t after, int64_t *min_id) {
@@ -319,17 +331,29 @@ bool trajectory_file_resume(TrajectoryFile *file, Store *store, int64_t after) {
     return !store->failed;
 }
 
-// Adds the species of the particles: always 0, which ASE reads as no element (X).
-static void add_species(TrajectoryFile *file, const Group *group) {
+// Adds the species of the particles, which is always 0: ASE reads it as no element (X). Names the dimensions of all
+// data sets of the system.
+static void end_group(Store *store, const Group *group) {
     static const int64_t none;
     hsize_t sizes[STORE_RANKS] = {group->max_particles};
-    StoreColumn species = store_column(file->store, group->group, "species", H5T_NATIVE_INT64, 1, sizes, &none);
-    store_grow(file->store, &species, sizes);
+    StoreColumn species = store_column(store, group->group, "species", H5T_NATIVE_INT64, 1, sizes, &none);
+    store_grow(store, &species, sizes);
+    Scale time = scale_begin(store, group->time.set, "time");
+    Scale particle = scale_count(store, group->group, "particle", group->max_particles);
+    Scale axis = scale_count(store, group->group, "axis", group->dimensions);
+    scale_attach(store, group->step.set, 1, (Scale *[]){&time});
+    scale_attach(store, species.set, 1, (Scale *[]){&particle});
+    for (Kind kind = POSITION; kind < group->kinds; kind++)
+        scale_attach(store, group->columns[kind].set, rank_of(kind),
+                     kind == EDGES ? (Scale *[]){&time, &axis} : (Scale *[]){&time, &particle, &axis});
+    scale_end(store, &time);
+    scale_end(store, &particle);
+    scale_end(store, &axis);
 }
 
 void trajectory_file_end(TrajectoryFile *file) {
     for (size_t i = 0; i < file->group_count; i++) {
-        add_species(file, &file->groups[i]);
+        end_group(file->store, &file->groups[i]);
         free(file->groups[i].system_name);
     }
     if (file->texts.count > 0) {

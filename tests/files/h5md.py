@@ -15,6 +15,16 @@ def rows_of(group):
     return {int(step): row for row, step in enumerate(group["position/step"])}
 
 
+def check_dimensions(data, *names):
+    """Checks that the dimensions of a data set have names, as xarray and ncdump show them, and positions."""
+    for dimension, (scales, name) in enumerate(zip(data.dims, names)):
+        assert list(scales) == [name], (data, name)
+        scale = scales[0]
+        assert h5py.h5ds.is_scale(scale.id) and scale.shape == (data.shape[dimension],)
+        assert name == "time" or list(scale) == list(range(len(scale)))
+        assert [int(number) for used, number in scale.attrs["REFERENCE_LIST"] if data.file[used] == data] == [dimension]
+
+
 def check_form(file):
     about = file["h5md"]
     assert list(about.attrs["version"]) == [1, 1]
@@ -31,6 +41,10 @@ def check_form(file):
             assert element["step"] == group["position/step"] and element["time"] == group["position/time"]
             assert element["value"].shape == (shape if name in ("position", "velocity") else shape[:2])
             assert element["value"].dtype == ("<i8" if name in ("id", "anchor") else "<f8")
+            check_dimensions(element["value"], "time", "particle", "axis")
+        check_dimensions(group["position/step"], "time")
+        check_dimensions(group["species"], "particle")
+        check_dimensions(group["box/edges/value"], "time", "axis")
         assert group["id/value"].fillvalue == -1
         assert group["species"].shape == shape[1:2] and not group["species"][:].any()
 
@@ -41,7 +55,7 @@ def compare(path, table):
         groups = {group.attrs["system"].decode(): group for group in file["particles"].values()}
         texts = [text.decode() for text in file["parameters/id_texts"]] if "parameters" in file else []
         data = {
-            name: {column: group[column]["value"][:] for column in group if column not in ("box", "species")}
+            name: {column: group[column]["value"][:] for column in group if column not in ("box", "species", "particle", "axis")}
             for name, group in groups.items()
         }
         rows = {name: rows_of(group) for name, group in groups.items()}
@@ -92,8 +106,9 @@ def contents(path):
     found = {}
 
     def visit(name, item):
-        found[name] = {key: numpy.array(value).tolist() for key, value in item.attrs.items()}
+        found[name] = {key: numpy.array(value).tolist() for key, value in item.attrs.items() if not key.endswith("_LIST")}
         if isinstance(item, h5py.Dataset):
+            found[name]["dimensions"] = [list(scales) for scales in item.dims]
             found[name]["value of"] = item.shape, item.dtype.str, item.maxshape, item[...].tobytes()
         else:
             for key, member in item.items():
