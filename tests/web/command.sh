@@ -1,6 +1,6 @@
 #!/bin/sh
 # command.sh FOLDER: tests the command of the npm package, which `./dev web` has built in FOLDER, with the suites of the native command:
-# corpora, goldens, samples, sessions of the prompt and tests/cli. command_differences.txt lists the checks that differ.
+# corpora, goldens, samples, sessions of the prompt, the language server and tests/cli. command_differences.txt lists the checks that differ.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=$(cd "$1" && pwd)
@@ -30,9 +30,12 @@ tests/repl/run.sh "$work/petri" >"$work/repl" 2>&1 || {
     cat "$work/repl"
 }
 echo "petri repl in Node.js: $(tail -n 1 "$work/repl")"
+python3 tests/lsp/features.py "$work/petri" >"$work/lsp" 2>&1 || true
+grep -q '^[0-9]* passed, [0-9]* failed$' "$work/lsp" || failed=1
+echo "petri lsp in Node.js: $(tail -n 1 "$work/lsp")"
 wait "$cli" || true
 grep -q '^[0-9]* passed, [0-9]* failed$' "$work/cli" || failed=1
-sed -n 's/^FAIL \([^:]*\).*/\1/p' "$work/cli" | sort -u >"$work/found"
+sed -n 's/^FAIL \([^:]*\).*/\1/p' "$work/cli" "$work/lsp" | sort -u >"$work/found"
 grep -v '^#' "$(dirname "$0")/command_differences.txt" | sort -u >"$work/expected"
 diff "$work/expected" "$work/found" >"$work/diff" || {
     failed=1

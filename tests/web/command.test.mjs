@@ -192,7 +192,7 @@ test('npm installs the command', () => within(work => {
 }));
 
 test('petri view serves the script below a token, and reloads it', async () => {
-    const { filesBelow, linkTo, serveScript } = await load('view.mjs');
+    const { linkTo, serveScript } = await load('view.mjs'), { filesBelow } = await load('files.mjs');
     const work = fs.mkdtempSync(join(tmpdir(), 'petri-view-'));
     fs.mkdirSync(join(work, 'scripts/lib'), { recursive: true });
     fs.writeFileSync(join(work, 'secret'), 'secret');

@@ -24,6 +24,7 @@ function runCommand(words) {
         environment: Object.entries({ PETRI_STANDALONE: standalone, ...process.env })
             .map(([name, value]) => toBytes(`${name}=${value}`)),
         folder: paths.fromSystem(process.cwd()),
+        hasInput: words[0] === 'lsp', // the language server must know whether a message is waiting
         terminal: [1, 2].some(isatty) ? (isatty(1) ? process.stdout : process.stderr).getWindowSize() : [0, 0],
     };
     const resourceLimits = { stackSizeMb: STACK_MEBIBYTES };
@@ -39,6 +40,8 @@ function runCommand(words) {
         worker.postMessage(message);
         wake();
     };
+    if (petri.hasInput)
+        process.stdin.on('data', input => send({ input })).on('end', () => send({ input: new Uint8Array(0) }));
     let threads = null;
     worker.on('message', job => {
         threads ??= import('./threads.mjs').then(({ Threads }) => new Threads(module, { resourceLimits, workerData: { petri } }, send));

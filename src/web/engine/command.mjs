@@ -1,6 +1,7 @@
 // command.mjs: runs petri-command.wasm, the `petri` command, in a thread of Node.js (cli.mjs).
 import fs from 'node:fs';
 import { isMainThread, parentPort, receiveMessageOnPort, workerData } from 'node:worker_threads';
+import { jsonFunctions } from './json.mjs';
 import { linkFunctions } from './links.mjs';
 import { runtime } from './runtime.mjs';
 import { Exit, System } from './system.mjs';
@@ -14,6 +15,7 @@ export function runCommand(module, options) {
     const functions = {
         ...system.functions(),
         ...linkFunctions(system),
+        ...jsonFunctions(system),
         gl_ready: () => 0, // there is no OpenGL
         gl_has: () => 0,
     };
@@ -49,17 +51,22 @@ function runJob(module, options, { output, errors, ...job }) {
 const SIGNALS = 0, EVENTS = 1;
 
 if (!isMainThread && workerData?.petri) {
-    const { args, environment, folder, shared, terminal } = workerData.petri;
-    const options = { args, environment, folder, terminal, windows: process.platform === 'win32' };
+    const { args, environment, folder, hasInput, shared, terminal } = workerData.petri;
+    const options = { args, environment, folder, hasInput, terminal, windows: process.platform === 'win32' };
     parentPort.once('message', module => {
         if (shared) {
             const pending = () => Atomics.exchange(shared, SIGNALS, 0);
             const start = job => parentPort.postMessage(job);
-            const receive = () => {
-                const seen = Atomics.load(shared, EVENTS), message = receiveMessageOnPort(parentPort)?.message;
-                if (!message)
+            let before = -1; // the counter of events when there was no message
+            const receive = wait => {
+                const seen = Atomics.load(shared, EVENTS);
+                const message = seen === before && !wait ? null : receiveMessageOnPort(parentPort)?.message;
+                if (message)
+                    return message;
+                before = seen;
+                if (wait)
                     Atomics.wait(shared, EVENTS, seen);
-                return message ?? null;
+                return null;
             };
             process.exit(runCommand(module, { ...options, pending, start, receive }).status);
         }

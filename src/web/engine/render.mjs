@@ -6,8 +6,8 @@ import { tmpdir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { filesBelow } from './files.mjs';
 import { startServer } from './local_server.mjs';
-import { filesBelow } from './view.mjs';
 
 const PACKAGE = dirname(fileURLToPath(import.meta.url));
 const INDEX = '<!DOCTYPE html><title>petri</title><script type="module" src="render_page.mjs"></script>\n';

@@ -61,10 +61,12 @@ class OpenFile {
 
 export class System {
     // `options`: args, environment, folder (the working directory), files (descriptors 0, 1 and 2 of Node.js), start (runs another
-    // instance in another thread), receive (returns the next message of an instance; null after a wait), runs and send (in a helper: the
-    // shared runs, and a function that sends a result), pending (returns the number of a signal to deliver, or 0), terminal (columns and
-    // rows), windows, and procfs (whether /proc/self/fd names open files).
-    constructor({ args, environment, folder, files = [0, 1, 2], start, receive, runs = null, send, pending = () => 0, terminal = [0, 0],
+    // instance in another thread), receive (returns the next message of an instance or of the launcher; null: none, possibly after a wait
+    // if its argument is true), runs and send (in a helper: the shared runs, and a function that sends a result), pending (returns the
+    // number of a signal to deliver, or 0), hasInput (whether the launcher sends standard input in messages), terminal (columns and rows),
+    // windows, and procfs (whether /proc/self/fd names open files).
+    constructor({ args, environment, folder, files = [0, 1, 2], start, receive, runs = null, send, pending = () => 0, hasInput = false,
+        terminal = [0, 0],
         windows = process.platform === 'win32', procfs = process.platform === 'linux' && fs.existsSync('/proc/self/fd') }) {
         this.args = args;
         this.environment = environment;
@@ -77,6 +79,7 @@ export class System {
         this.pending = pending;
         this.terminal = terminal;
         this.receive = receive;
+        this.input = hasInput ? [] : null; // blocks of standard input that were received; an empty block is its end
         this.runs = runs;
         this.send = send;
         this.running = new Set(); // process ids of other instances
@@ -278,7 +281,21 @@ export class System {
             throw new SystemError('EISDIR');
         if (file.random)
             return this.transfer(list, count, bytes => createRequire(import.meta.url)('node:crypto').randomFillSync(bytes).length);
+        if (file.real === 0 && this.input)
+            return this.transfer(list, count, bytes => this.readInput(bytes));
         return this.move(fs.readSync, file, list, count, position);
+    }
+
+    readInput(bytes) {
+        while (this.input.length === 0)
+            this.listen();
+        const [block] = this.input, moved = Math.min(block.length, bytes.length);
+        bytes.set(block.subarray(0, moved));
+        if (moved < block.length)
+            this.input[0] = block.subarray(moved);
+        else if (moved > 0)
+            this.input.shift();
+        return moved;
     }
 
     write(descriptor, list, count, position) {
@@ -348,18 +365,21 @@ export class System {
         return this.lastPid;
     }
 
-    // Waits for a message of another instance. Returns false after a signal.
-    listen() {
+    // Waits for a message of another instance or of the launcher, unless `wait` is false. Returns false after a signal, or if there is no
+    // message.
+    listen(wait = true) {
         for (;;) {
             if (this.deliver())
                 return false;
-            const message = this.receive();
-            if (message?.result)
+            const message = this.receive(wait);
+            if (message?.input)
+                this.input.push(message.input);
+            else if (message?.result)
                 this.results.push(message.result);
             else if (message && this.running.delete(message.id))
                 this.ended.push({ pid: message.id, status: message.status });
-            if (message)
-                return true;
+            if (message || !wait)
+                return !!message;
         }
     }
 
@@ -379,9 +399,12 @@ export class System {
         if (count === 0 && timeout !== 0)
             sleep(timeout < 0 ? 2 ** 30 : timeout);
         let ready = 0;
+        while (this.input && this.listen(false));
         for (let i = 0; i < count; i++) {
-            // Node.js cannot ask whether input is there, so that reading may wait.
-            const at = (list >>> 0) + 8 * i, wanted = this.view.getInt32(at, true) >= 0 ? this.view.getInt16(at + 4, true) : 0;
+            // Node.js cannot ask whether input is there, so that reading may wait, unless the launcher sends the input.
+            const at = (list >>> 0) + 8 * i, descriptor = this.view.getInt32(at, true);
+            const isEmpty = this.input?.length === 0 && this.files.get(descriptor)?.real === 0;
+            const wanted = descriptor >= 0 && !isEmpty ? this.view.getInt16(at + 4, true) : 0;
             this.view.setInt16(at + 6, wanted & 5, true);
             ready += wanted & 5 ? 1 : 0;
         }

@@ -1,37 +1,15 @@
 // view.mjs: `petri view SCRIPT.fl` in Node.js: serves the page from the package, shows the script there and reloads it when it changes.
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
-import { basename, dirname, join, relative, sep } from 'node:path';
+import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { deflateRawSync } from 'node:zlib';
+import { filesBelow } from './files.mjs';
 import { HEADERS, startServer } from './local_server.mjs';
 
 const PACKAGE = dirname(fileURLToPath(import.meta.url));
-const MAX_LINK = 100000, MAX_FILES = 200, MAX_BYTES = 1 << 20, MAX_DEPTH = 3;
+const MAX_LINK = 100000;
 const POLL_MS = 200;
-
-const textOf = bytes => {
-    const text = bytes.toString();
-    return !bytes.includes(0) && Buffer.from(text).equals(bytes) ? text : null;
-};
-
-// Returns the text files below a folder that a script can read, by their paths relative to the folder. Follows no symbolic links. `read`
-// returns the value for a file's bytes and name, or null to omit the file.
-export function filesBelow(folder, read = textOf, top = folder, depth = 0, found = {}) {
-    for (const entry of fs.readdirSync(folder, { withFileTypes: true })) {
-        const path = join(folder, entry.name);
-        if (entry.name.startsWith('.') || entry.name === 'node_modules' || Object.keys(found).length >= MAX_FILES)
-            continue;
-        if (entry.isDirectory() && depth < MAX_DEPTH) {
-            filesBelow(path, read, top, depth + 1, found);
-        } else if (entry.isFile() && fs.statSync(path).size <= MAX_BYTES) {
-            const value = read(fs.readFileSync(path), entry.name);
-            if (value !== null)
-                found[relative(top, path).replaceAll(sep, '/')] = value;
-        }
-    }
-    return found;
-}
 
 // Returns the link of the page to a script.
 export function linkTo(text, name) {
