@@ -105,9 +105,11 @@ void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
 // used.
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
 const Expr *compile_name(Compiler *compiler, const Ast *ast);
-// Returns true if the script works without this unbound name: each of its uses is the left side of `or` or `and`, the
-// operand of `not`, or a test of `if`.
-bool compile_is_optional(Compiler *compiler, const Symbol *name);
+// Returns true if the use `ast` of an unbound name is only a test: the left side of `or` or `and`, the operand of
+// `not`, or a test of `if`.
+bool compile_is_tested(Compiler *compiler, const Ast *ast);
+// Returns true if the script tests the name somewhere, once per name: later calls return false.
+bool compile_list_optional(Compiler *compiler, const Symbol *name);
 // Returns true if the name occurs only once.
 bool compile_is_used_once(Compiler *compiler, const Symbol *name);
 // Returns true if there is a hint about the probable cause of an unbound name in the value of the name `bound`, such as

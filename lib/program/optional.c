@@ -6,7 +6,9 @@
 // A use of a name in the syntax tree.
 typedef struct NameUse {
     const Symbol *name;
-    bool tested; // true if it does not matter whether the name is bound
+    const Ast *ast; // the name in the tree
+    bool tested;    // true if it does not matter here whether the name is bound
+    bool listed;    // true if this is the first use of its name and compile_list_optional has returned true
 } NameUse;
 
 // The uses in the script and in the files that it has included so far.
@@ -15,12 +17,12 @@ struct NameUses {
     NameUse *items;
     uint32_t count;
     uint32_t capacity;
-    bool sorted; // true if `items` is sorted by name
+    bool sorted; // true if `items` is sorted by name, tested uses first, and address
 };
 
-static void add_use(NameUses *uses, const Symbol *name, bool tested) {
+static void add_use(NameUses *uses, const Ast *ast, bool tested) {
     uses->items = arena_grow_array(uses->arena, uses->items, uses->count, &uses->capacity, sizeof *uses->items);
-    uses->items[uses->count++] = (NameUse){name, tested};
+    uses->items[uses->count++] = (NameUse){.name = ast->name, .ast = ast, .tested = tested};
 }
 
 // Returns true if child `i` of a node is only tested, where `tested` is true if the node is only tested itself.
@@ -42,15 +44,19 @@ static bool is_tested(const Ast *ast, uint32_t i, bool tested) {
 
 static void collect_uses(NameUses *uses, const Ast *ast, bool tested) {
     if (ast->kind == AST_NAME)
-        add_use(uses, ast->name, tested);
+        add_use(uses, ast, tested);
     for (uint32_t i = 0; i < ast->count && ast->kind != AST_NAMES; i++) // NAMES are bound, not used
         if (ast->children[i])
             collect_uses(uses, ast->children[i], is_tested(ast, i, tested));
 }
 
 static int by_name(const void *a, const void *b) {
-    double first = ((const NameUse *)a)->name->number, second = ((const NameUse *)b)->name->number;
-    return first < second ? -1 : first > second;
+    const NameUse *first = a, *second = b;
+    if (first->name != second->name)
+        return first->name->number < second->name->number ? -1 : 1;
+    if (first->tested != second->tested)
+        return first->tested ? -1 : 1;
+    return ((uintptr_t)first->ast > (uintptr_t)second->ast) - ((uintptr_t)first->ast < (uintptr_t)second->ast);
 }
 
 void compile_add_uses(Compiler *compiler, const Ast *ast) {
@@ -64,41 +70,47 @@ void compile_add_uses(Compiler *compiler, const Ast *ast) {
     uses->sorted = false;
 }
 
-// Returns the first use of a name and sets *count to the number of its uses.
-static const NameUse *find_uses(Compiler *compiler, const Symbol *name, uint32_t *count) {
-    *count = 0;
+// Returns the first element that is not less than a tested use of `name` at `ast`, or NULL if its name is different.
+// With `ast` NULL, that is the first use of the name. Sets *left to the number of elements from there to the end.
+static NameUse *find_use(Compiler *compiler, const Symbol *name, const Ast *ast, uint32_t *left) {
     if (!compiler->uses)
         compile_add_uses(compiler, &(Ast){.kind = AST_SUITE});
     NameUses *uses = compiler->uses;
-    if (uses->count == 0)
-        return NULL;
-    if (!uses->sorted) {
+    if (!uses->sorted && uses->count) {
         arena_charge(uses->arena, uses->count);
         qsort(uses->items, uses->count, sizeof *uses->items, by_name);
         uses->sorted = true;
     }
-    const NameUse key = {.name = name}, *end = uses->items + uses->count;
-    const NameUse *first = bsearch(&key, uses->items, uses->count, sizeof key, by_name);
-    if (!first)
-        return NULL;
-    while (first > uses->items && first[-1].name == name)
-        first--;
-    while (first + *count < end && first[*count].name == name)
-        ++*count;
-    return first;
+    const NameUse key = {.name = name, .ast = ast, .tested = true};
+    uint32_t low = 0, high = uses->count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (by_name(&uses->items[middle], &key) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    *left = uses->count - low;
+    return *left && uses->items[low].name == name ? &uses->items[low] : NULL;
 }
 
-bool compile_is_optional(Compiler *compiler, const Symbol *name) {
-    uint32_t count;
-    const NameUse *uses = find_uses(compiler, name, &count);
-    for (uint32_t i = 0; i < count; i++)
-        if (!uses[i].tested)
-            return false;
-    return count > 0;
+bool compile_is_tested(Compiler *compiler, const Ast *ast) {
+    uint32_t left;
+    const NameUse *use = find_use(compiler, ast->name, ast, &left);
+    return use && use->tested && use->ast == ast;
+}
+
+bool compile_list_optional(Compiler *compiler, const Symbol *name) {
+    uint32_t left;
+    NameUse *use = find_use(compiler, name, NULL, &left);
+    if (!use || !use->tested || use->listed)
+        return false;
+    use->listed = true;
+    return true;
 }
 
 bool compile_is_used_once(Compiler *compiler, const Symbol *name) {
-    uint32_t count;
-    find_uses(compiler, name, &count);
-    return count == 1;
+    uint32_t left;
+    const NameUse *use = find_use(compiler, name, NULL, &left);
+    return use && (left == 1 || use[1].name != name);
 }

@@ -264,10 +264,10 @@ static const Expr *compile_unbound(Compiler *compiler, const Ast *ast) {
         return expr;
     }
     Str hint = unbound_hint(compiler, ast);
-    if (hint.len || !compile_is_optional(compiler, ast->name))
+    if (hint.len || !compile_is_tested(compiler, ast))
         compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
                        str_format(compiler->arena, "unbound name '%.*s' is null", STR_ARGS(name)), hint);
-    else if (compiler->options->lint)
+    else if (compiler->options->lint && compile_list_optional(compiler, ast->name))
         compile_report(compiler, ast->span, DIAG_NOTE, "optional-definition",
                        str_format(compiler->arena, "'%.*s' is optional; to set it, use -D %.*s=VALUE", STR_ARGS(name),
                                   STR_ARGS(name)),
