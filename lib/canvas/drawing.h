@@ -20,19 +20,27 @@ struct DrawNode {
     Origin origin;
 };
 
-// Returns true if the source of a shader contains syntax of templates (Mako) other than ${HEADER}, which petri does not
-// expand: ${name}, <%tag>, or a line that starts with % or ##.
-static inline bool draw_has_template(Str source) {
+// Returns the first syntax of templates (Mako) other than ${HEADER} in the source of a shader, which petri does not
+// expand: ${name}, <%tag>, or a line that starts with % or ##. Returns an empty string if there is none. The text is
+// printable ASCII and ends with the line, the bracket or after 40 characters.
+static inline Str draw_find_template(Str source) {
+    enum { MAX_SHOWN = 40 };
     bool line_start = true; // true if only white space comes before in this line
     for (size_t i = 0; i < source.len; i++) {
         Str rest = {source.bytes + i, source.len - i};
         char c = source.bytes[i];
-        if ((str_starts_with(rest, STR("${")) && !str_starts_with(rest, STR("${HEADER}"))) ||
-            str_starts_with(rest, STR("<%")) || (line_start && (c == '%' || str_starts_with(rest, STR("##")))))
-            return true;
+        bool value = str_starts_with(rest, STR("${")), tag = str_starts_with(rest, STR("<%"));
+        if ((value && !str_starts_with(rest, STR("${HEADER}"))) || tag ||
+            (line_start && (c == '%' || str_starts_with(rest, STR("##"))))) {
+            size_t len = 0;
+            while (len < rest.len && len < MAX_SHOWN && rest.bytes[len] >= ' ' && rest.bytes[len] <= '~' &&
+                   !(len > 0 && (value || tag) && rest.bytes[len - 1] == (value ? '}' : '>')))
+                len++;
+            return (Str){rest.bytes, len};
+        }
         line_start = c == '\n' || (line_start && (c == ' ' || c == '\t' || c == '\r'));
     }
-    return false;
+    return (Str){0};
 }
 
 // Returns the attribute; NULL if it is not set.

@@ -33,8 +33,13 @@ static void check_programs(const Reader *reader, const DrawNode *node) {
     static const AttrName names[] = {ATTR_VERTEX, ATTR_FRAGMENT};
     for (int i = 0; i < 2; i++) {
         const AttrValue *source = schema_row(reader->kind, names[i]) ? draw_attr(node, names[i]) : NULL;
-        if (source && draw_has_template(source->as.text))
-            reader_report_attr(reader, "bad-shader", names[i], STR("no template is supported except '${HEADER}'"));
+        Str template = source ? draw_find_template(source->as.text) : (Str){0};
+        if (template.len > 0)
+            reader_report_attr(
+                reader, "bad-shader", names[i],
+                str_format(reader->arena,
+                           "template '%.*s' is not supported, only '${HEADER}'; the default shader is used",
+                           STR_ARGS(template)));
     }
 }
 

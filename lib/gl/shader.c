@@ -11,7 +11,7 @@ enum { MAX_PASSES = 64 };
 bool gl_expand_template(Text *out, Str text) {
     static const Str header = {"${HEADER}", 9}, version = {"#version 330", 12};
     size_t line_number = 1, i = 0;
-    if (draw_has_template(text))
+    if (draw_find_template(text).len > 0)
         return false;
     for (; i < text.len && strchr(" \t\n\r", text.bytes[i]); i++)
         line_number += text.bytes[i] == '\n'; // white space is dropped, because the version must be the first line

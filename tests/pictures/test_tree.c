@@ -180,8 +180,10 @@ static void test_shader_errors_are_at_their_lines(void **state) {
                 SIZE "    !shader fragment=\"\"\"\n#version 330\nout vec4 color;\nvoid main() { color = vec4(0.2, 0.0, "
                      "0.0, 1.0); }\n\"\"\"\n",
                 1, 124, 0, 0);
-    check_reported("templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
-                   "2 [bad-shader] !shader: no template is supported except '${HEADER}'\n", 255, 0, 0);
+    check_reported(
+        "templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
+        "2 [bad-shader] !shader: template '${more}' is not supported, only '${HEADER}'; the default shader is used\n",
+        255, 0, 0);
     // The message comes from the driver. If the shader is written in the script, the line is a line of the script.
     static const struct {
         const char *row;
