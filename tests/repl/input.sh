@@ -12,7 +12,7 @@ export LC_ALL
 
 # petri ARGUMENTS...: runs the prompt with the file `in` as input. Sets `status`; the output is in the file `out`.
 petri() {
-    timeout 100 "$petri" repl "$@" <in >out 2>&1
+    timeout 500 "$petri" repl "$@" <in >out 2>&1
     status=$?
 }
 says() { has out "$1"; }
