@@ -16,10 +16,8 @@ Scale scale_count(Store *store, hid_t parent, const char *name, hsize_t count) {
     int64_t *numbers = memory_calloc((count + 1) * sizeof *numbers);
     for (hsize_t i = 0; i < count; i++)
         numbers[i] = (int64_t)i;
-    store_list(store, parent, name, H5Tcopy(H5T_NATIVE_INT64), count, numbers);
+    hid_t set = store_array(store, parent, name, H5T_NATIVE_INT64, 1, &count, numbers);
     free(numbers);
-    hid_t set = H5Dopen2(parent, name, H5P_DEFAULT);
-    store_check(store, set);
     return scale_begin(store, set, name);
 }
 
@@ -35,8 +33,8 @@ static void add_list(Store *store, hid_t object, const char *name, hid_t type, h
 }
 
 void scale_attach(Store *store, hid_t set, int rank, Scale *const scales[]) {
-    hobj_ref_t references[STORE_RANKS];
-    hvl_t lists[STORE_RANKS];
+    hobj_ref_t references[H5S_MAX_RANK];
+    hvl_t lists[H5S_MAX_RANK];
     for (int k = 0; k < rank; k++) {
         Scale *scale = scales[k];
         scale->uses = memory_realloc(scale->uses, (scale->use_count + 1) * sizeof *scale->uses);

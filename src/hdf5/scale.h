@@ -19,7 +19,7 @@ typedef struct Scale {
 Scale scale_begin(Store *store, hid_t set, const char *name);
 // Creates the data set `name` with the numbers from 0 to count - 1 as a dimension scale. The caller calls scale_end.
 Scale scale_count(Store *store, hid_t parent, const char *name, hsize_t count);
-// Names the dimensions of a data set by scales, one per dimension.
+// Names the dimensions of a data set by scales, one per dimension. `rank` is at most H5S_MAX_RANK.
 void scale_attach(Store *store, hid_t set, int rank, Scale *const scales[]);
 // Writes the list of attached data sets to the scale, and frees the list.
 void scale_end(Store *store, Scale *scale);

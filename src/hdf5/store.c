@@ -276,14 +276,19 @@ void store_write_row(Store *store, StoreColumn *column, hsize_t row, const hsize
         move_row(store, column, row, sizes, NULL, numbers);
 }
 
-void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list) {
-    hid_t space = H5Screate_simple(1, &count, NULL), made = H5Pcreate(H5P_DATASET_CREATE);
+hid_t store_array(Store *store, hid_t parent, const char *name, hid_t type, int rank, const hsize_t *sizes,
+                  const void *array) {
+    hid_t space = H5Screate_simple(rank, sizes, NULL), made = H5Pcreate(H5P_DATASET_CREATE);
     H5Pset_obj_track_times(made, false);
     hid_t set = check_id(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
-    store_check(store, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, list));
-    H5Dclose(set);
+    store_check(store, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array));
     H5Pclose(made);
     H5Sclose(space);
+    return set;
+}
+
+void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list) {
+    H5Dclose(store_array(store, parent, name, type, 1, &count, list));
     H5Tclose(type);
 }
 

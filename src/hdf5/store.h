@@ -71,7 +71,10 @@ void store_write_row(Store *store, StoreColumn *column, hsize_t row, const hsize
                      const void *numbers);
 // Returns a string type for up to `length` bytes.
 hid_t store_text_type(size_t length);
-// Writes an array as a data set. Closes `type`.
+// Writes an array with `rank` dimensions as a data set, which stays open until store_end.
+hid_t store_array(Store *store, hid_t parent, const char *name, hid_t type, int rank, const hsize_t *sizes,
+                  const void *array);
+// Writes an array with one dimension as a data set. Closes `type`.
 void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list);
 // Writes an array of strings as a data set. `texts` contains the NUL-terminated strings one after the other.
 void store_text_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count);

@@ -3,5 +3,6 @@
 
 #include "hdf5/store.h"
 
-// Writes the `length` bytes of data that hdf5_table (cli/hdf5.h) has sent, as the data set `table`.
+// Writes the `length` bytes of data that hdf5_table (cli/hdf5.h) has sent, as the data set `table`. If there is one row
+// for each combination of values, each column is also an array whose dimensions are the parameters.
 void table_store(Store *store, const char *data, size_t length);

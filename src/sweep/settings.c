@@ -110,7 +110,7 @@ static bool check_output(const Sweep *sweep) {
     const char *output = sweep->options->output;
     if (!output || script_suffix(output, ".nc .nc4 .cdf") < 0)
         return true;
-    message("option '--output' expects a file name that ends in .csv or .h5, not '%s'; NetCDF is not supported",
+    message("option '--output' expects a file name that ends in .csv or .h5, which tools for NetCDF can read, not '%s'",
             output);
     return false;
 }

@@ -168,6 +168,23 @@ for record, line in zip(table, lines):
 print("".join(table.dtype[name].kind for name in table.dtype.names))
 END
         check "the HDF5 table has the numbers and texts of the CSV table" out_is iiSifSfS
+        sweep sum.fl -D A=1..3 -D 'V=(3;4);(5;6;7)' --frames 2 --metric 'half=A/2' --metric 'text="a,b"' -o grid.h5
+        sweep sum.fl -D 'A=1;2' -D 'B=1;2' --where 'A<=B' --frames 2 --metric a=A -o part.h5
+        sweep sum.fl -D 'A=1;2;1' --frames 2 --metric a=A -o twice.h5
+        sweep sum.fl -D 'A=1;2' --frames 2 --metric table=A -o name.h5
+        /usr/bin/python3 -I - grid.h5 t1.h5 part.h5 twice.h5 name.h5 >out 2>&1 <<'END'
+import sys, h5py
+file = h5py.File(sys.argv[1])
+assert list(file["A"]) == [1, 2, 3] and list(file["V"].asstr()) == ["3;4", "5;6;7"]
+for name in "frame", "half", "text", "error":
+    assert [list(scales) for scales in file[name].dims] == [["A"], ["V"]], name
+    assert list(file[name][:].ravel()) == list(file["table"][name]), name
+assert file["half"].dims[1][0] == file["V"] and h5py.h5ds.is_scale(file["A"].id)
+assert [int(dimension) for used, dimension in file["V"].attrs["REFERENCE_LIST"]] == [1] * 4
+print([list(h5py.File(name)) for name in sys.argv[2:]])
+END
+        check "complete HDF5 tables have arrays whose dimensions are the parameters" \
+            out_is "[['table'], ['table'], ['table'], ['table']]"
     fi
 fi
 
