@@ -109,7 +109,7 @@ void gl_refuse_passes(Gl *gl, double seconds, uint32_t passes) {
         1e9 * ((isinf(gl->shader_seconds) ? 0 : gl->shader_seconds) + UNEVEN * seconds * passes);
 }
 
-bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out) {
+bool gl_run_passes(Gl *gl, Arena *arena, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out) {
     GlImage first = {0}, last = effect->last;
     int reduction = gl_downsample(effect->node);
     // A script's own program may leave out pixels. The target is then cleared first, because it can contain an earlier
@@ -128,7 +128,7 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
                 glClearColor(0, 0, 0, 0);
                 glClear(GL_COLOR_BUFFER_BIT);
             }
-            gl_set_uniforms(gl, passes[i].program, &state);
+            gl_set_uniforms(gl, arena, passes[i].program, &state);
             if (own) {
                 double taken, needed, left = gl_seconds_left(gl);
                 taken = gl_draw_quad_within(gl, passes[i].program, width, height, left, &needed);
@@ -209,5 +209,5 @@ GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
         if (!programs[i].program)
             return none;
     GlImage out;
-    return gl_run_passes(gl, effect, programs, first + count, &out) ? out : none;
+    return gl_run_passes(gl, arena, effect, programs, first + count, &out) ? out : none;
 }

@@ -116,7 +116,7 @@ static void set_uniforms(const GroupView *view, const SceneGroup *group, GLuint 
         for (size_t k = 0; k < sizeof given / sizeof *given; k++)
             if (strcmp(given[k].name, name) == 0)
                 numbers = given[k].numbers, length = given[k].count;
-        gl_set_uniform(&uniform, numbers, length); // does nothing for samplers
+        gl_set_uniform(view->scene->arena, &uniform, numbers, length); // does nothing for samplers
     }
 }
 

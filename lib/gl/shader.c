@@ -87,7 +87,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     for (uint32_t i = 0; i < count; i++)
         passes[i] = (GlPass){program, is_reduced(node, i)};
     GlImage out;
-    if (gl_run_passes(gl, effect, passes, count, &out))
+    if (gl_run_passes(gl, arena, effect, passes, count, &out))
         return out;
     if (isinf(gl->shader_seconds)) {
         gl_report_limit(faults, node, "it");

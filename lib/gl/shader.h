@@ -33,6 +33,6 @@ typedef struct GlPass {
     bool reduced; // true if the pass renders to a target that is smaller by the factor `downsample` in each direction
 } GlPass;
 // Runs the passes in order and stores the result of the last pass in *out. Returns false if the GPU is out of memory.
-bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out);
+bool gl_run_passes(Gl *gl, Arena *arena, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out);
 int gl_downsample(const DrawNode *node);
 void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem);

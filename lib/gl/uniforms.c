@@ -223,15 +223,15 @@ GlUniform gl_uniform(unsigned program, unsigned index) {
     return uniform;
 }
 
-void gl_set_uniform(const GlUniform *uniform, const double *numbers, uint32_t length) {
-    enum { MAX_NUMBERS = 256 };
+void gl_set_uniform(Arena *arena, const GlUniform *uniform, const double *numbers, uint32_t length) {
+    enum { FEW = 64 };
     bool is_integer;
     uint32_t size = size_of(uniform->type, &is_integer);
-    if (size == 0 || (uint32_t)uniform->count > MAX_NUMBERS / size)
+    if (size == 0)
         return;
-    uint32_t all = size * (uint32_t)uniform->count;
-    float x[MAX_NUMBERS];
-    GLint n[MAX_NUMBERS];
+    uint32_t all = size * (uint32_t)uniform->count; // limited by the driver, which has linked the program
+    float few[FEW], *x = all <= FEW ? few : arena_alloc_array(arena, all, sizeof *x);
+    GLint few_integers[FEW], *n = all <= FEW ? few_integers : arena_alloc_array(arena, all, sizeof *n);
     bool fits = length == all || length == 1 || length == size;
     for (uint32_t i = 0; i < all; i++) {
         double number = fits ? numbers[i % length] : 0;
@@ -257,7 +257,7 @@ static void set_picture(const Gl *gl, GLint at, const GlState *state, const char
     glUniform1i(at, unit);
 }
 
-void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state) {
+void gl_set_uniforms(const Gl *gl, Arena *arena, unsigned program, const GlState *state) {
     GLint count = 0, unit = 0;
     glUseProgram(program);
     glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
@@ -268,7 +268,7 @@ void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state) {
             set_picture(gl, uniform.at, state, uniform.name, unit++);
         } else {
             find_numbers(state, uniform.name, &numbers);
-            gl_set_uniform(&uniform, numbers.list, numbers.count);
+            gl_set_uniform(arena, &uniform, numbers.list, numbers.count);
         }
     }
     glActiveTexture(GL_TEXTURE0);

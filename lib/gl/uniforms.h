@@ -28,5 +28,6 @@ GlUniform gl_uniform(unsigned program, unsigned index);
 const AttrValue *gl_custom_attr(const DrawNode *node, const char *name);
 // Sets a uniform of the current program. A list of matching length is used as it is. One number fills all elements, and
 // a vector fills each element of an array. Other lists are treated as 0. Does nothing if the type is not supported.
-void gl_set_uniform(const GlUniform *uniform, const double *numbers, uint32_t length);
-void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state);
+// Temporary data of large arrays is allocated from the arena.
+void gl_set_uniform(Arena *arena, const GlUniform *uniform, const double *numbers, uint32_t length);
+void gl_set_uniforms(const Gl *gl, Arena *arena, unsigned program, const GlState *state);

@@ -133,6 +133,11 @@ static void test_uniforms_have_values(void **state) {
                 SIZE "    " PROGRAM("list=0.2;0;0;0;0.4;0 same=0;0.2;0.6", "uniform vec3 list[2], same[2];\n",
                                     "color = vec4(list[0] + list[1] + same[1], 1.0);"),
                 1, 124, 203, 203);
+    check_color("large arrays",
+                SIZE "    " PROGRAM("list=((0.2 if i == 199 else 0.1);i;0) for i in ..200 whole=..500",
+                                    "uniform vec3 list[200];\nuniform int whole[500];\n",
+                                    "color = vec4(list[199].x, list[198].y == 198.0, whole[499] == 499, 1.0);"),
+                1, 124, 255, 255);
     check_color("mismatched and unknown uniforms are 0, alpha is set",
                 SIZE "    " PROGRAM("alpha=0.2 two=1;1", "uniform vec3 two;\nuniform float unknown, alpha;\n",
                                     "color = vec4(two.x, unknown, alpha, 1.0);"),
