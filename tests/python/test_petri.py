@@ -11,6 +11,7 @@ import pickle
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -901,6 +902,11 @@ class Notebooks(unittest.TestCase):
                                         "stream=width,height,nb_read_frames,r_frame_rate", "-of", "csv=p=0", file],
                                        stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
                 self.assertEqual(probe, "64,32,25/1,6")
+        with tempfile.TemporaryDirectory() as folder:  # viewers show delays of 1/100 s as 1/10 s
+            file = Path(folder) / "fast.gif"
+            petri.Session(RED).film(file, 30, width=8)
+            delays = [struct.unpack("<H", delay)[0] for delay in re.findall(rb"\x21\xf9\x04.(..)", file.read_bytes(), re.S)]
+            self.assertEqual(delays, [2] * 25)
         with self.assertRaises(OSError):
             petri.Session(RED).film("/nowhere/film.mp4", 2, width=64)
 

@@ -21,7 +21,8 @@ def write(session: Session, path: Union[str, os.PathLike], frames: int, fps: flo
     if not program:
         raise MissingLibraryError("cannot write films: there is no program ffmpeg (Debian: ffmpeg)")
     name = os.fspath(path)
-    filters = "split[a][b];[a]palettegen[p];[b][p]paletteuse" if name.endswith(".gif") else \
+    # Delays in a GIF are whole hundredths of a second, and viewers show a hundredth as a tenth.
+    filters = "fps='min(source_fps,50)',split[a][b];[a]palettegen[p];[b][p]paletteuse" if name.endswith(".gif") else \
         "crop=trunc(iw/2)*2:trunc(ih/2)*2,format=yuv420p"
     process = None
     try:

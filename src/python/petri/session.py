@@ -357,8 +357,8 @@ class Session:
 
     def film(self, path: Union[str, os.PathLike], frames: int, *, fps: float = 0, every: int = 1, **picture: Any) -> None:
         """Computes the next `frames` frames and writes them to a film: .mp4, .webm, .gif, or another file that ffmpeg
-        knows by its name. `fps` is the rate of the film; 0: that of the session. Other arguments are those of
-        picture."""
+        knows by its name. `fps` is the rate of the film; 0: that of the session. GIFs leave out frames beyond 50 per
+        second. Other arguments are those of picture."""
         films.write(self, path, frames, fps, every, picture)
 
     def animate(self, frames: int, *, fps: float = 0, every: int = 1, **picture: Any) -> films.Animation:
