@@ -13,19 +13,25 @@ folder=$root/src/editors/vscode
     exit 77
 }
 scratch
-mkdir -p checkout/src/editors/vscode checkout/src/packaging
+mkdir -p checkout/src/editors/vscode checkout/src/packaging checkout/src/web
 ln -s checkout/src/editors/vscode extension
 cp "$root/meson.build" "$root/LICENSE" "$root/CHANGELOG.md" checkout/
 cp "$root/src/packaging/fill.sh" "$root/src/packaging/identity.ini" "$root/src/packaging/icon.png" \
     "$root/src/packaging/licences.mjs" checkout/src/packaging/
-cp "$folder"/*.js "$folder"/*.json "$folder"/*.md "$folder"/*.py extension/
+cp "$folder"/*.js "$folder"/*.mjs "$folder"/*.css "$folder"/*.json "$folder"/*.md "$folder"/*.py extension/
+# Without the WebAssembly files, which this suite does not need. tests/web/vscode.test.mjs tests the extension with them.
+cp -R "$root/src/web/engine" checkout/src/web/
+mkdir checkout/src/web/page
+cp "$root"/src/web/page/*.mjs "$root"/src/web/page/*.css checkout/src/web/page/
+engine=$PWD/checkout/src/web/engine
+touch "$engine/engine.wasm" "$engine/petri-command.wasm" "$engine/third-party-licences.txt"
 ln -s "$folder/node_modules" extension/node_modules
 (cd extension && npm run bundle) >out 2>err
 status=$?
 check "the extension is bundled" status_is 0
-extension/package.py "$grammar" petri.vsix
+extension/package.py "$grammar" "$engine" petri.vsix
 check "the extension is packed" exists petri.vsix
-extension/package.py "$grammar" again.vsix
+extension/package.py "$grammar" "$engine" again.vsix
 check "packing again gives the same bytes" cmp -s petri.vsix again.vsix
 python3 -m zipfile -e petri.vsix unpacked
 mkdir -p node_modules/vscode # a stub, because VS Code provides the module
@@ -37,6 +43,9 @@ const { languages, grammars, commands } = about.contributes;
 for (const file of [about.main, languages[0].configuration, grammars[0].path]) fs.accessSync("unpacked/extension/" + file);
 JSON.parse(fs.readFileSync("unpacked/extension/" + grammars[0].path, "utf8"));
 const source = fs.readFileSync("unpacked/extension/" + about.main, "utf8");
+for (const path of fs.readdirSync("unpacked/extension/engine").filter((name) => name.endsWith(".mjs"))) // modules that are loaded at once
+    for (const [, name] of fs.readFileSync("unpacked/extension/engine/" + path, "utf8").matchAll(/^import .* from .\.\/(.*)\x27;/gm))
+        fs.accessSync("unpacked/extension/engine/" + name);
 for (const { command } of commands) if (!source.includes(`"${command}"`)) throw new Error(command);
 if (typeof require("./unpacked/extension/" + about.main).activate !== "function") throw new Error("no activate");' >out 2>err
 status=$?
@@ -45,6 +54,7 @@ licences=unpacked/extension/third-party-licences.txt
 for package in $(grep -o 'node_modules/\(@[^/"]*/\)\?[^/"]*' extension/dist/meta.json | sed 's/.*node_modules.//' | sort -u); do
     check "the licence of $package is in the extension" grep -q "^$package [0-9]" $licences
 done
+check "the preview contains no packages" lacks extension/dist/preview.json node_modules
 check "the extension has the text of each licence" [ "$(grep -c '^Copyright' $licences)" -ge 5 ]
 version=$("$petri" --version)
 check "the extension has the version of petri" has unpacked/extension/package.json "\"version\": \"${version#petri }\""

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""package.py GRAMMAR OUT.vsix: packs the extension with the generated grammar, by vsce. `npm run bundle` must run first. The
-output is reproducible."""
+"""package.py GRAMMAR ENGINE OUT.vsix: packs the extension with the generated grammar and the files of ENGINE, the npm package that
+./dev web makes, by vsce. `npm run bundle` must run first. The output is reproducible."""
 
 import json
 import shutil
@@ -10,6 +10,9 @@ import tempfile
 import zipfile
 from pathlib import Path
 
+# The command in WebAssembly and the engine of the preview.
+ENGINE = ("cli.mjs", "command.mjs", "json.mjs", "links.mjs", "paths.mjs", "runtime.mjs", "system.mjs", "threads.mjs", "engine.wasm",
+          "petri-command.wasm", "third-party-licences.txt")
 here = Path(__file__).resolve().parent
 root = here.parents[2]
 
@@ -24,11 +27,15 @@ for only_for_building in ("dependencies", "devDependencies", "scripts", "private
 with tempfile.TemporaryDirectory() as name:
     folder = Path(name)
     (folder / "dist").mkdir()
+    (folder / "engine").mkdir()
     (folder / "package.json").write_text(json.dumps(about, indent=2))
     shutil.copy(sys.argv[1], folder / "flitter.tmLanguage.json")
-    for path in ("README.md", "language-configuration.json", "dist/extension.js"):
+    for path in ("README.md", "language-configuration.json", "dist/extension.js", "dist/preview.js", "dist/style.css",
+                 "dist/worker.js"):
         shutil.copy(here / path, folder / path)
     shutil.copy(here / "dist/third-party-licences.txt", folder)
+    for path in ENGINE:
+        shutil.copy(Path(sys.argv[2]) / path, folder / "engine" / path)
     for path in ("LICENSE", "CHANGELOG.md", "src/packaging/icon.png"):
         shutil.copy(root / path, folder)
     # The marketplace shows only pictures with a complete address.
@@ -39,6 +46,6 @@ with tempfile.TemporaryDirectory() as name:
     if vsce.returncode != 0:
         sys.exit(vsce.stdout)
     # vsce writes the current time.
-    with zipfile.ZipFile(folder / "packed.vsix") as packed, zipfile.ZipFile(sys.argv[2], "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(folder / "packed.vsix") as packed, zipfile.ZipFile(sys.argv[3], "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(packed.namelist()):
             archive.writestr(zipfile.ZipInfo(path, (2026, 1, 1, 0, 0, 0)), packed.read(path), zipfile.ZIP_DEFLATED)

@@ -1,0 +1,117 @@
+// preview.mjs: the page of the preview in VS Code. It shows the script that the extension sends (preview_panel.js), with the code of the
+// playground.
+import { CONTROLS, Controls } from '../../web/page/controls.mjs';
+import { Dish, errorText, unsupportedText } from '../../web/page/dish.mjs';
+import { Live } from '../../web/page/live.mjs';
+import { Problems } from '../../web/page/problems.mjs';
+
+const $ = id => document.getElementById(id);
+const editor = acquireVsCodeApi();
+const EMPTY = 'This script draws nothing: it has no `!window`.';
+
+// What the modules of the playground share. The editor is that of VS Code, which underlines errors itself.
+const page = {
+    name: '', say,
+    editor: { text: '', show() {}, goTo: (line, column) => editor.postMessage({ type: 'goTo', line, column }) },
+    get file() {
+        return page.dish.loaded === null ? page.name : page.dish.name;
+    },
+};
+let empty = false;
+
+function say(text, bad = false) {
+    $('message').textContent = text;
+    $('message').classList.toggle('error', bad);
+}
+
+const host = {
+    loaded() {
+        say('');
+        empty = false;
+        page.live.loaded();
+        page.problems.show([], page.file);
+    },
+    checked: answer => page.live.checked(answer),
+    shown(answer, left) {
+        if (!page.live.outdated)
+            page.problems.add(answer.told);
+        page.controls.show(answer);
+        if (left.length)
+            say(unsupportedText(answer, left), answer.picture.lost);
+        if (empty !== !answer.drawable)
+            say((empty = !answer.drawable) ? EMPTY : '');
+        document.body.dataset.frame = answer.frame;
+    },
+    ran: rate => page.controls.ran(rate),
+    failed(error, told) {
+        page.problems.add(told);
+        say(Live.describe(error) ?? errorText(error), true);
+    },
+    changed: () => page.controls.refresh(),
+    restored: () => say(''),
+};
+
+// The last message of the extension: { id, name, text, files }. Text and files of messages that arrive during an update are combined.
+let shownId = null, wanted = null, files = {}, updating = false;
+
+// Shows another script from its start, and takes over a changed script with its state.
+async function update() {
+    const { dish, live } = page, { id, name } = wanted, given = Object.entries(files);
+    files = {};
+    if (id !== shownId)
+        dish.files.clear();
+    for (const [file, bytes] of given)
+        await dish.addFile(file, bytes);
+    if (given.length)
+        await dish.giveFiles();
+    if (id === shownId && dish.loaded !== null) {
+        live.changed();
+        await live.taken;
+        return;
+    }
+    Object.assign(page, { name });
+    shownId = id;
+    dish.unload();
+    page.problems.show([], name);
+    if (await dish.open(page.editor.text, name) && !matchMedia('(prefers-reduced-motion: reduce)').matches)
+        dish.run();
+}
+
+async function receive({ data }) {
+    files = data.id === wanted?.id ? { ...files, ...data.files } : data.files;
+    wanted = data;
+    page.editor.text = data.text;
+    for (let seen; !updating && seen !== wanted;) {
+        seen = wanted;
+        updating = true;
+        await update();
+        updating = false;
+    }
+}
+
+async function begin() {
+    const read = async url => {
+        const answer = await fetch(url);
+        if (!answer.ok)
+            throw new Error(`cannot read ${url}: status ${answer.status}`);
+        return answer;
+    };
+    const { engine, worker } = document.body.dataset;
+    const [source, code] = await Promise.all([
+        read(engine).then(answer => answer.arrayBuffer()), read(worker).then(answer => answer.text()),
+    ]);
+    // From a blob, because a worker must have the origin of the page, and the extension's files have another.
+    const url = URL.createObjectURL(new Blob([code], { type: 'text/javascript' }));
+    globalThis.petriWorker = () => new Worker(url);
+    $('below').innerHTML = CONTROLS;
+    page.dish = new Dish($('picture'), host, { source });
+    page.problems = new Problems($('problems'), page.editor);
+    page.live = new Live(page);
+    page.controls = new Controls(document, page.dish, ({ always = false } = {}) => always ? page.live.restart() : page.live.ready());
+    page.dish.listen();
+    await page.dish.ready;
+    addEventListener('message', receive);
+    editor.postMessage({ type: 'ready' });
+}
+
+begin().catch(error => say(error.message, true));
