@@ -46,6 +46,9 @@ const source = fs.readFileSync("unpacked/extension/" + about.main, "utf8");
 for (const path of fs.readdirSync("unpacked/extension/engine").filter((name) => name.endsWith(".mjs"))) // modules that are loaded at once
     for (const [, name] of fs.readFileSync("unpacked/extension/engine/" + path, "utf8").matchAll(/^import .* from .\.\/(.*)\x27;/gm))
         fs.accessSync("unpacked/extension/engine/" + name);
+const menus = Object.values(about.contributes.menus).flat();
+for (const { command } of menus) if (!commands.some((known) => known.command === command && known.icon)) throw new Error(command);
+if (!menus.some(({ command, when }) => command === "petri.preview" && when === "editorLangId == flitter")) throw new Error("no preview button");
 for (const { command } of commands) if (!source.includes(`"${command}"`)) throw new Error(command);
 if (typeof require("./unpacked/extension/" + about.main).activate !== "function") throw new Error("no activate");' >out 2>err
 status=$?

@@ -165,6 +165,10 @@ test('the installed server is used if there is one', options, async () => {
     await seen.commands['petri.restart']();
     assert.equal(status.detail, seen.settings.path);
     assert.match(status.text, /^petri [\d.]+$/);
+    const { fileName } = opened('window.fl', '!a b=7\n');
+    await seen.commands['petri.view']();
+    const { process: program, args } = seen.tasks.pop().execution;
+    assert.deepEqual([program, ...args.slice(0, 3)], [seen.settings.path, 'view', fileName, '--listen']);
     seen.settings.path = installed('old', 'exit 1');
     seen.configured.fire({ affectsConfiguration });
     await until(() => status.detail === `bundled, because ${seen.settings.path} has no language server`);
@@ -230,6 +234,8 @@ test('an edit in the editor changes the running preview, with its state', option
         await hasColour(page, '0;255;0');
         assert.ok(await isRunning(page));
         const frames = await page.evaluate(() => globalThis.frames);
+        changed(opened('dish.fl', coloured('0;1;0')), coloured('0;0;1')); // closed and opened again
+        await hasColour(page, '0;0;255');
         assert.ok(frames[0] > 30 && frames.every((frame, i) => i === 0 || frame >= frames[i - 1]), `${frames}`);
     });
 });

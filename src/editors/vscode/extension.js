@@ -34,7 +34,7 @@ async function runTask(command, program, ...options) {
     const document = script();
     if (!document)
         return;
-    if (document.uri.scheme !== "file" || !(await document.save())) {
+    if (document.uri.scheme !== "file" || (document.isDirty && !(await document.save()))) {
         vscode.window.showErrorMessage("The script is not saved as a file.");
         return;
     }

@@ -91,7 +91,12 @@ class PreviewPanel {
 
     changed(document) {
         const files = {};
-        if (this.panel && (document === this.document || this.addText(files, document)))
+        if (!this.panel)
+            return;
+        const isShown = document.uri.toString() === this.document.uri.toString();
+        if (isShown)
+            this.document = document; // another object if the script was closed and opened again
+        if (isShown || this.addText(files, document))
             this.send(files);
     }
 

@@ -157,5 +157,5 @@ module.exports = fallback({
         },
     }),
     env: fallback({ language: "en" }),
-    version: "1.75.0",
+    version: "1.90.0",
 });
