@@ -75,7 +75,7 @@ enum { ARENA_MAX_PROTECTED = 8 };
 ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context)
     PRIVATE_API(arena_protect);
 // Like arena_alloc, but returns NULL on failure.
-void *arena_try_alloc(Arena *arena, size_t size);
+void *arena_try_alloc(Arena *arena, size_t size) PRIVATE_API(arena_try_alloc);
 
 // Initialises an empty arena that may allocate `limit` bytes between resets. `name` must outlive it.
 void arena_init(Arena *arena, const char *name, size_t limit) PRIVATE_API(arena_init);
@@ -148,7 +148,7 @@ void *arena_grow_array(Arena *arena, void *items, uint32_t count, uint32_t *capa
 _Noreturn void arena_exhausted(const Arena *arena) PRIVATE_API(arena_exhausted);
 // Escapes with the given outcome, for example the result of an inner arena_protect. Aborts the process if no
 // arena_protect encloses the call.
-_Noreturn void arena_escape(const Arena *arena, ArenaOutcome end);
+_Noreturn void arena_escape(const Arena *arena, ArenaOutcome end) PRIVATE_API(arena_escape);
 
 ArenaMark arena_mark(const Arena *arena) PRIVATE_API(arena_mark);
 // Drops all allocations made since the mark. Pointers to them become invalid.

@@ -1,4 +1,5 @@
 // boolean.c: assembles the results of boolean operations; see solid.h.
+#include "base/heap.h"
 #include "solid/entries.h"
 #include "solid/fill.h"
 #include "solid/operand.h"
@@ -312,6 +313,29 @@ static Solid concatenate(Arena *arena, const Solid *a, const Solid *b) {
     return both;
 }
 
+// Drops all allocations made since the mark, except the result. A tree of many operations would otherwise need the
+// working memory of all of them.
+static Solid keep_result(Arena *arena, ArenaMark mark, const Solid *result) {
+    size_t points = result->point_count * sizeof *result->points, faces = result->face_count * sizeof *result->faces;
+    char *copy = heap_alloc(points + faces + 1);
+    if (!copy)
+        return *result;
+    memcpy(copy, result->points, points);
+    memcpy(copy + points, result->faces, faces);
+    arena_rewind(arena, mark);
+    Solid kept = {arena_try_alloc(arena, points), arena_try_alloc(arena, faces), result->point_count,
+                  result->face_count};
+    bool good = kept.points && kept.faces;
+    if (good) {
+        memcpy(kept.points, copy, points);
+        memcpy(kept.faces, copy + points, faces);
+    }
+    heap_free(copy);
+    if (!good)
+        arena_escape(arena, ARENA_MEMORY_LIMIT);
+    return kept;
+}
+
 Solid solid_combine(Arena *arena, SolidOperation operation, const Solid *a, const Solid *b) {
     arena_charge(arena, ((uint64_t)a->face_count + b->face_count) * 80);
     if (a->face_count == 0 || b->face_count == 0 || boxes_are_apart(a, b)) {
@@ -321,6 +345,7 @@ Solid solid_combine(Arena *arena, SolidOperation operation, const Solid *a, cons
                : a->face_count == 0                                ? *b
                                                                    : concatenate(arena, a, b);
     }
+    const ArenaMark mark = arena_mark(arena);
     Build build = {.arena = arena, .factor = operation == SOLID_INTERSECTION ? 1 : -1};
     Operand *one = &build.operands[0], *two = &build.operands[1];
     *one = operand_new(arena, a, true, operation == SOLID_UNION ? SOLID_SHIFT : -SOLID_SHIFT);
@@ -343,7 +368,8 @@ Solid solid_combine(Arena *arena, SolidOperation operation, const Solid *a, cons
     add_faces(&build, 0, false);
     add_faces(&build, 1, operation == SOLID_DIFFERENCE);
     Solid result = {build.points, build.faces.faces, build.point_count, build.faces.count};
-    return solid_weld(arena, &result);
+    result = solid_weld(arena, &result);
+    return keep_result(arena, mark, &result);
 }
 
 // Combines neighbours, then neighbours of the results, and so on.

@@ -90,6 +90,20 @@ static void test_drilled_box_has_handles(void **state) {
     }
 }
 
+static void test_operations_keep_only_their_results(void **state) {
+    enum { ROUNDING = 64 };
+    Arena *arena = *state;
+    Solid a = solid_placed(arena, SHAPE_SPHERE, 32, 1, 0, 0, 0, 0),
+          b = solid_placed(arena, SHAPE_SPHERE, 32, 1, 0, 0.5, 0, 0);
+    for (int i = 0; i < 3; i++) {
+        size_t used = arena->used;
+        Solid result = solid_combine(arena, (SolidOperation)i, &a, &b);
+        size_t size = result.point_count * sizeof *result.points + result.face_count * sizeof *result.faces;
+        assert_true(size > 1000);
+        assert_true(arena->used - used <= size + ROUNDING);
+    }
+}
+
 static void test_identical_spheres(void **state) {
     Arena *arena = *state;
     Solid a = solid_placed(arena, SHAPE_SPHERE, 32, 1, 0.13, 0.1, 0.2, 0.3);
@@ -256,6 +270,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_coplanar_and_touching_boxes, setup, teardown),
         cmocka_unit_test_setup_teardown(test_nested_and_separate_solids, setup, teardown),
         cmocka_unit_test_setup_teardown(test_drilled_box_has_handles, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_operations_keep_only_their_results, setup, teardown),
         cmocka_unit_test_setup_teardown(test_identical_spheres, setup, teardown),
         cmocka_unit_test_setup_teardown(test_trim_keeps_lower_side, setup, teardown),
         cmocka_unit_test_setup_teardown(test_open_mesh_is_not_closed, setup, teardown),
