@@ -48,7 +48,7 @@ static void test_parameters_are_recognised(void **state) {
         {"let N=N or false -- 0..1\n", "N 0 (false) 0/0 0..1|0 '' 1:5\n", true},
         // The second `let` is not a parameter, because the name is already bound.
         {"let N=N or 1\nlet N=N or 2\n", "N 1 (1) 1/1 -inf..inf|0 '' 1:5\n", true},
-        // None of these are parameters. The last four are reported, because the name is not only tested.
+        // None of these are parameters. Two are reported, because the value of the name is used.
         {"let k=3\nlet k=k or 2\n", "", true},
         {"let beat=beat or 2\n", "", true},
         {"let sin=sin or 2\n", "", true},
@@ -58,9 +58,9 @@ static void test_parameters_are_recognised(void **state) {
         {"let N;M=N or 1\n", "", true},
         {"!a v=(N or 1)\n", "", true},
         {"let N=N\n", "", false},
-        {"if 1\n    let N=N or 1\n    !a v=N\n", "", false},
-        {"func f(x)\n    let N=N or x\n    N\n!a v=f(1)\n", "", false},
-        {"!a v=N where N=N or 1\n", "", false},
+        {"if 1\n    let N=N or 1\n    !a v=N\n", "", true},
+        {"func f(x)\n    let N=N or x\n    N\n!a v=f(1)\n", "", true},
+        {"!a v=N where N=N or 1\n", "", true},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         assert_text(rows[i].script, list_of(*state, rows[i].script), rows[i].wanted);
