@@ -39,13 +39,15 @@ echo 'module.exports = new Proxy(function () {}, { get: (_, name) => (name === "
     >node_modules/vscode/index.js
 node -e '
 const about = require("./unpacked/extension/package.json"), fs = require("fs");
-const { languages, grammars, commands } = about.contributes;
+const { languages, grammars, commands, keybindings } = about.contributes;
 for (const file of [about.main, languages[0].configuration, grammars[0].path]) fs.accessSync("unpacked/extension/" + file);
 JSON.parse(fs.readFileSync("unpacked/extension/" + grammars[0].path, "utf8"));
 const source = fs.readFileSync("unpacked/extension/" + about.main, "utf8");
 for (const path of fs.readdirSync("unpacked/extension/engine").filter((name) => name.endsWith(".mjs"))) // modules that are loaded at once
     for (const [, name] of fs.readFileSync("unpacked/extension/engine/" + path, "utf8").matchAll(/^import .* from .\.\/(.*)\x27;/gm))
         fs.accessSync("unpacked/extension/engine/" + name);
+for (const { command, when } of keybindings)
+    if (!commands.some((known) => known.command === command) || !when.includes("editorLangId == flitter")) throw new Error(command);
 const menus = Object.values(about.contributes.menus).flat();
 for (const { command } of menus) if (!commands.some((known) => known.command === command && known.icon)) throw new Error(command);
 if (!menus.some(({ command, when }) => command === "petri.preview" && when === "editorLangId == flitter")) throw new Error("no preview button");
@@ -53,6 +55,10 @@ for (const { command } of commands) if (!source.includes(`"${command}"`)) throw 
 if (typeof require("./unpacked/extension/" + about.main).activate !== "function") throw new Error("no activate");' >out 2>err
 status=$?
 check "the package is complete and can be loaded" status_is 0
+mkdir scripts
+(cd scripts && node "$here/contributions.js" "$petri" ../unpacked/extension) >out 2>err
+status=$?
+check "petri accepts the snippets, and the problem matcher finds its diagnostics" has out "all contributions are as expected"
 licences=unpacked/extension/third-party-licences.txt
 for package in $(grep -o 'node_modules/\(@[^/"]*/\)\?[^/"]*' extension/dist/meta.json | sed 's/.*node_modules.//' | sort -u); do
     check "the licence of $package is in the extension" grep -q "^$package [0-9]" $licences

@@ -30,8 +30,8 @@ with tempfile.TemporaryDirectory() as name:
     (folder / "engine").mkdir()
     (folder / "package.json").write_text(json.dumps(about, indent=2))
     shutil.copy(sys.argv[1], folder / "flitter.tmLanguage.json")
-    for path in ("README.md", "language-configuration.json", "dist/extension.js", "dist/preview.js", "dist/style.css",
-                 "dist/worker.js"):
+    for path in ("README.md", "language-configuration.json", "snippets.json", "dist/extension.js", "dist/preview.js",
+                 "dist/style.css", "dist/worker.js"):
         shutil.copy(here / path, folder / path)
     shutil.copy(here / "dist/third-party-licences.txt", folder)
     for path in ENGINE:
