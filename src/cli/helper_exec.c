@@ -121,9 +121,7 @@ int helper_exec_ranks(char **argv, bool needed) {
         return -1;
     if (rank == 0) {
         message("cannot start petri-ranks: %s%s", strerror(cause),
-                cause == ENOENT
-                    ? "; petri was built without MPI; on Debian, install libopenmpi-dev and build petri again"
-                    : "");
+                cause == ENOENT ? "; on Debian, install petri-mpi, or libopenmpi-dev and build petri again" : "");
     }
     return STATUS_FAILED;
 }

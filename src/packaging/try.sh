@@ -25,6 +25,9 @@ install "$(debs petri)"
 tests=/root/petri/src/packaging/debian/tests # those of autopkgtest
 $tests/command
 echo "petri runs, draws and shows help"
+install "$(debs petri-mpi)"
+$tests/mpi
+echo "petri runs on two processes"
 # shellcheck disable=SC2046 # file names without spaces
 install $(debs "libpetri[0-9]*") $(debs "libpetri-draw[0-9]*") $(debs "libpetri-archive[0-9]*") $(debs libpetri-dev) gcc libc6-dev pkg-config
 $tests/library
@@ -33,6 +36,6 @@ install "$(debs python3-petri)"
 $tests/python
 echo "python3-petri works"
 # shellcheck disable=SC2046 # names without spaces
-apt-get -qqy purge petri $(dpkg-query --show --showformat='${Package} ' "libpetri*[0-9]") >install.log 2>&1
+apt-get -qqy purge petri petri-mpi $(dpkg-query --show --showformat='${Package} ' "libpetri*[0-9]") >install.log 2>&1
 [ ! -e /usr/bin/petri ] && [ ! -e /usr/share/petri ]
 echo "the packages can be removed"
