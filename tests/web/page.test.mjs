@@ -269,6 +269,22 @@ test('deep recursion does not end the engine in a worker', options, () => opened
     },
 }));
 
+test('the page fits a phone, a laptop and a large screen', options, async () => {
+    for (const [width, height] of [[390, 844], [1280, 800], [1920, 1080]])
+        await opened('', {
+            settings: { viewport: { width, height } },
+            use: async page => {
+                if (process.env.SHOTS)
+                    await page.screenshot({ path: `${process.env.SHOTS}/page-${width}.png` });
+                assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= width, `${width} pixels`);
+                for (const selector of ['#picture', '#run', '#editor']) {
+                    const box = await page.locator(selector).boundingBox();
+                    assert.ok(box.x >= 0 && box.width > 20 && box.x + box.width <= width, `${selector} at ${width} pixels`);
+                }
+            },
+        });
+});
+
 test('axe finds no serious problems, in dark and light', { ...options, timeout: 180000 }, async () => {
     const axe = readFileSync(join(root, 'src/web/page/node_modules/axe-core/axe.min.js'), 'utf8');
     for (const colorScheme of ['light', 'dark'])
