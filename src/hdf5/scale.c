@@ -23,12 +23,7 @@ Scale scale_count(Store *store, hid_t parent, const char *name, hsize_t count) {
 
 // Adds an attribute that is an array. Closes `type`.
 static void add_list(Store *store, hid_t object, const char *name, hid_t type, hsize_t count, const void *list) {
-    hid_t space = H5Screate_simple(1, &count, NULL);
-    hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    store_check(store, attribute);
-    store_check(store, H5Awrite(attribute, type, list));
-    H5Aclose(attribute);
-    H5Sclose(space);
+    store_attribute(store, object, name, type, H5Screate_simple(1, &count, NULL), list);
     H5Tclose(type);
 }
 

@@ -110,7 +110,7 @@ hid_t store_group(Store *store, hid_t parent, const char *name) {
     return check_id(store, H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
 }
 
-static void add_attribute(Store *store, hid_t object, const char *name, hid_t type, hid_t space, const void *value) {
+void store_attribute(Store *store, hid_t object, const char *name, hid_t type, hid_t space, const void *value) {
     hid_t attribute = check_id(store, H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
     store_check(store, H5Awrite(attribute, type, value));
     H5Aclose(attribute);
@@ -126,7 +126,7 @@ hid_t store_text_type(size_t length) {
 
 void store_text(Store *store, hid_t object, const char *name, const char *text) {
     hid_t type = store_text_type(strlen(text));
-    add_attribute(store, object, name, type, H5Screate(H5S_SCALAR), text);
+    store_attribute(store, object, name, type, H5Screate(H5S_SCALAR), text);
     H5Tclose(type);
 }
 
@@ -136,14 +136,14 @@ void store_texts(Store *store, hid_t object, const char *name, const char *text,
     for (size_t i = 0; i < count; i++)
         memcpy(texts + i * bytes, text, bytes);
     hid_t type = store_text_type(bytes - 1);
-    add_attribute(store, object, name, type, H5Screate_simple(1, &count, NULL), texts);
+    store_attribute(store, object, name, type, H5Screate_simple(1, &count, NULL), texts);
     H5Tclose(type);
     free(texts);
 }
 
 void store_numbers(Store *store, hid_t object, const char *name, const int *numbers, hsize_t count) {
     hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, NULL);
-    add_attribute(store, object, name, H5T_NATIVE_INT, space, numbers);
+    store_attribute(store, object, name, H5T_NATIVE_INT, space, numbers);
 }
 
 // Chooses the chunk size: a chunk contains many short rows, or a part of a long row. Unfilled large chunks waste space,

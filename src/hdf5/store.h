@@ -47,6 +47,8 @@ void store_check(Store *store, int64_t result);
 
 // Creates a group. It stays open until store_end.
 hid_t store_group(Store *store, hid_t parent, const char *name);
+// Adds an attribute. Closes `space`.
+void store_attribute(Store *store, hid_t object, const char *name, hid_t type, hid_t space, const void *value);
 // Adds a string attribute.
 void store_text(Store *store, hid_t object, const char *name, const char *text);
 // Adds an attribute: an array of `count` copies of a string.
