@@ -61,7 +61,7 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
             return sweep_command.run(printer, source, defines, metrics, chosen, sweep_command.option_words(options or Options()))
     if source is None:
         raise ValueError("a sweep needs a script or a plan")
-    script, last = source, 599 if frames is None else frames - 1
+    script, count = source, 600 if frames is None else frames
     select = where if callable(where) else None
     expressions = {name: text for name, text in metrics.items() if text is not None}
     axes = {name: list(values) for name, values in defines.items()}
@@ -77,9 +77,9 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
     active: List[Session] = []
 
     def measure(session: Session, chosen: Mapping[str, Any], rows: List[dict]) -> None:
-        for i in range(last + 1):
+        for i in range(count):
             session.step()
-            ends = i == last or until is not None and bool(session.evaluate(until))
+            ends = i + 1 == count or until is not None and bool(session.evaluate(until))
             if ends or every > 0 and i % every == 0:
                 rows.append({**chosen, "frame": session.frame.number, "error": None,
                              **{name: session.evaluate(text) for name, text in expressions.items()}})
