@@ -1,13 +1,14 @@
 // preview.mjs: the page of the preview in VS Code. It shows the script that the extension sends (preview_panel.js), with the code of the
 // playground.
 import { CONTROLS, Controls } from '../../web/page/controls.mjs';
-import { Dish, errorText, unsupportedText } from '../../web/page/dish.mjs';
+import { Dish } from '../../web/page/dish.mjs';
 import { Live } from '../../web/page/live.mjs';
+import { say } from '../../web/page/message.mjs';
 import { Problems } from '../../web/page/problems.mjs';
+import { reportTo } from '../../web/page/report.mjs';
 
 const $ = id => document.getElementById(id);
 const editor = acquireVsCodeApi();
-const EMPTY = 'This script draws nothing: it has no `!window`.';
 
 // What the modules of the playground share. The editor is that of VS Code, which underlines errors itself.
 const page = {
@@ -16,39 +17,6 @@ const page = {
     get file() {
         return page.dish.loaded === null ? page.name : page.dish.name;
     },
-};
-let empty = false;
-
-function say(text, bad = false) {
-    $('message').textContent = text;
-    $('message').classList.toggle('error', bad);
-}
-
-const host = {
-    loaded() {
-        say('');
-        empty = false;
-        page.live.loaded();
-        page.problems.show([], page.file);
-    },
-    checked: answer => page.live.checked(answer),
-    shown(answer, left) {
-        if (!page.live.outdated)
-            page.problems.add(answer.told);
-        page.controls.show(answer);
-        if (left.length)
-            say(unsupportedText(answer, left), answer.picture.lost);
-        if (empty !== !answer.drawable)
-            say((empty = !answer.drawable) ? EMPTY : '');
-        document.body.dataset.frame = answer.frame;
-    },
-    ran: rate => page.controls.ran(rate),
-    failed(error, told) {
-        page.problems.add(told);
-        say(Live.describe(error) ?? errorText(error), true);
-    },
-    changed: () => page.controls.refresh(),
-    restored: () => say(''),
 };
 
 // The last message of the extension: { id, name, text, files }. Text and files of messages that arrive during an update are combined.
@@ -104,7 +72,7 @@ async function begin() {
     const url = URL.createObjectURL(new Blob([code], { type: 'text/javascript' }));
     globalThis.petriWorker = () => new Worker(url);
     $('below').innerHTML = CONTROLS;
-    page.dish = new Dish($('picture'), host, { source });
+    page.dish = new Dish($('picture'), reportTo(page), { source });
     page.problems = new Problems($('problems'), page.editor);
     page.live = new Live(page);
     page.controls = new Controls(document, page.dish, ({ always = false } = {}) => always ? page.live.restart() : page.live.ready());

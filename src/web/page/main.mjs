@@ -1,15 +1,17 @@
 // main.mjs: the playground page: an editor beside a dish, and the actions of the buttons.
 import { CONTROLS, Controls } from './controls.mjs';
-import { Dish, errorText, unsupportedText } from './dish.mjs';
+import { Dish } from './dish.mjs';
 import { Editor } from './editor.mjs';
 import { Gallery } from './gallery.mjs';
 import { Hint } from './hint.mjs';
 import { Keys } from './keys.mjs';
 import { Live } from './live.mjs';
+import { say } from './message.mjs';
 import { Particle } from './particle.mjs';
 import { Plot } from './plot.mjs';
 import { Problems } from './problems.mjs';
 import { Prompt } from './prompt.mjs';
+import { reportTo } from './report.mjs';
 import { SaveDialog, saveAs } from './save.mjs';
 import { Splitter } from './splitter.mjs';
 import { Scripts } from './scripts.mjs';
@@ -20,7 +22,6 @@ import { Transfer } from './transfer.mjs';
 
 const $ = id => document.getElementById(id);
 const FIRST = 'dish.fl';
-const EMPTY = 'This script draws nothing: it has no `!window`.';
 
 const encoder = new TextEncoder();
 
@@ -32,54 +33,22 @@ const page = {
         return page.dish.loaded === null ? page.name : page.dish.name;
     },
 };
-let prompt, plot, table, particle, saves, help = [], empty = false;
-
-function say(text, bad = false) {
-    $('message').textContent = text;
-    $('message').classList.toggle('error', bad);
-}
+let prompt, plot, table, particle, saves, help = [];
 
 // --- callbacks of the dish
 
+const report = reportTo(page);
 const host = {
-    loaded() {
-        say('');
-        empty = false;
-        page.live.loaded();
-        page.problems.show([], page.file);
-    },
-    checked(answer) {
-        page.live.checked(answer);
-    },
+    ...report,
     shown(answer, left) {
-        if (!page.live.outdated)
-            page.problems.add(answer.told);
-        page.controls.show(answer);
+        report.shown(answer, left);
         prompt.print(answer.log);
         document.title = answer.picture?.title ? `${answer.picture.title} · petri` : 'petri';
-        if (left.length)
-            say(unsupportedText(answer, left), answer.picture.lost);
-        if (empty !== !answer.drawable)
-            say((empty = !answer.drawable) ? EMPTY : '');
         showVerification(answer.verification);
-        document.body.dataset.frame = answer.frame;
         look();
-    },
-    ran(rate) {
-        page.controls.ran(rate);
-    },
-    failed(error, told) {
-        page.problems.add(told);
-        say(Live.describe(error) ?? errorText(error), true);
     },
     slow(is) {
         document.body.classList.toggle('busy', is);
-    },
-    changed() {
-        page.controls.refresh();
-    },
-    restored() {
-        say('');
     },
 };
 

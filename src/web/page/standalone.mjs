@@ -2,15 +2,11 @@
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
 import { readLink } from './link.mjs';
+import { say } from './message.mjs';
 
 const $ = id => document.getElementById(id);
 const decoded = text => Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), character => character.charCodeAt(0));
 const unpacked = id => new Response(new Blob([decoded($(id).textContent.trim())]).stream().pipeThrough(new DecompressionStream('gzip')));
-
-function say(text, bad = false) {
-    $('message').textContent = text;
-    $('message').classList.toggle('error', bad);
-}
 
 let dish, controls, linked, asked = 0;
 

@@ -3,6 +3,7 @@ import { CONTROLS, Controls } from '../page/controls.mjs';
 import { Dish, errorText, unsupportedText } from '../page/dish.mjs';
 import { Editor } from '../page/editor.mjs';
 import { Live } from '../page/live.mjs';
+import { say } from '../page/message.mjs';
 import { Problems } from '../page/problems.mjs';
 import { saveAs } from '../page/save.mjs';
 import { readSetting, storeSetting } from '../page/settings.mjs';
@@ -34,13 +35,7 @@ function showSolved() {
         item.classList.toggle('solved', !!all[item.dataset.lesson]?.solved);
 }
 
-const page = {
-    name: NAME,
-    say(text, bad = false) {
-        $('message').textContent = text;
-        $('message').classList.toggle('error', bad);
-    },
-};
+const page = { name: NAME, say };
 
 // Checks the task in a run from frame 0, without the picture.
 let waits = 0;
@@ -61,7 +56,7 @@ function checkTask() {
 
 const host = {
     loaded() {
-        page.say('');
+        say('');
         page.problems.show([], NAME);
         page.live.loaded();
     },
@@ -70,12 +65,12 @@ const host = {
         page.problems.add(answer.told);
         page.controls.show(answer);
         if (left.length)
-            page.say(unsupportedText(answer, left), answer.picture.lost);
+            say(unsupportedText(answer, left), answer.picture.lost);
         document.body.dataset.frame = answer.frame;
     },
     failed(error, told) {
         page.problems.add(told);
-        page.say(Live.describe(error) ?? errorText(error), true);
+        say(Live.describe(error) ?? errorText(error), true);
     },
     ran: rate => page.controls.ran(rate),
     changed: () => page.controls?.refresh(),
@@ -140,4 +135,4 @@ async function begin() {
     }
 }
 
-begin().catch(error => page.say(error.message, true));
+begin().catch(error => say(error.message, true));
