@@ -70,13 +70,8 @@ static void window_close(Display *display) {
         SDL_DestroyTexture(display->texture);
     if (display->renderer)
         SDL_DestroyRenderer(display->renderer);
-    if (display->window) {
-        // When SDL waits, it wakes itself by an event that it sends to a window over another connection. The X server
-        // reports an error, which ends the process, if that event arrives after the window is destroyed. SDL reads the
-        // size hints before it changes them, so this waits until the server has handled what was sent earlier.
-        SDL_SetWindowResizable(display->window, SDL_FALSE);
+    if (display->window)
         SDL_DestroyWindow(display->window);
-    }
     if (is_first)
         SDL_Quit();
     Display **at = &display->first->next;
@@ -150,6 +145,8 @@ static bool start_on(const DisplayProbe *screen) {
         SDL_SetError("no display server answers at %s=%s", screen->variable, display_probe_name(screen));
         return false;
     }
+    if (strcmp(screen->driver, "x11") == 0)
+        window_manager_prepare();
     SDL_SetHint(SDL_HINT_VIDEODRIVER, screen->driver);
     return SDL_Init(SDL_INIT_VIDEO) == 0;
 }
@@ -383,6 +380,14 @@ static double window_scale(const Display *display) {
     return across;
 }
 
+// Returns false if the screen was lost. Without this check, Mesa's software renderer (22.3) would loop forever: after
+// an error of the connection, it computes from a maximum request length of 0 how many rows of pixels to send at once.
+static bool can_show(Display *display) {
+    if (window_manager_is_lost(display->window))
+        display->first->gone = true;
+    return !display->first->gone;
+}
+
 static bool use_texture(Display *display, int width, int height) {
     if (display->texture && display->texture_width == width && display->texture_height == height)
         return true;
@@ -408,7 +413,8 @@ static bool window_show_directly(Display *display, PetriPicture *picture, const 
         SDL_GL_SetSwapInterval(0); // only the first window waits for the screen, because the waits would add up
     }
     *status = overlay_show(display->painter, picture, overlay, across, width, height);
-    SDL_GL_SwapWindow(display->window);
+    if (can_show(display))
+        SDL_GL_SwapWindow(display->window);
     if (!is_first)
         SDL_GL_MakeCurrent(display->first->window, display->context);
     return true;
@@ -425,7 +431,8 @@ static bool window_show(Display *display, uint32_t *pixels, int width, int heigh
     SDL_SetTextureBlendMode(display->texture, SDL_BLENDMODE_NONE);
     SDL_RenderClear(display->renderer);
     SDL_RenderCopy(display->renderer, display->texture, NULL, NULL);
-    SDL_RenderPresent(display->renderer);
+    if (can_show(display))
+        SDL_RenderPresent(display->renderer);
     release_context(display);
     return true;
 }

@@ -7,8 +7,10 @@
 
 #ifdef SDL_VIDEO_DRIVER_X11
 #include <X11/Xatom.h>
+#include <X11/Xproto.h>
+#include <poll.h>
 
-// The library is not linked, because that would slow down every start of petri. SDL has already loaded it at run time.
+// The library is not linked, because that would slow down every start of petri. SDL also loads it at run time.
 static const char LIBRARY[] = "libX11.so.6";
 
 typedef struct X11 {
@@ -77,13 +79,31 @@ bool window_manager_fills_screen(struct SDL_Window *window) {
         SDL_UnloadObject(library);
     return fills;
 }
-static int ignore_error(Display *display) {
+
+static int (*next_handler)(Display *, XErrorEvent *); // Xlib has one error handler for the whole process
+
+// When SDL waits, it wakes itself by an event that it sends to its window over another connection. If that event
+// arrives after the window is destroyed, the server reports an error, which would end the process.
+static int ignore_late_event(Display *display, XErrorEvent *error) {
+    if (error->error_code == BadWindow && error->request_code == X_SendEvent)
+        return 0;
+    return next_handler(display, error);
+}
+
+void window_manager_prepare(void) {
+    int (*(*set_error)(int (*)(Display *, XErrorEvent *)))(Display *, XErrorEvent *);
+    void *library = SDL_LoadObject(LIBRARY); // never unloaded, because the handler must stay
+    if (library && !next_handler && find_symbol(library, "XSetErrorHandler", &set_error))
+        next_handler = set_error(ignore_late_event);
+}
+
+static int ignore_io_error(Display *display) {
     (void)display;
     return 0;
 }
 
 // Called by Xlib after an I/O error. After it has returned, calls of Xlib fail, but the process does not end.
-static void ignore_io_error(Display *display, void *gone) {
+static void note_loss(Display *display, void *gone) {
     (void)display;
     *(bool *)gone = true;
 }
@@ -98,11 +118,23 @@ void window_manager_watch(struct SDL_Window *window, bool *gone) {
     void *library = SDL_LoadObject(LIBRARY); // never unloaded, because SDL also uses it
     if (library && find_symbol(library, "XSetIOErrorHandler", &set_error) &&
         find_symbol(library, "XSetIOErrorExitHandler", &set_exit)) { // available since libX11 1.7
-        set_error(ignore_error);
-        set_exit(info.info.x11.display, ignore_io_error, gone);
+        set_error(ignore_io_error);
+        set_exit(info.info.x11.display, note_loss, gone);
     }
 }
+
+bool window_manager_is_lost(struct SDL_Window *window) {
+    SDL_SysWMinfo info;
+    SDL_VERSION(&info.version);
+    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11)
+        return false;
+    struct pollfd connection = {.fd = ConnectionNumber(info.info.x11.display)};
+    return poll(&connection, 1, 0) > 0; // only errors and the end of the connection count
+}
 #else
+void window_manager_prepare(void) {
+}
+
 bool window_manager_fills_screen(struct SDL_Window *window) {
     (void)window;
     return true;
@@ -111,6 +143,11 @@ bool window_manager_fills_screen(struct SDL_Window *window) {
 void window_manager_watch(struct SDL_Window *window, bool *gone) {
     (void)window;
     (void)gone;
+}
+
+bool window_manager_is_lost(struct SDL_Window *window) {
+    (void)window;
+    return false;
 }
 #endif
 #endif
