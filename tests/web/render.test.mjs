@@ -81,7 +81,7 @@ test('petri render writes a series with images of files, numbers as in the nativ
     assert.deepEqual(files(), ['a002.png', 'a004.png', 'a006.png', 'dish.fl', 'dot.png']);
     assert.ok(bytesOf('a002.png') !== bytesOf('a004.png'));
     const failed = await render(['dish.fl', '-o', 'b.png', '--frames', '1', '-D', 'N=1/']);
-    assert.equal(failed.status, 1);
+    assert.equal(failed.status, 2);
     assert.match(failed.errors, /^dish\.fl:1:5: error: '1\/' is not a number/);
     assert.deepEqual(files().filter(file => file === 'b.png'), []);
 });

@@ -116,8 +116,7 @@ function readScript({ script, settings }) {
     return { job: JSON.stringify(job), images: Object.values(images) };
 }
 
-// Serves the page and receives its pictures and messages. Returns { url, close, started, done }; `done` resolves to true if all pictures
-// were drawn and written.
+// Serves the page and receives its pictures and messages. Returns { url, close, started, done }; `done` resolves to the exit status.
 async function servePage({ job, images }, output, message) {
     const modules = fs.readdirSync(PACKAGE).filter(file => file.endsWith('.mjs') || file === 'engine.wasm');
     const page = {};
@@ -132,8 +131,8 @@ async function servePage({ job, images }, output, message) {
     const receive = (file, body) => {
         if (file === 'messages')
             process.stderr.write(body);
-        else if (file === 'done' || file === 'failed')
-            page.finish(file === 'done');
+        else if (/^ended\/[012]$/.test(file))
+            page.finish(Number(file.slice('ended/'.length)));
         else if (/^picture\/\d+$/.test(file))
             fs.writeFileSync(outputName(output, file.slice('picture/'.length)), body);
     };
@@ -148,7 +147,7 @@ async function servePage({ job, images }, output, message) {
             } catch (error) {
                 message(`cannot write '${output}': ${error.message}`);
                 response.writeHead(500).end();
-                page.finish(false);
+                page.finish(1);
             }
         });
         return true;
@@ -176,9 +175,10 @@ export async function render(args) {
     for (const [name, number] of [['SIGINT', 2], ['SIGTERM', 15], ['SIGHUP', 1]])
         process.on(name, () => end().then(() => process.exit(128 + number)));
     const late = new Promise(resolve => setTimeout(resolve, START_MS, new Error('it does not respond')).unref());
-    const problem = await Promise.race([page.started, browser.ended, late]) ?? await Promise.race([page.done, browser.ended]);
+    const result = await Promise.race([page.started, browser.ended, late]) ?? await Promise.race([page.done, browser.ended]);
     await end();
-    if (problem instanceof Error)
-        message(`cannot draw pictures with '${path}': ${problem.message}`);
-    return problem === true ? 0 : 1;
+    if (!(result instanceof Error))
+        return result;
+    message(`cannot draw pictures with '${path}': ${result.message}`);
+    return 1;
 }

@@ -83,11 +83,13 @@ async function render({ text, name, files, imageNames, define, quiet, automatic,
     return !failed;
 }
 
-let good = false;
+let status = 1;
 try {
-    good = await render(await (await fetch('job.json')).json());
+    status = await render(await (await fetch('job.json')).json()) ? 0 : 1;
 } catch (error) {
-    // The messages of a PetriError have been collected.
+    // The messages of a PetriError have been collected. A rejected definition is an error of the command line.
     await report(error.diagnostics?.length ? '' : error.message).catch(() => {});
+    if (error.diagnostics?.some(({ level, code }) => level === 'error' && code === 'bad-definition'))
+        status = 2;
 }
-await post(good ? 'done' : 'failed');
+await post(`ended/${status}`);
