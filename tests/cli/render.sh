@@ -373,8 +373,8 @@ END
         petri render heavy.fl -o heavy.png --frames 1 --work 1000000
         petri render heavy.fl -o heavy.png --frames 1 --work "$(sufficient work)"
         check "the message names a sufficient limit" empty err
-        # These hulls take much work. Each apex is farther out than the previous one, so it sees all side faces of the hull
-        # that was built so far.
+        # Each apex is farther out than the previous one, so it sees all side faces of the hull that was built so far. The
+        # time for this was once quadratic.
         cat >hull.fl <<'END'
 let n=650
 let base=(cos(i/n);sin(i/n);0.001*cos(2*i/n)) for i in ..n
@@ -386,6 +386,8 @@ let apex=(0.0001*cos(i/7);0.0001*sin(i/7);1+i*i/100) for i in ..1349
             !model vertices=base;apex;(0;0;-1-k) size=10
 END
         petri render hull.fl -o hull.png --frames 1
+        check "hulls of 2000 points do not exceed the default limits" empty err
+        petri render hull.fl -o hull.png --frames 1 --work 10M
         check "hulls above the work limit are left out" count_is err "!model: drawing exceeded the work limit (--work): the model is left out" 1
         printf '!window size=30\n    !canvas3d\n        !light color=1\n        for i in ..20\n            !sphere segments=256 snap_edges=0.1+i/2000\n' >meshes.fl
         petri render meshes.fl -o meshes.png --frames 1 --memory 60M

@@ -429,6 +429,50 @@ static void test_hull(void **state) {
     assert_null(mesh_hull(*state, same, 4, &numbers));
 }
 
+// Checks that each edge of the faces has exactly one neighbour, and Euler's formula for a sphere.
+static void check_closed(const double *faces, uint32_t numbers, uint32_t count) {
+    uint32_t corners = 0;
+    for (uint32_t i = 0; i < numbers; i++) {
+        uint32_t next = i % 3 == 2 ? i - 2 : i + 1;
+        int opposite = 0;
+        for (uint32_t j = 0; j < numbers; j++)
+            opposite += faces[j] == faces[next] && faces[j % 3 == 2 ? j - 2 : j + 1] == faces[i];
+        assert_int_equal(opposite, 1);
+    }
+    for (uint32_t p = 0; p < count; p++) {
+        bool used = false;
+        for (uint32_t i = 0; i < numbers; i++)
+            used = used || faces[i] == p;
+        corners += used;
+    }
+    assert_int_equal(numbers / 3, 2 * corners - 4);
+}
+
+// Rounding errors and products that overflow once made hulls of a few dozen points with tens of thousands of faces.
+static void test_hull_extremes(void **state) {
+    enum { MANY = 400 };
+    double points[MANY * 3], scaled[MANY * 3];
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        uint64_t number = seed;
+        for (int i = 0; i < MANY * 3; i++) {
+            number = number * 6364136223846793005U + 1442695040888963407U;
+            points[i] = (number >> 63 ? 1 : -1) * pow(10, -(double)(number >> 40) / 0x1p23 * 14);
+        }
+        uint32_t numbers = 0, other_numbers = 0;
+        const double *faces = mesh_hull(*state, points, MANY, &numbers);
+        assert_non_null(faces);
+        check_closed(faces, numbers, MANY);
+        static const double scales[] = {0x1p600, 0x1p-600};
+        for (int k = 0; k < 2; k++) {
+            for (int i = 0; i < MANY * 3; i++)
+                scaled[i] = points[i] * scales[k];
+            const double *others = mesh_hull(*state, scaled, MANY, &other_numbers);
+            assert_int_equal(other_numbers, numbers);
+            assert_memory_equal(others, faces, numbers * sizeof *faces);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_box, setup, teardown),
@@ -445,6 +489,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_stl, setup, teardown),
         cmocka_unit_test_setup_teardown(test_lists, setup, teardown),
         cmocka_unit_test_setup_teardown(test_hull, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_hull_extremes, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
