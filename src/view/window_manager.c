@@ -34,6 +34,13 @@ static bool find_symbols(void *library, X11 *x11) {
            find_symbol(library, "XFree", &x11->release);
 }
 
+// Returns the connection of a window to the X server, or NULL if SDL uses another driver.
+static Display *connection_of(SDL_Window *window) {
+    SDL_SysWMinfo info;
+    SDL_VERSION(&info.version);
+    return SDL_GetWindowWMInfo(window, &info) && info.subsystem == SDL_SYSWM_X11 ? info.info.x11.display : NULL;
+}
+
 // Returns true if there is a window manager: a client to which X11 redirects requests to change top-level windows.
 static bool is_managed(const X11 *x11, Display *display, Window root) {
     XWindowAttributes attributes;
@@ -64,16 +71,15 @@ static bool knows_full_screen(const X11 *x11, Display *display, Window root) {
 }
 
 bool window_manager_fills_screen(struct SDL_Window *window) {
-    SDL_SysWMinfo info;
-    SDL_VERSION(&info.version);
-    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11)
-        return true;
+    Display *display = connection_of(window);
     X11 x11;
+    if (!display)
+        return true;
     void *library = SDL_LoadObject(LIBRARY);
     bool fills = true;
     if (find_symbols(library, &x11)) {
-        Window root = DefaultRootWindow(info.info.x11.display);
-        fills = is_managed(&x11, info.info.x11.display, root) && knows_full_screen(&x11, info.info.x11.display, root);
+        Window root = DefaultRootWindow(display);
+        fills = is_managed(&x11, display, root) && knows_full_screen(&x11, display, root);
     }
     if (library)
         SDL_UnloadObject(library);
@@ -109,26 +115,24 @@ static void note_loss(Display *display, void *gone) {
 }
 
 void window_manager_watch(struct SDL_Window *window, bool *gone) {
-    SDL_SysWMinfo info;
+    Display *display = connection_of(window);
     int (*(*set_error)(int (*)(Display *)))(Display *);
     void (*set_exit)(Display *, void (*)(Display *, void *), void *);
-    SDL_VERSION(&info.version);
-    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11)
+    if (!display)
         return;
     void *library = SDL_LoadObject(LIBRARY); // never unloaded, because SDL also uses it
     if (library && find_symbol(library, "XSetIOErrorHandler", &set_error) &&
         find_symbol(library, "XSetIOErrorExitHandler", &set_exit)) { // available since libX11 1.7
         set_error(ignore_io_error);
-        set_exit(info.info.x11.display, note_loss, gone);
+        set_exit(display, note_loss, gone);
     }
 }
 
 bool window_manager_is_lost(struct SDL_Window *window) {
-    SDL_SysWMinfo info;
-    SDL_VERSION(&info.version);
-    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11)
+    Display *display = connection_of(window);
+    if (!display)
         return false;
-    struct pollfd connection = {.fd = ConnectionNumber(info.info.x11.display)};
+    struct pollfd connection = {.fd = ConnectionNumber(display)};
     return poll(&connection, 1, 0) > 0; // only errors and the end of the connection count
 }
 #else
