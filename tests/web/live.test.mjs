@@ -141,9 +141,10 @@ test('a script that draws nothing, or has errors from the start, shows an empty 
     },
 }));
 
+// A frame takes longer than the page's limits for several frames per picture (30 and 50 ms), on fast machines as well.
 test('a slow world shows a picture of every frame, and its rate', options, () => opened('', {
     use: async page => {
-        await typed(page, `${SLOW}!window size=64;32\n    !canvas\n        !rect size=(0*fib(26+0*frame)+frame);32 fill=true\n`);
+        await typed(page, `${SLOW}!window size=64;32\n    !canvas\n        !rect size=(0*fib(29+0*frame)+frame);32 fill=true\n`);
         await page.keyboard.press('Control+Enter');
         await passes(page, 5);
         await page.evaluate(() => {
