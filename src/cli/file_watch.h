@@ -2,8 +2,9 @@
 //
 // A file has changed if its size, modification time or inode differs from the values at the last report. A change is
 // reported when the file has been stable for a moment. While inotify shows that a process has not closed the file after
-// writing, the file must be stable for longer. A missing file is reported when it exists again. On Linux, inotify wakes
-// the caller. All files are also polled about once per second, because inotify misses changes on some file systems.
+// writing, the file must be stable for longer. A missing file is reported when it exists again. Inotify (Linux) or
+// kqueue (macOS) wakes the caller. All files are also polled about once per second, because both miss changes on some
+// file systems.
 #pragma once
 
 #include <stdbool.h>
@@ -21,5 +22,5 @@ void file_watch_add(FileWatch *watch, const char *path);
 // periodically.
 bool file_watch_changed(FileWatch *watch);
 // Returns a descriptor for poll that is readable when file_watch_changed should be called. Returns -1 if there is none
-// (not Linux, or no free descriptors). In this case, call file_watch_changed a few times per second.
+// (neither Linux nor macOS, or no free descriptors). In this case, call file_watch_changed a few times per second.
 int file_watch_descriptor(const FileWatch *watch);
