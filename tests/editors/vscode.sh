@@ -18,6 +18,9 @@ ln -s checkout/src/editors/vscode extension
 cp "$root/meson.build" "$root/LICENSE" "$root/CHANGELOG.md" checkout/
 cp "$root/src/packaging/fill.sh" "$root/src/packaging/identity.ini" "$root/src/packaging/icon.png" \
     "$root/src/packaging/licences.mjs" checkout/src/packaging/
+mkdir -p checkout/samples/pictures
+cp "$root/samples/dish.fl" checkout/samples/
+cp "$root/samples/pictures/dish.png" checkout/samples/pictures/
 cp "$folder"/*.js "$folder"/*.mjs "$folder"/*.css "$folder"/*.json "$folder"/*.md "$folder"/*.py extension/
 # Without the WebAssembly files, which this suite does not need. tests/web/vscode.test.mjs tests the extension with them.
 cp -R "$root/src/web/engine" checkout/src/web/
@@ -39,8 +42,9 @@ echo 'module.exports = new Proxy(function () {}, { get: (_, name) => (name === "
     >node_modules/vscode/index.js
 node -e '
 const about = require("./unpacked/extension/package.json"), fs = require("fs");
-const { languages, grammars, commands, keybindings } = about.contributes;
-for (const file of [about.main, languages[0].configuration, grammars[0].path]) fs.accessSync("unpacked/extension/" + file);
+const { languages, grammars, commands, keybindings, walkthroughs } = about.contributes, { steps } = walkthroughs[0];
+const pictures = steps.map(({ media }) => media.image);
+for (const file of [about.main, languages[0].configuration, grammars[0].path, ...pictures]) fs.accessSync("unpacked/extension/" + file);
 JSON.parse(fs.readFileSync("unpacked/extension/" + grammars[0].path, "utf8"));
 const source = fs.readFileSync("unpacked/extension/" + about.main, "utf8");
 for (const path of fs.readdirSync("unpacked/extension/engine").filter((name) => name.endsWith(".mjs"))) // modules that are loaded at once
@@ -52,6 +56,10 @@ const menus = Object.values(about.contributes.menus).flat();
 for (const { command } of menus) if (!commands.some((known) => known.command === command && known.icon)) throw new Error(command);
 if (!menus.some(({ command, when }) => command === "petri.preview" && when === "editorLangId == flitter")) throw new Error("no preview button");
 for (const { command } of commands) if (!source.includes(`"${command}"`)) throw new Error(command);
+for (const event of steps.flatMap(({ completionEvents = [] }) => completionEvents))
+    if (!commands.some(({ command }) => event === `onCommand:${command}`)) throw new Error(event);
+for (const [, name] of steps.map(({ description }) => description).join().matchAll(/\(command:(petri[^)]*)\)/g))
+    if (!commands.some(({ command }) => command === name)) throw new Error(name);
 if (typeof require("./unpacked/extension/" + about.main).activate !== "function") throw new Error("no activate");' >out 2>err
 status=$?
 check "the package is complete and can be loaded" status_is 0

@@ -43,5 +43,5 @@ diff "$work/expected" "$work/found" >"$work/diff" || {
     cat "$work/diff"
     grep -A 4 '^FAIL' "$work/cli" | head -n 60
 }
-echo "tests/cli in Node.js: $(tail -n 1 "$work/cli"), of which $(wc -l <"$work/expected") are expected"
+echo "tests/cli in Node.js: $(tail -n 1 "$work/cli"), $(wc -l <"$work/expected") names in command_differences.txt"
 exit "$failed"

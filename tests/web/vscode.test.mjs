@@ -177,9 +177,9 @@ test('the installed server is used if there is one', options, async () => {
 });
 
 // Opens the preview of a script in Chromium, as VS Code's webview does.
-async function previewed(document, use, settings = {}) {
+async function previewed(document, use, { command = 'petri.preview', ...settings } = {}) {
     vscode.window.activeTextEditor = { document };
-    seen.commands['petri.preview']();
+    await seen.commands[command]();
     const panel = seen.panels.at(-1);
     ({ html } = panel.webview);
     const closed = () => {
@@ -299,6 +299,15 @@ test('another script replaces the picture, and starts at its first frame', optio
         assert.equal((await pixels(page)).width, 64);
     });
 });
+
+test('the sample of the walkthrough opens with its preview, unsaved', options, () => previewed(undefined, async (page, panel) => {
+    const { document } = seen.shown.at(-1);
+    assert.deepEqual([panel.title, document.languageId, document.isDirty], ['Preview Untitled-1', 'flitter', true]);
+    assert.equal(document.text, fs.readFileSync(join(root, 'samples/dish.fl'), 'utf8'));
+    await passes(page, 5);
+    assert.deepEqual([await page.textContent('#message'), await page.textContent('#problems')], ['', '']);
+    assert.ok((await pixels(page)).all > 100);
+}, { command: 'petri.sample' }));
 
 test('the extension contains the licences of the C code in its engine', options, () => {
     const text = fs.readFileSync(join(unpacked, 'engine/third-party-licences.txt'), 'utf8');

@@ -1,5 +1,6 @@
 // extension.js: the VS Code extension: starts the language server, and provides commands that run, view and preview scripts.
 const childProcess = require("child_process");
+const fs = require("fs");
 const os = require("os");
 const path = require("path");
 const vscode = require("vscode");
@@ -79,6 +80,13 @@ async function activate(context) {
         if (document)
             preview.show(document);
     };
+    // Shows an unsaved copy of the sample with its preview.
+    const showSample = async () => {
+        const content = fs.readFileSync(path.join(context.extensionPath, "dish.fl"), "utf8");
+        const document = await vscode.workspace.openTextDocument({ language: "flitter", content });
+        await vscode.window.showTextDocument(document);
+        preview.show(document);
+    };
     context.subscriptions.push(
         vscode.commands.registerCommand("petri.preview", showPreview),
         vscode.commands.registerCommand("petri.view", view),
@@ -86,6 +94,7 @@ async function activate(context) {
         vscode.commands.registerCommand("petri.back", () => send(".back 60")),
         vscode.commands.registerCommand("petri.run", () => runTask("run", programs.installed() ?? programs.bundled(context))),
         vscode.commands.registerCommand("petri.restart", () => server.start()),
+        vscode.commands.registerCommand("petri.sample", showSample),
         vscode.workspace.onDidChangeConfiguration((change) => change.affectsConfiguration("petri") && server.start()),
     );
     await server.start();

@@ -36,7 +36,7 @@ with tempfile.TemporaryDirectory() as name:
     shutil.copy(here / "dist/third-party-licences.txt", folder)
     for path in ENGINE:
         shutil.copy(Path(sys.argv[2]) / path, folder / "engine" / path)
-    for path in ("LICENSE", "CHANGELOG.md", "src/packaging/icon.png"):
+    for path in ("LICENSE", "CHANGELOG.md", "src/packaging/icon.png", "samples/dish.fl", "samples/pictures/dish.png"):
         shutil.copy(root / path, folder)
     # The marketplace shows only pictures with a complete address.
     pictures = f"{about['repository']['url'].removesuffix('.git')}/raw/v{about['version']}/src/editors/vscode"

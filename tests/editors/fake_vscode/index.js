@@ -124,6 +124,10 @@ module.exports = fallback({
     workspace: fallback({
         getConfiguration: () => fallback({ get: (name) => seen.settings[name] }),
         textDocuments: [],
+        openTextDocument: async ({ language, content }) => ({
+            fileName: "Untitled-1", uri: Uri.parse("untitled:Untitled-1"), languageId: language, version: 1, isDirty: true, text: content,
+            getText: () => content,
+        }),
         workspaceFolders: undefined,
         onDidChangeTextDocument: seen.changed.on,
         onDidSaveTextDocument: seen.saved.on,
