@@ -35,8 +35,7 @@ void watch_open(FileWatch *watch) {
 // Watches the folder of a path. Returns the number of the watch, or -1.
 static int watch_folder(const FileWatch *watch, const char *path) {
     const uint32_t kinds = IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
-    size_t length = path_directory(str_from(path)).len;
-    SCOPED_STRING folder = length == 0 ? memory_strdup(".") : memory_strndup(path, length);
+    SCOPED_STRING folder = memory_folder(path);
     return watch->events < 0 ? -1 : inotify_add_watch(watch->events, folder, kinds);
 }
 

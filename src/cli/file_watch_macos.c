@@ -1,5 +1,4 @@
 // file_watch_macos.c: see file_watch_system.h. A kqueue reports changes of open files and folders, and has a timer.
-#include "base/source.h"
 #include "cli/file_watch_system.h"
 #include "cli/memory.h"
 
@@ -47,8 +46,7 @@ static int follow_path(const FileWatch *watch, const char *path, unsigned change
 // A folder changes when a name in it is created, removed or replaced. A file that is replaced stays open until the next
 // call, and its own event says that it has lost its name.
 void watch_follow(const FileWatch *watch, File *file) {
-    size_t length = path_directory(str_from(file->path)).len;
-    SCOPED_STRING folder = length == 0 ? memory_strdup(".") : memory_strndup(file->path, length);
+    SCOPED_STRING folder = memory_folder(file->path);
     unfollow(file);
     if (watch->wake < 0)
         return;

@@ -2,6 +2,7 @@
 #include "cli/memory.h"
 
 #include "base/heap.h"
+#include "base/source.h"
 #include "cli/cli.h"
 
 #include <stdlib.h>
@@ -35,6 +36,11 @@ char *memory_strndup(const char *text, size_t length) {
 
 char *memory_strdup(const char *text) {
     return memory_strndup(text, strlen(text));
+}
+
+char *memory_folder(const char *path) {
+    size_t length = path_directory(str_from(path)).len;
+    return length == 0 ? memory_strdup(".") : memory_strndup(path, length);
 }
 
 void memory_free_string(char **text) {

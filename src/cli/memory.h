@@ -10,6 +10,7 @@ void *memory_calloc(size_t size); // zeroed
 void *memory_realloc(void *block, size_t size);
 char *memory_strndup(const char *text, size_t length); // copies `length` bytes and adds a NUL
 char *memory_strdup(const char *text);
+char *memory_folder(const char *path); // the folder of the path with its slash, or "." if the path has none
 void memory_free_string(char **text);
 
 // Adds text to the Text that `text` points to. Always returns true. Can be used as a PetriWriteCallback.

@@ -150,11 +150,6 @@ void script_suggest(const char *name) {
     globfree(&below);
 }
 
-char *script_folder(const char *name) {
-    size_t length = path_directory(str_from(name)).len;
-    return length == 0 ? memory_strdup(".") : memory_strndup(name, length);
-}
-
 void shell_add_word(Text *text, const char *path) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:@%=-";
     if (path[0] != '\0' && path[strspn(path, plain)] == '\0') {

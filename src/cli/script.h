@@ -26,8 +26,6 @@ void script_suggest(const char *name);
 // Returns the index of the file name's suffix in the list `words`, or -1 if it is not in the list. For example, returns
 // 1 for "a.png" and ".csv .png".
 int script_suffix(const char *name, const char *words);
-// Returns the folder of the path, or "." if the path has none. The caller frees it.
-char *script_folder(const char *name);
 // Adds a word, quoted for a shell if necessary.
 void shell_add_word(Text *text, const char *word);
 // Adds `called`, the path of this program, quoted for a shell if necessary. The path is made relative if the program is

@@ -1,9 +1,9 @@
 // test.c: the command `petri test`, which runs scripts and compares their output with goldens.
 #include "base/clock.h"
 #include "base/source.h"
+#include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/output.h"
-#include "cli/script.h"
 #include "cli/subprocess.h"
 #include "golden/golden.h"
 
@@ -75,7 +75,7 @@ static void add_override(char **argv, int *argc, Text *text, const char *name, c
 }
 
 static void start_child(Suite *suite, Case *item) {
-    SCOPED_STRING folder = script_folder(item->script);
+    SCOPED_STRING folder = memory_folder(item->script);
     const Golden *golden = &item->golden;
     char **argv = memory_calloc((golden->options.count + 11) * sizeof *argv);
     SCOPED_TEXT threads = {0};

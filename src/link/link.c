@@ -46,10 +46,8 @@ static int make_link(const CommandContext *context, Options *options, LinkSessio
     const char *name = options->script;
     linked->name = memory_strdup(script_is_stdin(name) ? "script.fl" : name + path_directory(str_from(name)).len);
     read_definitions(linked, &options->definitions);
-    if (options->html) {
-        Str folder = path_directory(str_from(name));
-        link_session->folder = folder.len == 0 ? memory_strdup(".") : memory_strndup(name, folder.len);
-    }
+    if (options->html)
+        link_session->folder = memory_folder(name);
     // Without --frame, computes one frame, so that errors are found before the link is sent.
     linked->frame = options->frame < 0 ? 0 : options->frame;
     texts_free(&options->definitions);

@@ -1,7 +1,6 @@
 // render.c: `petri render`, which writes an image of a frame, a series of images or a video.
 #include "base/clock.h"
 #include "cli/memory.h"
-#include "cli/script.h"
 #include "cli/shader_test.h"
 #include "cli/stdout_file.h"
 #include "render/frame_writer.h"
@@ -74,7 +73,7 @@ static bool read_output(Render *render) {
 
 // Checks that the folder is writable before frames are computed. Returns false after a message.
 static bool check_folder(const char *file) {
-    SCOPED_STRING folder = script_folder(file);
+    SCOPED_STRING folder = memory_folder(file);
     bool good = access(folder, W_OK | X_OK) == 0;
     if (!good)
         message("cannot write '%s': %s", file, strerror(errno));

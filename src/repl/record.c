@@ -6,7 +6,7 @@
 // frame 0 with one script and fixed settings reproduces them.
 #include "base/file.h"
 #include "base/os.h"
-#include "cli/script.h"
+#include "cli/memory.h"
 #include "petri-inspect.h"
 #include "petri-live.h"
 #include "repl/repl.h"
@@ -24,8 +24,8 @@ static bool same_path(const char *a, const char *b) {
 }
 
 static bool same_folder(const char *a, const char *b) {
-    SCOPED_STRING first = script_folder(a);
-    SCOPED_STRING second = script_folder(b);
+    SCOPED_STRING first = memory_folder(a);
+    SCOPED_STRING second = memory_folder(b);
     return same_path(first, second);
 }
 
