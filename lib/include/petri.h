@@ -297,8 +297,8 @@ PETRI_API bool petri_frame(const PetriSession *session, PetriFrame *frame, size_
 // Returns the number of the last frame; -1: no frame yet.
 PETRI_API int64_t petri_frame_number(const PetriSession *session);
 
-// Interrupts the session's current call, or its next call if none is in progress. A step, load, picture, print or
-// evaluation then returns PETRI_INTERRUPTED within a few milliseconds. May be called by any thread and by signal
+// Interrupts the session's current call, or its next call if none is in progress. A step, load, check, picture, print
+// or evaluation then returns PETRI_INTERRUPTED within a few milliseconds. May be called by any thread and by signal
 // handlers, unlike all other functions of a session.
 PETRI_API void petri_interrupt(PetriSession *session);
 

@@ -79,6 +79,7 @@ static void open_scratch(PetriSession *session, CheckLog *log) {
     options.user_data = log;
     log->scratch = petri_open(&options);
     if (log->scratch) {
+        log->scratch->interrupt_source = session->interrupt_source;
         log->scratch->budget.user_data = session->options.user_data; // for the host's should_interrupt
         // A shallow copy: its lists belong to `session`, which outlives the scratch session.
         log->scratch->reach = session->reach;

@@ -305,11 +305,11 @@ static PetriStatus update_systems(PetriSession *session, void *context) {
 
 void petri_interrupt(PetriSession *session) {
     if (session)
-        atomic_store(&session->interrupt, true);
+        atomic_store(session->interrupt_source, true);
 }
 
 bool petri_clear_interrupt(PetriSession *session) {
-    return session && atomic_exchange(&session->interrupt, false);
+    return session && atomic_exchange(session->interrupt_source, false);
 }
 
 // Evaluates the script for the current frame. If the frame will be undone, removes the input that was written to the

@@ -32,7 +32,7 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
         return PETRI_OUT_OF_MEMORY;
     if (session->call_depth++ == 0) {
         budget_begin(&session->budget, session->options.work_limit,
-                     session->uninterruptible ? NULL : &session->interrupt);
+                     session->uninterruptible ? NULL : session->interrupt_source);
         session->budget.work = before = session->spent;
         session->spent = 0;
         session->vm.at = NULL;

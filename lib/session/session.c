@@ -131,6 +131,7 @@ PetriSession *petri_open(const PetriOptions *options) {
     session->options = *options;
     session->budget.memory_limit =
         options->memory_limit < SIZE_MAX - OWN_BYTES ? options->memory_limit + OWN_BYTES : SIZE_MAX;
+    session->interrupt_source = &session->interrupt;
     session->budget.should_interrupt = options->should_interrupt;
     session->budget.user_data = options->user_data;
     budget_begin(&session->budget, options->work_limit, NULL);

@@ -89,8 +89,9 @@ struct PetriSession {
     void *draw_memory; // data of lib/draw (session_draw_memory); NULL: none yet
     size_t draw_memory_size;
     Vm vm;
-    Vm static_vm; // folds constant expressions at load time
-    atomic_bool interrupt;
+    Vm static_vm;                  // folds constant expressions at load time
+    atomic_bool interrupt;         // set by petri_interrupt
+    atomic_bool *interrupt_source; // `interrupt` of this session; in a check, that of the session that checks
     // Work units that the next outermost protected call starts with. Before the systems are updated, it is the work of
     // the evaluation, because both share one limit. Otherwise it is 0.
     uint64_t spent;

@@ -148,6 +148,9 @@ static void test_should_interrupt(void **state) {
     asked_host = NULL; // during petri_check_text, should_interrupt also gets the host's user_data
     assert_int_equal(petri_check_text(player->session, "loop.fl", loop, PETRI_NUL_TERMINATED), PETRI_OK);
     assert_ptr_equal(asked_host, options.user_data);
+    petri_interrupt(player->session);
+    assert_int_equal(petri_check_text(player->session, "loop.fl", loop, PETRI_NUL_TERMINATED), PETRI_INTERRUPTED);
+    assert_false(petri_clear_interrupt(player->session));
 }
 
 static void test_interrupt_rolls_back(void **state) {
