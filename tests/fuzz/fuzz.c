@@ -22,6 +22,7 @@ static volatile size_t seen; // written only so that the compiler cannot remove 
 void fuzz_fail(const char *format, ...) {
     va_list list;
     va_start(list, format);
+    fputs("fuzz_fail: ", stderr);
     vfprintf(stderr, format, list);
     va_end(list);
     fputc('\n', stderr);
@@ -33,7 +34,7 @@ int fuzz_interrupt_limit = 80;
 static void on_alarm(int number) {
     (void)number;
     if (++alarms > fuzz_interrupt_limit) {
-        static const char text[] = "petri_interrupt has no effect: the session does not react\n";
+        static const char text[] = "fuzz_fail: petri_interrupt has no effect: the session does not react\n";
         (void)!write(STDERR_FILENO, text, sizeof text - 1);
         abort();
     }

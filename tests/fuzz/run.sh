@@ -20,6 +20,14 @@ minimise() {
         ;;
     esac
     echo "$1: stored a finding in ${stored#"$source"/}; to repeat, run: build-sanitizers/tests/fuzz/fuzz_$1 ${stored#"$source"/}"
+    # The log of a CI run is all that is left of its machine.
+    echo "$1: the finding in base64: $(base64 -w 0 "$stored" | head -c 8000)"
+}
+
+# explain LOG: prints the reason of a failure and the functions that were being executed.
+explain() {
+    grep -a -m 3 -e 'runtime error' -e 'ERROR: ' -e 'Assertion' -e 'fuzz_fail: ' "$1" || tail -n 3 "$1"
+    grep -a -e '^ *#[0-9]* ' "$1" | sed -n 's|^ *#[0-9]* 0x[0-9a-f]* in \([^ ]*\) .*/\([a-z_]*/[^/]*:[0-9]*\):.*|    \1 (\2)|p' | head -n 15
 }
 
 fuzz_one() {
@@ -37,7 +45,7 @@ fuzz_one() {
         echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$work/$name.log") inputs, nothing found"
         return
     fi
-    grep -m 3 -e 'runtime error' -e 'ERROR: ' -e 'does not react' -e 'not finite' "$work/$name.log" || tail -n 3 "$work/$name.log"
+    explain "$work/$name.log"
     for found in "$work/found-$name"-*; do
         [ ! -f "$found" ] || minimise "$name" "$found"
     done
