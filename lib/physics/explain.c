@@ -343,8 +343,9 @@ static PhysStatus explain(Probe *probe, const PhysTime *time, uint32_t particle,
     enum { NUMBERS_A_UNIT = 4 };
     PhysSystem *system = probe->system;
     uint64_t numbers = (uint64_t)system->particle_count * system->dimensions;
-    bool completed =
-        phys_charge(system, numbers / NUMBERS_A_UNIT) && take_steps(probe, time, step) && explain_step(probe, particle);
+    // An interrupt stops the formulas before the next charge notices it, so it is checked again at the end.
+    bool completed = phys_charge(system, numbers / NUMBERS_A_UNIT) && take_steps(probe, time, step) &&
+                     explain_step(probe, particle) && phys_may_continue(system);
     return completed && !system->failed ? PHYS_OK : system->failed ? PHYS_NO_MEMORY : PHYS_STOPPED;
 }
 
