@@ -1,16 +1,5 @@
 # command.sh: tests of options, exit codes and output streams. Part of run.sh.
 
-cat >count.fl <<'END'
-debug(frame)
-!n a=frame b=x
-END
-cat >plain.fl <<'END'
-!n a=1
-END
-cat >warn.fl <<'END'
-!n a=nowhere
-END
-
 # help and version
 petri --version
 check "--version prints the version" status_is 0

@@ -186,7 +186,8 @@ petri test --filter a.fl --nosimplify g
 check "--filter selects scripts by name" last_line_is out "1 passed, 0 failed"
 petri test --filter nothing-like-that g
 check "a filter that no script matches is an error" status_is 1
-petri test bare
+mkdir empty
+petri test empty
 check "a folder without goldens is an error" status_is 1
 check "a folder without goldens is reported" has err "no script found"
 petri test

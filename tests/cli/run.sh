@@ -25,6 +25,18 @@ one_error() { status_is 1 && count_is err "error: " 1 && empty out; }
 one_message() { status_is 1 && lines_are err 1 && has err "$1" && empty out; }
 last_line_is() { [ "$(tail -n 1 "$1")" = "$2" ]; }
 
+# Scripts of several parts.
+cat >count.fl <<'END'
+debug(frame)
+!n a=frame b=x
+END
+cat >plain.fl <<'END'
+!n a=1
+END
+cat >warn.fl <<'END'
+!n a=nowhere
+END
+
 shift
 for part in ${*:-command suggest streams parameters check syntax_hints bad_input state record render golden diff new fmt link complete}; do
     # shellcheck source=/dev/null
