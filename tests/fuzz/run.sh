@@ -1,7 +1,8 @@
 #!/bin/sh
 # run.sh BUILD SOURCE SECONDS [NAME ...]: runs the harnesses (default: all) for SECONDS each, as many in parallel as there
 # are processors. Inputs are collected in BUILD/fuzz/NAME from run to run. Findings are minimised and stored in
-# tests/fuzz/crashes/NAME, where replay.sh uses them. Exits with 1 if anything was found.
+# tests/fuzz/crashes/NAME, where replay.sh uses them. Exits with 1 if anything was found. The variable PETRI_FUZZ_SEED
+# is the seed of the random numbers (0, the default: another one in each run).
 set -eu
 build=$(cd "$1" && pwd) source=$(cd "$2" && pwd) seconds=$3
 shift 3
@@ -40,8 +41,8 @@ fuzz_one() {
     rm -f "$work/found-$name"-*
     cd "$work"
     if "$build/tests/fuzz/fuzz_$name" -dict="$work/dictionary" -max_len=$longest -timeout=60 -rss_limit_mb=3000 \
-        -max_total_time="$seconds" -close_fd_mask=$quiet -artifact_prefix="$work/found-$name-" -print_final_stats=1 \
-        "$work/$name" >"$work/$name.log" 2>&1; then
+        -max_total_time="$seconds" -seed="${PETRI_FUZZ_SEED:-0}" -close_fd_mask=$quiet -print_final_stats=1 \
+        -artifact_prefix="$work/found-$name-" "$work/$name" >"$work/$name.log" 2>&1; then
         echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$work/$name.log") inputs, nothing found"
         return
     fi
