@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/hash_index.h"
 #include "base/source.h"
+#include "cli/memory.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -136,11 +137,11 @@ static void remove_journal(Sweep *sweep, const char *path, const Text *text) {
 // Calls `call` for the journals of other shards. Skips this shard's journal, because this process holds a lock on it,
 // and closing any descriptor of the file would release the lock.
 static void visit_journals(const Journal *journal, Sweep *sweep, Visit *call) {
-    SCOPED_TEXT folder = {0}, prefix = {0};
+    SCOPED_TEXT prefix = {0};
+    SCOPED_STRING folder = memory_folder(journal->output);
     size_t name = path_directory(str_from(journal->output)).len;
-    text_add_format(&folder, "%.*s", name == 0 ? 1 : (int)name, name == 0 ? "." : journal->output);
     text_add_format(&prefix, "%s.part", journal->output + name);
-    DIR *entries = opendir(folder.bytes);
+    DIR *entries = opendir(folder);
     for (struct dirent *entry; entries && (entry = readdir(entries));) {
         SCOPED_TEXT path = {0}, text = {0};
         text_add_format(&path, "%.*s%s", (int)name, journal->output, entry->d_name);
