@@ -28,7 +28,7 @@ minimise() {
 # explain LOG: prints the reason of a failure and the functions that were being executed.
 explain() {
     grep -a -m 3 -e 'runtime error' -e 'ERROR: ' -e 'Assertion' -e 'fuzz_fail: ' "$1" || tail -n 3 "$1"
-    grep -a -e '^ *#[0-9]* ' "$1" | sed -n 's|^ *#[0-9]* 0x[0-9a-f]* in \([^ ]*\) .*/\([a-z_]*/[^/]*:[0-9]*\):.*|    \1 (\2)|p' | head -n 15
+    sed -n 's|^ *#[0-9]* 0x[0-9a-f]* in \([^ ]*\) .*/\([a-z_]*/[^/]*:[0-9]*\):.*|    \1 (\2)|p' "$1" | head -n 15
 }
 
 fuzz_one() {
