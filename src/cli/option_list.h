@@ -152,7 +152,7 @@ OPTION(FOR_DIFF | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "nei
 OPTION(FOR_TEST, "neighbours", 0, "WHEN", read_text, as_neighbours, "run all scripts with --neighbours WHEN")
 OPTION(FOR_DIFF | FOR_TEST | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "nosimplify", 0, NULL, read_flag, unsimplified, "evaluate the whole script in every frame, without simplifying it; does not change results")
 OPTION(FOR_DIFF | FOR_TEST | FOR_RUN, "no-batches", 0, NULL, read_flag, no_batches, "execute the iterations of loops one by one; does not change results")
-OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "show the picture in the terminal for 10 seconds, or for the length that --runtime or --frames sets; ignored without a terminal or with text output such as --print")
+OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "show the picture in the terminal for 10 seconds, or for the length that --runtime or --frames sets; without a terminal or with text output such as --print, print a summary instead")
 OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "print timings and each system's energy at the end")
 OPTION(FOR_CHECK, "stats", 0, NULL, read_flag, stats, "print how many triangles the solids, distance fields and models of the first frame have")
 OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write all particles to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state, append to FILE")

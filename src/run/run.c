@@ -3,6 +3,7 @@
 #include "cli/archive.h"
 #include "cli/helper_exec.h"
 #include "cli/memory.h"
+#include "cli/motion.h"
 #include "cli/output.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
@@ -108,18 +109,48 @@ static void report_profile(Run *run) {
         petri_profile(run->frames.session, run->stats.output_seconds, write_message, NULL);
 }
 
-// Suggests commands that show the picture, if standard error is a terminal.
+// Returns true if a person is likely to read the messages: on a terminal, or if --show could not show the picture.
+static bool is_interactive(const Options *options) {
+    return isatty(STDERR_FILENO) || options->show;
+}
+
+// Suggests commands that show the picture.
 static void report_pictures(const Run *run) {
     const Options *options = run->frames.options;
-    if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_has_picture(run->frames.session) ||
+    if (options->verbosity != LOG_NORMAL || !is_interactive(options) || !petri_has_picture(run->frames.session) ||
         script_is_stdin(options->script))
         return;
     hint_pictures(run->host, options->script);
 }
 
+// Reports the systems and the digest of the state, if --show could not show the picture and no terminal is there either.
+static void report_result(const Run *run) {
+    enum { MAX_SYSTEMS = 4, DIGEST_BYTES = 16 };
+    const Options *options = run->frames.options;
+    if (options->verbosity != LOG_NORMAL || !options->show || isatty(STDERR_FILENO))
+        return;
+    PetriSystem system;
+    size_t count = 0;
+    for (; petri_system(run->frames.session, count, &system, sizeof system); count++) {
+        uint32_t moving = motion_count(&system);
+        if (count < MAX_SYSTEMS)
+            message("system %s: %" PRIu32 " particle%s", system.name, moving, moving == 1 ? "" : "s");
+    }
+    if (count > MAX_SYSTEMS)
+        message("and %zu more systems", count - MAX_SYSTEMS);
+    uint8_t digest[DIGEST_BYTES];
+    if (petri_digest(run->frames.session, digest) != PETRI_OK)
+        return;
+    char text[2 * DIGEST_BYTES + 1];
+    for (size_t i = 0; i < DIGEST_BYTES; i++)
+        snprintf(text + 2 * i, 3, "%02x", digest[i]);
+    message("digest of the state after frame %" PRId64 ": %s", petri_frame_number(run->frames.session), text);
+}
+
 static void report_summary(Run *run) {
-    Verbosity verbosity = run->frames.options->verbosity;
-    bool wanted = verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO));
+    const Options *options = run->frames.options;
+    Verbosity verbosity = options->verbosity;
+    bool wanted = verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && is_interactive(options));
     if (!wanted || run->output.error != 0)
         return;
     double seconds = clock_seconds() - run->frames.start;
@@ -168,6 +199,7 @@ static int run_frames(Run *run) {
         return STATUS_SIGNAL + frames_signal();
     if (frames_signal() != 0 || !going || !recorded || state_file_failed(&frames->state))
         return STATUS_FAILED;
+    report_result(run);
     report_pictures(run);
     return STATUS_DONE;
 }
@@ -282,6 +314,7 @@ static bool check_rank_options(const PetriRanks *ranks, Options *options) {
     if (ranks->rank > 0) { // only rank 0 writes output
         options->trajectory = options->archive = NULL;
         options->sections = 0;
+        options->show = false;
     }
     return true;
 }

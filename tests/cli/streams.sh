@@ -103,3 +103,25 @@ printf '# run --frames 5 --print log\n' >speaks.golden
 petri test --update speaks.fl
 petri test speaks.fl
 check "a golden can have only logs" has out "1 passed"
+
+# --show without a terminal.
+cat >two.fl <<'END'
+!physics state=:cells dimensions=2
+    !particle id=0 position=1;2
+    !particle id=1 position=5;2
+    !anchor id=2 position=0
+!physics state=:dust dimensions=2
+    !particle id=0 position=1;2
+END
+petri run two.fl --frames 3 --print digest
+digest=$(sed -n '$s/.* //p' out)
+petri run two.fl --frames 3
+check "without --show, nothing is reported" eval 'empty out && empty err'
+petri run two.fl --show --frames 3
+check "--show without a terminal prints nothing to standard output" eval 'status_is 0 && empty out'
+check "--show without a terminal reports the frames" has err "petri: 3 frames in "
+check "--show without a terminal reports the systems" eval 'has err "petri: system :cells: 2 particles" && has err "petri: system :dust: 1 particle"'
+check "--show without a terminal reports the digest" has err "petri: digest of the state after frame 2: $digest"
+check "--show without a terminal suggests a command" grep -q '^petri: to watch the script: .* view two.fl$' err
+petri run two.fl --show --frames 3 --quiet
+check "--quiet suppresses these reports" empty err
