@@ -32,12 +32,12 @@ pkg-config --exists sqlite3 : libsqlite3-dev
 "
 # For the Python module:
 PYTHON_NEEDS="
-/usr/bin/python3 -I -c 'import build'      : python3-build
-/usr/bin/python3 -I -c 'import cffi'       : python3-cffi
-/usr/bin/python3 -I -c 'import numpy'      : python3-numpy
-/usr/bin/python3 -I -c 'import pygments'   : python3-pygments
-/usr/bin/python3 -I -c 'import setuptools' : python3-setuptools
-/usr/bin/python3 -I -c 'import wheel'      : python3-wheel
+has_module build           : python3-build
+has_module cffi            : python3-cffi
+has_module numpy           : python3-numpy
+has_module pygments        : python3-pygments
+has_module setuptools      : python3-setuptools
+has_module wheel           : python3-wheel
 command -v python3-config : python3-dev
 "
 # For the tests; tests without their tool are skipped:
@@ -64,14 +64,14 @@ command -v appstreamcli   : appstream
 pkg-config --exists x11   : libx11-dev
 pkg-config --exists ompi-c: libopenmpi-dev openmpi-bin
 pkg-config --exists mpfr  : libmpfr-dev
-/usr/bin/python3 -I -c 'import h5py' : python3-h5py
-/usr/bin/python3 -I -c 'import xxhash' : python3-xxhash
-/usr/bin/python3 -I -c 'import yaml' : python3-yaml
+has_module h5py            : python3-h5py
+has_module xxhash          : python3-xxhash
+has_module yaml            : python3-yaml
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 "
 # To execute the notebooks of samples/ as Jupyter does; otherwise the tests execute their cells in order:
-NOTEBOOK_NEEDS="/usr/bin/python3 -I -c 'import ipykernel, nbconvert': python3-ipykernel python3-nbconvert"
+NOTEBOOK_NEEDS="has_module ipykernel nbconvert: python3-ipykernel python3-nbconvert"
 CLANG_NEEDS='command -v clang: clang'
 # The memory sanitizer of clang 14, Debian's default, does not support fstat of Debian's glibc.
 MEMORY_NEEDS='command -v clang-16: clang-16 libclang-rt-16-dev'
@@ -111,6 +111,7 @@ command -v lmp   : lammps
 command -v mpirun: openmpi-bin
 '
 PACKAGE_NEEDS='
+pkg-config --exists ompi-c  : libopenmpi-dev
 command -v dpkg-buildpackage: dpkg-dev
 command -v dh               : debhelper
 command -v dh_python3       : dh-python
@@ -128,6 +129,21 @@ WITHOUT='-Dauto_features=disabled -Dtests=false -Ddefault_library=static'
 CLEAN_INSTALL_NEEDS='command -v debootstrap: debootstrap'
 # Libraries that meson uses if they are installed. If this set changes, build folders are configured again.
 OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 sqlite3 json-c cmocka x11 ompi-c mpfr python3 tree-sitter'
+
+# present_modules NAME...: prints those of the modules that the system's Python has. Does not import them, which would take
+# long. -I prevents Python from finding the folder `build` as the module `build`.
+present_modules() {
+    /usr/bin/python3 -I -c 'import importlib.util, sys
+for name in sys.argv[1:]:
+    if importlib.util.find_spec(name):
+        print(name)' "$@" 2>/dev/null || true
+}
+
+# has_module NAME...: returns whether the system's Python has these modules.
+has_module() { [ "$(present_modules "$@" | wc -l)" -eq $# ]; }
+
+# note_installation: makes the build folders be configured again, because Meson looks for more than pkg-config knows.
+note_installation() { date +%s >"$root/build/packages-time"; }
 
 # missing NEEDS: prints the packages whose test commands fail.
 missing() {
@@ -191,6 +207,7 @@ need_elsewhere() {
         mkdir -p "$root/build"
         # shellcheck disable=SC2086 # packages are words
         quietly "$root/build/packages.log" brew install $names
+        note_installation
         return
     fi
     if command -v dnf >/dev/null; then
@@ -242,6 +259,7 @@ confirm() {
         return 0
     fi
     mkdir -p "$root/build"
+    say "packages are missing; reading their sizes"
     later=$(echo " $(missing "$TEST_NEEDS") " | tr ' ' '\n' | grep -vxF "$(echo "$1" | tr ' ' '\n')" | xargs)
     {
         read -r count download disk about
@@ -269,21 +287,39 @@ END
     : >"$agreed"
 }
 
+# refuse_root PACKAGES: reports that the user cannot install packages, and exits.
+refuse_root() {
+    die "cannot install packages: you are not root and cannot use sudo.
+Ask an administrator to run this command, then try again:
+  $(print_command "$1")"
+}
+
+# ask_sudo PACKAGES: lets sudo ask for the password, if it needs one.
+ask_sudo() {
+    ! sudo -n true 2>/dev/null || return 0
+    if [ -t 0 ] || [ -t 2 ]; then
+        ! sudo -v || return 0
+    fi
+    refuse_root "$1"
+}
+
+# check_sudo PACKAGES: exits if the user cannot use sudo. A user who must type a password is asked for it now if the user is
+# in none of the groups that usually may use sudo; others are first asked whether to install the packages.
+check_sudo() {
+    [ "$(id -u)" -ne 0 ] || return 0
+    command -v sudo >/dev/null || refuse_root "$1"
+    case " $(id -Gn) " in
+    *' sudo '* | *' wheel '* | *' admin '*) [ ! -t 0 ] && [ ! -t 2 ] || return 0 ;;
+    esac
+    ask_sudo "$1"
+}
+
 # become_root PACKAGES: sets `as_root` to the prefix that runs a command as root.
 become_root() {
     as_root=
     [ "$(id -u)" -ne 0 ] || return 0
     as_root=sudo
-    if command -v sudo >/dev/null; then
-        # Asks for the password now, because later output goes to a log.
-        ! sudo -n true 2>/dev/null || return 0
-        if [ -t 0 ] || [ -t 2 ]; then
-            ! sudo -v || return 0
-        fi
-    fi
-    die "cannot install packages: you are not root and cannot use sudo.
-Ask an administrator to run this command, then try again:
-  $(print_command "$1")"
+    ask_sudo "$1" # now, because later output goes to a log
 }
 
 install_packages() {
@@ -333,6 +369,7 @@ need() {
         need_elsewhere "$packages"
         return 0
     }
+    check_sudo "$packages"
     confirm "$packages"
     become_root "$packages"
     mkdir -p "$root/build"
@@ -356,6 +393,7 @@ END
     following "$root/build/packages.log" follow_installation install_packages --no-install-recommends \
         -o Dpkg::Options::=--force-unsafe-io -o DPkg::Lock::Timeout=600 install $packages ||
         explain_failure "$root/build/packages.log" "$packages"
+    note_installation
     packages=$(missing "$1")
     [ -z "$packages" ] || die "still missing after the installation: $packages"
 }

@@ -19,31 +19,51 @@ follow_tests() {
     done
 }
 
-# choose_tests [--all | NAME...]: sets `chosen` to the tests and `folders` to the folders of scripts with these names or in
-# these suites; without names, to all that are not in the suite `thorough`; with --all, to all. Sets `omitted` to the suites
-# that do not run.
-choose_tests() {
-    folders=
+# Lists the folders of scripts that tests can name.
+script_folders() {
     for folder in tests/golden tests/conformance samples; do
-        [ ! -d $folder ] || folders="$folders $folder"
+        [ ! -d "$root/$folder" ] || echo $folder
     done
-    omitted='--no-suite scripts'
-    [ $# -gt 0 ] || omitted="$omitted --no-suite thorough"
-    # shellcheck disable=SC2086 # options are words
-    list=$(meson test -C build --no-rebuild $omitted --list 2>/dev/null | sed -n 's|^\([^ ]*\) / |\1 |p')
-    chosen=$(echo "$list" | sed 's/.* //')
-    [ $# -gt 0 ] && [ "$1" != --all ] || return 0
-    present=$folders
-    chosen='' folders=''
-    for name; do
-        found=$(echo "$list" | awk -v name="$name" '$NF == name || (":" $1 "+") ~ ("[:+]" name "[+]") { print $NF }')
-        for folder in $present; do
-            [ "${folder##*/}" != "$name" ] || folders="$folders $folder" found="$found "
-        done
-        [ -n "$found" ] || die "no such test or suite: '$name'; for a list, run: meson test -C build --list"
-        chosen="$chosen $found"
-    done
-    chosen=$(echo "$chosen" | tr -s ' ' '\n' | awk 'NF && !seen[$0]++')
+}
+
+# unlikely_names NAME...: prints those names that no test, suite or folder of scripts can have, because meson.build does not
+# contain their parts. Meson need not be installed.
+unlikely_names() {
+    {
+        script_folders | sed 's|.*/||'
+        find "$root/tests" -name meson.build -exec sed -e '/^ *#/d' {} +
+    } | tr -cs 'A-Za-z0-9' '\n' | awk -- '
+        BEGIN {
+            for (i = 1; i < ARGC; i++)
+                name[i] = ARGV[i]
+            count = ARGC
+            ARGC = 1 # reads standard input
+        }
+        { parts[$0] }
+        END {
+            for (i = 1; i < count; i++) {
+                bad = name[i] == ""
+                n = split(name[i], word, "[-_]")
+                for (j = 1; j <= n; j++)
+                    bad = bad || !(word[j] in parts)
+                if (bad)
+                    print name[i]
+            }
+        }' "$@"
+}
+
+# reject_names NAMES: if there are lines in NAMES, reports the first as unknown, and exits.
+reject_names() {
+    [ -z "$1" ] || reject test "no such test or suite: '$(echo "$1" | head -n 1)'; tests/README.md lists the suites"
+}
+
+# choose_tests [--all | NAME...]: sets `chosen` to the tests and `targets` to what they need ('': everything). Exits if a
+# NAME is unknown.
+choose_tests() {
+    facts=$(python3 "$root/.ci/tests.py" "$root/build" "$@")
+    reject_names "$(echo "$facts" | sed -n 's/^unknown //p')"
+    chosen=$(echo "$facts" | sed -n 's/^test //p')
+    targets=$(echo "$facts" | sed -n 's/^target //p')
 }
 
 # Prints the tests that were skipped, each with its reason.
@@ -55,20 +75,49 @@ skipped_tests() {
         END { for (name in all) print "skipped: " name ": no reason given" }' "$1"
 }
 
-# run_tests [--all | NAME...]: builds, runs the tests and prints the results.
+# run_tests [--all | NAME...]: builds what the tests need, runs them and prints the results.
 run_tests() {
-    build "$TEST_NEEDS" ''
+    all_folders=$(script_folders)
+    case ${1:-} in
+    '' | --all)
+        omitted='--no-suite scripts'
+        [ $# -gt 0 ] || omitted="$omitted --no-suite thorough"
+        folders=$all_folders
+        prepare "$TEST_NEEDS"
+        choose_tests "$@"
+        targets='' names=''
+        ;;
+    *)
+        reject_names "$(unlikely_names "$@")"
+        omitted='' folders='' other=''
+        for name; do
+            found=$(echo "$all_folders" | grep -E "(^|/)$name\$") || other="$other $name"
+            folders="$folders $found"
+        done
+        targets='' chosen=''
+        if [ -n "$other" ]; then
+            prepare "$TEST_NEEDS"
+            # Meson's lists must be those of the sources.
+            quietly "$root/build/setup.log" ninja -C "$root/build" build.ninja
+            # shellcheck disable=SC2086 # names are words
+            choose_tests $other
+        else
+            prepare "$RUN_NEEDS"
+        fi
+        [ -z "$(echo "$folders" | xargs)" ] || targets="$targets src/petri"
+        names=$chosen
+        ;;
+    esac
+    make_targets "$root/build" "$targets"
     cd "$root"
     log=build/tests.log scripts=build/scripts.log
     code=0 good=0 bad=0 failed=''
     : >"$log"
-    choose_tests "$@"
-    if [ $# -eq 0 ] || [ -n "$chosen" ]; then
+    if [ -n "$chosen" ]; then
         # Runs more tests in parallel than there are processors, because some tests mostly wait.
-        [ "${1:-}" != --all ] || shift
         # shellcheck disable=SC2086 # options and names are words
         following $log follow_tests meson test -C build --no-rebuild $omitted --print-errorlogs \
-            --num-processes "$(($(nproc) + 2))" ${1:+$chosen} || code=1
+            --num-processes "$(($(nproc) + 2))" $names || code=1
         # Removes the lines of passed tests, also within a failed program. Keeps a test case that did not end.
         sed -e '/^\[ *RUN *\]/{' -e N -e '/\n\[ *OK *\]/d' -e '}' "$log" |
             grep -v -e '^ninja: ' -e ' OK  ' -e '^Full log' -e '^$' -e ':  *0 *$' -e '^ok ' || true

@@ -12,6 +12,7 @@ print_details() {
         sed "s/^/  $file: /" $file | tail -n 15
     done
 }
+python=$(python3 -c 'import sys; print(sys.executable)')
 lines_at_most() { [ "$(wc -l <"$1")" -le "$2" ]; }
 
 # fake_tool NAME: creates a program in $work from the shell script on standard input. The program records its calls.
@@ -24,8 +25,8 @@ fake_tool() {
 # machine: creates a new machine with the project and basic tools. The user is root, and there is a network.
 machine() {
     rm -rf "$work/bin" "$work/later" "$project" "$work/fonts" "$work/lists" "$work/mesa"
-    mkdir -p "$work/bin" "$work/later" "$project/.ci" "$work/fonts/truetype/dejavu" "$work/mesa/dri"
-    for tool in awk cat chmod cp cut dirname echo env fold grep head ln ls mkdir mktemp mv nproc rm sed sh sleep sort stty tail tee touch \
+    mkdir -p "$work/bin" "$work/later" "$project/.ci" "$project/tests" "$work/fonts/truetype/dejavu" "$work/mesa/dri"
+    for tool in awk cat chmod cksum cp cut date dirname echo env find fold grep head ln ls mkdir mktemp mv nproc rm rmdir sed sh sleep sort stty tail tee touch \
         tr true wc xargs; do
         ln -s "$(PATH=/usr/bin:/bin env which $tool)" "$work/bin/$tool"
     done
@@ -33,10 +34,11 @@ machine() {
     cp "$root"/.ci/* "$project/.ci"
     sed -i "s|/usr/share/fonts|$work/fonts|; s|/usr/lib/\*|$work/mesa|;
             s|:/usr/sbin:/sbin||; s|/usr/bin/python3|$work/bin/python3|" "$project/dev" "$project/.ci"/*
+    echo "tests = {'quick': 'base', 'slow': 'view', 'other': 'base', 'whole': 'lint'}" >"$project/tests/meson.build"
     : >"$work/calls"
-    uid=0 network=yes breaks=
+    uid=0 groups=users network=yes breaks=
     fake_tool bin/id <<'END'
-case $1 in -un) echo somebody ;; *) echo "$FAKE_UID" ;; esac
+case $1 in -un) echo somebody ;; -Gn) echo "$FAKE_GROUPS" ;; *) echo "$FAKE_UID" ;; esac
 END
     fake_tool bin/apt-get <<'END'
 case " $* " in
@@ -81,7 +83,11 @@ case " $* " in
         dh-python) package=dh_python3 ;;
         xz-utils) package=xz ;;
         abigail-tools) package=abidiff ;;
-        python3-*) package=python3 ;;
+        python3-*)
+            touch "$WORK/later/$package"
+            package=python3
+            ;;
+        meson) cp "$WORK/later/python3" "$WORK/bin" ;;
         fonts-dejavu-core) touch "$WORK/fonts/truetype/dejavu/DejaVuSans.ttf" ;;
         fonts-liberation) mkdir -p "$WORK/fonts/truetype/liberation" ;;
         fonts-dejavu-extra) touch "$WORK/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf" ;;
@@ -117,11 +123,44 @@ cmocka) test -e "$WORK/later/libcmocka-dev" ;;
 x11) test -e "$WORK/later/libx11-dev" ;;
 esac
 END
+    fake_tool later/python3 <<END
+[ "\$1" = -I ] || exec "$python" "\$@"
+shift 3
+for module; do [ ! -e "\$WORK/later/python3-\$module" ] || echo "\$module"; done
+END
     fake_tool later/meson <<'END'
 case "$*" in
 setup*--reconfigure*) ;;
-setup*) mkdir -p "$2" && touch "$2/build.ninja" ;;
-test*--list*) printf 'petri:base / quick\npetri:view / slow\npetri:base / other\n' ;;
+setup*)
+    mkdir -p "$2/meson-info"
+    touch "$2/build.ninja"
+    build=$(cd "$2" && pwd)
+    cat >"$2/meson-info/intro-tests.json" <<JSON
+[{"name": "quick", "suite": ["petri:base"], "cmd": ["$build/quick"], "depends": ["quick@exe"]},
+ {"name": "slow", "suite": ["petri:view"], "cmd": ["slow.sh", "$build/src/petri"], "depends": ["petri@exe"]},
+ {"name": "other", "suite": ["petri:base"], "cmd": ["$build/other"], "depends": ["quick@exe", "other@sta"]},
+ {"name": "whole", "suite": ["petri:lint", "petri:thorough"], "cmd": ["whole.sh", "$build"], "depends": []}]
+JSON
+    cat >"$2/meson-info/intro-targets.json" <<JSON
+[{"id": "quick@exe", "name": "quick", "type": "executable", "filename": ["$build/tests/quick"]},
+ {"id": "other@sta", "name": "other", "type": "static library", "filename": ["$build/lib/libother.a"]},
+ {"id": "petri@exe", "name": "petri", "type": "executable", "filename": ["$build/src/petri"]},
+ {"id": "ranks@exe", "name": "petri-ranks", "type": "executable", "filename": ["$build/src/petri-ranks"]}]
+JSON
+    ;;
+install*)
+    prefix=$(cat "$WORK/prefix")
+    created=
+    [ -d "$prefix/share/petri" ] || created=$prefix/share/petri
+    mkdir -p "$3/meson-logs" "$prefix/bin" "$prefix/share/petri"
+    echo new >"$prefix/bin/petri"
+    echo script >"$prefix/share/petri/my dish.fl"
+    printf '# made by Meson\n%s\n' "$prefix/bin/petri" "$prefix/share/petri/my dish.fl" "$created" >"$3/meson-logs/install-log.txt"
+    ;;
+configure*-Dprefix=*)
+    prefix=${3#-Dprefix=}
+    echo "$prefix" >"$WORK/prefix"
+    ;;
 test*)
     mkdir -p build/meson-logs
     cat >build/meson-logs/testlog.txt <<'LOG'
@@ -185,7 +224,7 @@ END
 
 # on_machine COMMAND...: runs a command in the machine's environment.
 on_machine() {
-    env -i PATH="$work/bin" HOME="$work" WORK="$work" FAKE_UID="$uid" NETWORK="$network" BREAKS="$breaks" "$@"
+    env -i PATH="$work/bin" HOME="$work" WORK="$work" FAKE_UID="$uid" FAKE_GROUPS="$groups" NETWORK="$network" BREAKS="$breaks" "$@"
 }
 # dev ARGUMENTS...: runs ./dev without a terminal.
 dev() {
@@ -274,8 +313,24 @@ dev test samples
 check "test FOLDER runs no other tests" lacks calls "--print-errorlogs"
 check "test FOLDER counts the scripts of the folder" [ "$(tail -n 1 "$work/out")" = "5 passed, 0 failed" ]
 dev test ase
-check "test rejects an unknown name" status_is 1
+check "test rejects an unknown name" status_is 2
 check "test reports the unknown name" has err "no such test or suite: 'ase'"
+check "test rejects an unknown name before it compiles" empty calls
+dev test quick-lint
+check "test rejects an unknown name that consists of parts of others" status_is 2
+check "test rejects it before it compiles" [ "$(grep ninja calls)" = "ninja -C $project/build build.ninja" ]
+dev test quick
+check "test NAME builds only what the test needs" has calls "ninja -C $project/build tests/quick"
+check "test NAME builds nothing else" lacks calls "src/petri"
+dev test base
+check "test SUITE builds what the tests of the suite need" has calls "ninja -C $project/build tests/quick lib/libother.a"
+dev test slow
+check "test NAME builds petri and the programs that petri starts" has calls "ninja -C $project/build src/petri src/petri-ranks"
+dev test lint
+check "a test that reads the build folder needs everything" has calls "ninja -C $project/build all"
+dev test golden
+check "test FOLDER builds only petri" has calls "ninja -C $project/build src/petri"
+check "test FOLDER does not ask for the tests" lacks calls "meson"
 touch "$project/golden-fails"
 dev test
 check "test names a folder with failed scripts" has out "log: build/tests.log; to repeat: ./dev test golden"
@@ -397,8 +452,53 @@ check "package makes packages" has calls "package.sh $project/build/package"
 check "package installs the packaging tools" grep -q 'apt-get .*install.* dpkg-dev debhelper dh-python' calls
 check "package installs the build dependencies" has calls libsdl2-dev
 check "package reports the folder" has err "packages are in $project/build/package"
-dev package --dynamic
-check "package rejects unknown options" has err "unknown option: '--dynamic'; package takes --test, --wheel, --manylinux, --static or --vscode"
+check "package installs libraries that only the packages need" has calls libopenmpi-dev
+
+# Python modules are not known to pkg-config.
+machine
+dev build
+check "build builds all programs" has calls "ninja -C $project/build programs lib/session/libpetri.a"
+dev package --wheel
+check "package --wheel installs Python modules" has calls " python3-build python3-cffi"
+check "package --wheel configures again after an installation" has calls "meson setup --reconfigure"
+dev package --wheel
+check "a second package --wheel does not configure" lacks calls meson
+rm "$work/later/python3-wheel"
+touch "$work/later/python3-yaml"
+on_machine sh -c 'cd "$1" && . .ci/progress.sh && . .ci/packages.sh && has_module yaml cffi && ! has_module yaml wheel' - "$project"
+status=$?
+check "modules are found" status_is 0
+
+machine
+for arguments in 'run' 'test --foo' 'test --all quick' 'build x' 'install /a /b' 'install --prefix' 'package --dynamic' 'package --wheel --test' \
+    'dist x' 'sanitize --address' 'fuzz --minutes' 'fuzz --minutes x' 'fuzz --minutes 1 --seconds 1' 'fuzz nosuch' 'mutate nosuch' \
+    'mutate --count x' 'coverage x' 'format --chek' 'tidy --depe' 'maths x' 'maths 0' 'crash-test 1 2' 'hashes x' 'gallery x' 'web --serve x' \
+    'web 8080' 'figures x' 'clean-install --user' 'setup some' 'help nosuch' 'completion x' 'nosuch' 'test nosuch' 'test quick nosuch'; do
+    # shellcheck disable=SC2086 # arguments are words
+    dev $arguments
+    check "'$arguments' is rejected" eval 'status_is 2 && has err "dev: " && has err "usage: ./dev " && empty out && empty calls'
+done
+for subcommand in $(sed -n "/<<'END'/,/^END/s/^\([a-z][a-z-]*\)[ :].*/\1/p" "$project/.ci/commands.sh"); do
+    dev "$subcommand" --help
+    check "'$subcommand --help' prints the usage" eval 'status_is 0 && has out "usage: ./dev $subcommand" && empty err && empty calls'
+done
+dev run dish.fl --help
+check "'run FILE --help' prints the usage" has out "usage: ./dev run"
+dev help web
+check "'help SUBCOMMAND' prints the usage" has out "usage: ./dev web"
+dev
+check "without arguments, the overview is printed" eval 'status_is 2 && has err "  crash-test [COUNT]"'
+dev help
+check "help prints the overview" eval 'status_is 0 && has out "  crash-test [COUNT]"'
+# completed WORD...: prints the completions of the last word.
+completed() {
+    bash -c "$(cat completion)"'; COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _petri_dev; echo "${COMPREPLY[*]}"' -- "$@"
+}
+dev completion
+cp out completion
+check "subcommands are completed" [ "$(completed ./dev gal)" = gallery ]
+check "options are completed" [ "$(completed ./dev package --ma)" = --manylinux ]
+check "words are completed" [ "$(completed ./dev setup a)" = all ]
 
 machine
 dev install "$work/some where"
@@ -476,11 +576,16 @@ if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null;
     check "run prints the command to install packages after no" has out "apt-get install --no-install-recommends gcc"
     check "run installs nothing after no" lacks calls "apt-get -qy update"
     touch "$work/lists"
-    uid=1000
+    uid=1000 groups='users sudo'
     with_sudo all
     typed n run dish.fl
     check "run reads sizes from the package lists" has out "packages (3 with dependencies, 61 MB to download, 212 MB of disk space,"
     check "run reads package lists without sudo" lacks calls sudo
+    with_sudo nothing
+    groups=users
+    typed y run dish.fl
+    check "a user without sudo is not asked" lacks out "[Y/n]"
+    check "a user without sudo gets the command" has out "  apt-get install --no-install-recommends gcc"
     uid=0
     typed '' run dish.fl
     check "run asks again after no, and Enter means yes" has out "this is petri"
