@@ -111,6 +111,17 @@ int helper_exec_lsp(char **argv) {
 #endif
 }
 
+// Returns a hint for a missing petri-ranks. `folder` is that of this program.
+static const char *ranks_hint(char folder[PATH_MAX + 64]) {
+#ifdef HAVE_MPI
+    strcat(folder, "../build.ninja");
+    return access(folder, F_OK) == 0 ? "; run './dev build', which builds it" : "; on Debian, install petri-mpi";
+#else
+    (void)folder;
+    return "; petri was built without MPI; on Debian, install libopenmpi-dev and build petri again";
+#endif
+}
+
 int helper_exec_ranks(char **argv, bool needed) {
     int rank = 0, count = 0;
     if (!mpirun_rank(&rank, &count))
@@ -120,8 +131,7 @@ int helper_exec_ranks(char **argv, bool needed) {
     if (cause == ENOENT && !needed)
         return -1;
     if (rank == 0) {
-        message("cannot start petri-ranks: %s%s", strerror(cause),
-                cause == ENOENT ? "; on Debian, install petri-mpi, or libopenmpi-dev and build petri again" : "");
+        message("cannot start petri-ranks: %s%s", strerror(cause), cause == ENOENT ? ranks_hint(path) : "");
     }
     return STATUS_FAILED;
 }

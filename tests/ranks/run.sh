@@ -135,6 +135,17 @@ END
 ranks 3 sweep limit.fl -D 'A=1;2;1000;4' --work 5M --frames 2 --metric a=A -o limit.csv
 check "a failed run is a row on any rank" [ "$(cut -d, -f1-4 limit.csv | tail -n 3 | tr '\n' ' ')" = "2,2,1,2 3,1000,0, 4,4,1,4 " ]
 
+# A build or an installation without petri-ranks.
+mkdir -p built/src installed/bin
+cp "$petri" built/src
+cp "$petri" installed/bin
+touch built/build.ninja
+timeout 100 mpirun -n 2 built/src/petri run stars.fl --frames 1 >out 2>err </dev/null
+check "without petri-ranks, a build folder names the command that builds it" count_is err \
+    "cannot start petri-ranks: No such file or directory; run './dev build', which builds it" 1
+timeout 100 mpirun -n 2 installed/bin/petri run stars.fl --frames 1 >out 2>err </dev/null
+check "without petri-ranks, an installation names the package" count_is err "; on Debian, install petri-mpi" 1
+
 # Archives: the ranks share the segments.
 if "$petri" run dish.fl --frames 60 --keyframe-every 10 --archive run.petri 2>err; then
     for count in 1 3 8; do
