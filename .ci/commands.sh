@@ -15,6 +15,7 @@ test [--all | NAME...]: build, then run the tests of the program, or those named
   --all   also run slow tests, as CI does: pages, limits, faults, windows, ranks, hashes, packages
 build: make a release build with windows and video; the program is build/petri
 install [PREFIX]: build, then install petri in PREFIX (default: /usr/local for root, else ~/.local)
+uninstall [PREFIX]: remove what `./dev install` installed in PREFIX (default: as for install)
 package [--test | --wheel | --manylinux | --static | --vscode]: make Debian packages in build/package
   --test       also install and test them on a minimal Debian system
   --wheel      make a Python wheel there instead

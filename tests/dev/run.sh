@@ -473,7 +473,8 @@ machine
 for arguments in 'run' 'test --foo' 'test --all quick' 'build x' 'install /a /b' 'install --prefix' 'package --dynamic' 'package --wheel --test' \
     'dist x' 'sanitize --address' 'fuzz --minutes' 'fuzz --minutes x' 'fuzz --minutes 1 --seconds 1' 'fuzz nosuch' 'mutate nosuch' \
     'mutate --count x' 'coverage x' 'format --chek' 'tidy --depe' 'maths x' 'maths 0' 'crash-test 1 2' 'hashes x' 'gallery x' 'web --serve x' \
-    'web 8080' 'figures x' 'clean-install --user' 'setup some' 'help nosuch' 'completion x' 'nosuch' 'test nosuch' 'test quick nosuch'; do
+    'web 8080' 'figures x' 'clean-install --user' 'setup some' 'help nosuch' 'completion x' 'nosuch' 'test nosuch' 'test quick nosuch' \
+    'uninstall a b'; do
     # shellcheck disable=SC2086 # arguments are words
     dev $arguments
     check "'$arguments' is rejected" eval 'status_is 2 && has err "dev: " && has err "usage: ./dev " && empty out && empty calls'
@@ -496,7 +497,7 @@ completed() {
 }
 dev completion
 cp out completion
-check "subcommands are completed" [ "$(completed ./dev gal)" = gallery ]
+check "subcommands are completed" [ "$(completed ./dev un)" = uninstall ]
 check "options are completed" [ "$(completed ./dev package --ma)" = --manylinux ]
 check "words are completed" [ "$(completed ./dev setup a)" = all ]
 
@@ -504,6 +505,27 @@ machine
 dev install "$work/some where"
 check "install compiles first" grep -q 'ninja .* installed' "$work/calls"
 check "install uses the given prefix" has calls "meson configure $project/build -Dprefix=$work/some where"
+mkdir -p "$work/other/bin"
+dev install "$work/other"
+dev uninstall "$work/some where"
+check "uninstall removes the files" eval 'status_is 0 && has err "removed 2 files from $work/some where"'
+check "uninstall removes the folder that install created" [ ! -e "$work/some where/share/petri" ]
+check "uninstall installs and compiles nothing" empty calls
+dev uninstall "$work/some where"
+check "uninstall reports that nothing is installed" eval 'status_is 1 && has err "nothing to uninstall"'
+echo changed >>"$work/other/share/petri/my dish.fl"
+echo mine >"$work/other/bin/mine"
+dev uninstall "$work/other"
+check "uninstall keeps changed files" eval 'has err "  $work/other/share/petri/my dish.fl" && exists "$work/other/share/petri/my dish.fl"'
+check "uninstall keeps other files" exists "$work/other/bin/mine"
+check "uninstall removes the program" [ ! -e "$work/other/bin/petri" ]
+mkdir -p "$work/old/share/petri" "$work/old/bin"
+echo old | tee "$work/old/bin/petri-old" | cksum | sed 's|$| bin/petri-old|' >"$work/old/share/petri/installed.txt"
+dev install "$work/old"
+dev uninstall "$work/old"
+check "uninstall removes files of earlier versions" [ ! -e "$work/old/bin/petri-old" ]
+check "uninstall keeps folders that existed before" exists "$work/old/share/petri"
+dev install "$work/some where"
 check "install uses meson" has calls "meson install -C $project/build --no-rebuild"
 check "install prints the line that extends PATH" has err "  export PATH=\"\$HOME/some where/bin:\$PATH\""
 dev install
