@@ -111,6 +111,7 @@ command -v lmp   : lammps
 command -v mpirun: openmpi-bin
 '
 PACKAGE_NEEDS='
+dpkg-query --show build-essential : build-essential
 pkg-config --exists ompi-c  : libopenmpi-dev
 command -v dpkg-buildpackage: dpkg-dev
 command -v dh               : debhelper

@@ -21,12 +21,13 @@ first_is_in_second() {
 
 sed -n '/^Build-Depends:/,/^$/s/^ \([a-z0-9.+-]*\).*/\1/p' "$root/src/packaging/debian/control" |
     sed 's/^debhelper-compat$/debhelper/' | sort >build_depends
+echo build-essential >>build_depends # each Debian package needs it
 packages_in "$BUILD_NEEDS
 $PYTHON_NEEDS
 $PACKAGE_NEEDS" >package_needs
 check "Build-Depends is found" [ "$(wc -l <build_depends)" -gt 15 ]
 check "./dev package installs Build-Depends" first_is_in_second build_depends package_needs
-# libc6-dev is in build-essential, which each Debian package needs.
+# build-essential needs libc6-dev.
 packages_in "$BUILD_NEEDS" | grep -e '^lib.*-dev$' -e '^zlib' | grep -vx libc6-dev >libraries
 check "Build-Depends has all libraries that ./dev build installs" first_is_in_second libraries build_depends
 sed -n "/^foreach name, row/,/^}/s/^ .*, '\([^']*\)'\],\$/\1/p" "$root/meson.build" | tr ' ' '\n' | sort >optional
