@@ -578,6 +578,7 @@ if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null;
     machine
     typed y run dish.fl
     check "run asks on a terminal" has out "[Y/n]"
+    check "run prints a line before it reads sizes" has out "dev: packages are missing; reading their sizes"
     check "run asks only once" count_is out "[Y/n]" 1
     check "run names the packages" has out "gcc libc6-dev meson ninja-build"
     check "run estimates sizes without package lists" has out \
