@@ -1,197 +1,22 @@
-// kernel_pair.c: computes all pairs of a pass in tiles of LANES x LANES. Only tiles on the diagonal compute pairs
-// twice.
-//
-// A tile has LANES targets in the lanes (its rows) and processes LANES partners (its columns) one after the other. The
-// terms are added to the rows' sums immediately, in ascending order of partners. Then the tile is transposed, and the
-// terms are subtracted from the columns' sums in ascending order of rows. Tiles are processed row by row, so every
-// particle sums its partners in ascending order, as in pair_rows.c.
-#include "physics/pair_geometry.h"
-
-// The rows of a tile.
-typedef struct Rows {
-    PairEnd target;
-    Mask live;
-    Mask lead; // rows on which the leading force (pair_geometry.h) can act
-    Real sum[PHYS_VECTOR_DIMENSIONS];
-} Rows;
-
-// Adds all forces between the `live` rows and column j, which is number k in its tile. If `lead_applies` is set, the
-// leading force is known to act on the column; otherwise this is tested. `tile` receives the terms to subtract from the
-// sum of the column; NULL: they are not needed.
-KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool lead_applies,
-                       Tile *tile, size_t k) {
-    const PairEnd *target = &rows->target;
-    PairEnd partner = pair_partner(pass, shape, j);
-    PairGeometry pair;
-    if (!pair_geometry(shape, target, &partner, live, &pair))
-        return;
-    if (shape.lead != LEAD_NONE) {
-        Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid, false, false};
-        Mask applies = pair.valid & rows->lead;
-        if (!lead_applies)
-            applies = real_differs_where(applies, pair_source(lead_need(shape), &partner), real_zero());
-        Real coefficient = lead_coefficient(shape, &pairs);
-        add_term(shape, &pair, applies, coefficient, rows->sum, tile ? tile->lead : NULL, k);
-    }
-    if (shape.rest != REST_NONE)
-        add_rest(pass, shape, &pair, target, &partner, rows->sum, tile, k);
-}
-
-// Subtracts component m of the terms of all forces from the columns' sums in *total. The order is row by row, and
-// within a row the order of the forces.
-static void finish_mixed(const PairPass *pass, Tile *tile, bool lead, size_t m, Real *total) {
-    for (size_t t = 0; t < pass->term_count; t++)
-        if (tile->hits >> t & 1)
-            real_transpose(tile->rest[t][m]);
-    for (size_t k = 0; k < LANES; k++) {
-        if (lead)
-            *total = *total - tile->lead[m][k];
-        for (size_t t = 0; t < pass->term_count; t++)
-            if (tile->hits >> t & 1)
-                *total = *total - tile->rest[t][m][k];
-    }
-}
-
-// Subtracts the terms of a tile from the columns' sums.
-KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_t j, size_t columns) {
-    bool lead = shape.lead != LEAD_NONE, mixed = shape.rest != REST_NONE && tile->hits;
-    if (!lead && !mixed)
-        return;
-    for (size_t m = 0; m < shape.dimensions; m++) {
-        double *force = pass->force + m * pass->stride + j;
-        Real total = real_load(force);
-        if (lead)
-            real_transpose(tile->lead[m]);
-        if (mixed) {
-            finish_mixed(pass, tile, lead, m, &total);
-        } else {
-#pragma GCC unroll 8
-            for (size_t k = 0; k < LANES; k++)
-                total -= tile->lead[m][k];
-        }
-        if (columns == LANES)
-            real_store(force, total);
-        else
-            real_store_where(mask_first(columns), force, total);
-    }
-}
-
-// Returns true if the leading force acts on all LANES columns from `j`.
-KERNEL bool lead_acts_on_all(const PairPass *pass, PairShape shape, size_t j) {
-    ForceNeed need = lead_need(shape);
-    if (need == NEED_NOTHING)
-        return true;
-    const double *sources = need == NEED_MASS ? pass->mass : need == NEED_CHARGE ? pass->charge : pass->radius;
-    Real source = real_load(sources + j);
-    return mask_bits(real_differs_where(mask_first(LANES), source, real_zero())) == (1u << LANES) - 1;
-}
-
-KERNEL void full_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j) {
-    Tile tile;
-    tile.hits = 0;
-#pragma GCC unroll 8
-    for (size_t k = 0; k < LANES; k++)
-        add_column(pass, shape, rows, rows->live, j + k, true, &tile, k);
-    finish_tile(pass, shape, &tile, j, LANES);
-}
-
-// Computes a tile that has fewer than LANES columns, or columns on which the leading force does not act.
-KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j, size_t columns) {
-    Tile tile;
-    tile.hits = 0;
-    if (shape.lead != LEAD_NONE)
-        clear_terms(tile.lead);
-    for (size_t k = 0; k < columns; k++)
-        add_column(pass, shape, rows, rows->live, j + k, false, &tile, k);
-    finish_tile(pass, shape, &tile, j, columns);
-}
-
-// Computes a tile on the diagonal, in which each particle is both a row and a column. So each pair is computed twice,
-// and only the sums of the rows are needed.
-KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
-    for (size_t k = 0; k < count; k++) {
-        Mask self = mask_first(k + 1) & mask_not(mask_first(k));
-        add_column(pass, shape, rows, rows->live & mask_not(self), i + k, false, NULL, 0);
-    }
-}
-
-// Computes up to LANES rows with all their columns. In a triangle, the diagonal tile comes first, then the columns to
-// its right.
-KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t count, size_t column, size_t column_end,
-                     bool triangle) {
-    Rows rows = {.target = pair_targets(pass, shape, i), .live = mask_first(count)};
-    rows.lead = real_differs_where(rows.live, pair_source(lead_need(shape), &rows.target), real_zero());
-    for (size_t m = 0; m < shape.dimensions; m++)
-        rows.sum[m] = real_load(pass->force + m * pass->stride + i);
-    if (triangle)
-        diagonal_tile(pass, shape, &rows, i, count);
-    size_t j = triangle ? i + count : column;
-    for (; j < column_end; j += LANES)
-        if (j + LANES <= column_end && lead_acts_on_all(pass, shape, j))
-            full_tile(pass, shape, &rows, j);
-        else
-            partial_tile(pass, shape, &rows, j, column_end - j < LANES ? column_end - j : LANES);
-    for (size_t m = 0; m < shape.dimensions; m++)
-        real_store_where(rows.live, pass->force + m * pass->stride + i, rows.sum[m]);
-}
-
-KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t row_end, size_t column,
-                      size_t column_end, bool triangle) {
-    for (size_t i = row; i < row_end && !phys_pass_stopped(pass); i += LANES)
-        tile_row(pass, shape, i, row_end - i < LANES ? row_end - i : LANES, column, column_end, triangle);
-}
-
-// The kernels. Dimensions, lead and rest are constants in each.
-#define PAIR_KERNEL(n, name, lead, rest)                                                                               \
-    static void triangle_##n##name##rest(const PairPass *pass, size_t first, size_t end) {                             \
-        tile_rows(pass, (PairShape){n, lead, rest, false}, first, end, 0, end, true);                                  \
-    }                                                                                                                  \
-    static void tiles_##n##name##rest(const PairPass *pass, size_t row, size_t row_end, size_t column,                 \
-                                      size_t column_end) {                                                             \
-        tile_rows(pass, (PairShape){n, lead, rest, false}, row, row_end, column, column_end, false);                   \
-    }
-#define PAIR_ENTRY(n, name, lead, rest) [n - 1][lead][rest] = {triangle_##n##name##rest, tiles_##n##name##rest},
-
-// Every force whose range can be unlimited has kernels in which it is the lead, in 1, 2 and 3 dimensions.
-#define LEAD_CONTACT(MAKE, KIND)
-#define LEAD_FAR(MAKE, KIND)                                                                                           \
-    MAKE(1, KIND, PHYS_##KIND, REST_NONE)                                                                              \
-    MAKE(1, KIND, PHYS_##KIND, REST_CONTACT)                                                                           \
-    MAKE(2, KIND, PHYS_##KIND, REST_NONE)                                                                              \
-    MAKE(2, KIND, PHYS_##KIND, REST_CONTACT)                                                                           \
-    MAKE(3, KIND, PHYS_##KIND, REST_NONE)                                                                              \
-    MAKE(3, KIND, PHYS_##KIND, REST_CONTACT)
-#define LEADERLESS(MAKE)                                                                                               \
-    MAKE(1, NONE, LEAD_NONE, REST_CONTACT)                                                                             \
-    MAKE(1, NONE, LEAD_NONE, REST_ANY)                                                                                 \
-    MAKE(2, NONE, LEAD_NONE, REST_CONTACT)                                                                             \
-    MAKE(2, NONE, LEAD_NONE, REST_ANY)                                                                                 \
-    MAKE(3, NONE, LEAD_NONE, REST_CONTACT)                                                                             \
-    MAKE(3, NONE, LEAD_NONE, REST_ANY)
-
-#define PAIR(KIND, name, SIGN, SOURCE, REACH) LEAD_##REACH(PAIR_KERNEL, KIND)
-PHYS_FORCES(PAIR, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)
-LEADERLESS(PAIR_KERNEL)
-#undef PAIR
-
-#define PAIR(KIND, name, SIGN, SOURCE, REACH) LEAD_##REACH(PAIR_ENTRY, KIND)
-static const PairKernel pair_kernels[PHYS_VECTOR_DIMENSIONS][LEAD_NONE + 1][REST_ANY + 1] = {
-    PHYS_FORCES(PAIR, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW) LEADERLESS(PAIR_ENTRY)};
-#undef PAIR
+// kernel_pair.c: chooses the kernels that compute all pairs of a pass, and lists all kernels of an instruction set.
+#include "physics/kernel_pair.h"
 
 static bool needs_contact(const PairTerm *term) {
     return phys_force_row(term->kind).reach == REACH_CONTACT;
 }
 
 static const PairKernel *pair_kernel(const PairPass *pass) {
+    static const PairKernelTable *const tables[PHYS_VECTOR_DIMENSIONS] = {
+        &PER_ISA(pair_kernels_1d), &PER_ISA(pair_kernels_2d), &PER_ISA(pair_kernels_3d)};
+    const PairKernelTable *table = tables[pass->dimensions - 1];
     const PairTerm *first = pass->terms;
     int lead = needs_contact(first) || first->bound < INFINITY ? (int)LEAD_NONE : (int)first->kind;
     size_t others = lead != LEAD_NONE;
     PairRest rest = pass->term_count == others ? REST_NONE : REST_CONTACT;
     for (size_t t = others; t < pass->term_count; t++)
         if (!needs_contact(&pass->terms[t]))
-            return &pair_kernels[pass->dimensions - 1][LEAD_NONE][REST_ANY];
-    return &pair_kernels[pass->dimensions - 1][lead][rest];
+            return &(*table)[LEAD_NONE][REST_ANY];
+    return &(*table)[lead][rest];
 }
 
 const Kernels PER_ISA(phys_kernels) = {

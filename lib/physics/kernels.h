@@ -114,8 +114,7 @@ typedef struct Kernels {
     const FarKernels *far;
 } Kernels;
 
-// kernel_list.c, kernel_search.c, kernel_integrate.c, kernel_pair.c and kernel_far.c, compiled once per instruction
-// set.
+// Functions of the files kernel_*.c, which are compiled once per instruction set.
 #define ISA_KERNELS(isa)                                                                                               \
     bool list_refresh_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                     \
     void list_search_##isa(const struct ListSearch *search, struct ListChunk *part);                                   \

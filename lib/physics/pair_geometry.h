@@ -115,7 +115,7 @@ KERNEL Mask pair_in_contact(const PairGeometry *pair) {
     return real_less_where(pair->valid, pair->length, pair->reach);
 }
 
-// The terms that a tile (kernel_pair.c) subtracts from the sums of its columns, by component and column. Each lane is a
+// The terms that a tile (pair_tiles.h) subtracts from the sums of its columns, by component and column. Each lane is a
 // row of the tile.
 typedef struct Tile {
     Real lead[PHYS_VECTOR_DIMENSIONS][LANES];

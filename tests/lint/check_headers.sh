@@ -17,6 +17,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
         pkg-config --exists pangocairo 2>/dev/null || continue
         isa=$(pkg-config --cflags pangocairo)
         ;;
+    lib/physics/pair_tiles.h) isa=-DLANES=2 ;; # tiles need several lanes
     src/web/*) continue ;; # for WebAssembly only
     src/hdf5/*)
         pkg-config --exists hdf5 2>/dev/null || continue

@@ -1,0 +1,6 @@
+// kernel_pair_1d.c: all pairs in one dimension.
+#include "physics/pair_tiles.h"
+
+enum { DIMENSIONS = 1 };
+
+DEFINE_PAIR_KERNELS(PER_ISA(pair_kernels_1d))

@@ -1,0 +1,6 @@
+// kernel_pair_3d.c: all pairs in three dimensions.
+#include "physics/pair_tiles.h"
+
+enum { DIMENSIONS = 3 };
+
+DEFINE_PAIR_KERNELS(PER_ISA(pair_kernels_3d))
