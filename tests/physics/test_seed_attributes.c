@@ -242,7 +242,7 @@ static void test_ease_is_linear(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(seed_attributes) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_floats),
         cmocka_unit_test(test_body_floats),

@@ -128,7 +128,7 @@ static void test_normals(void **state) {
     world_close(&world);
 }
 
-int main(void) {
+TEST_GROUP(seed_barriers) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bounce),
         cmocka_unit_test(test_soft),

@@ -125,7 +125,7 @@ static void test_ids(void **state) {
     world_close(&world);
 }
 
-int main(void) {
+TEST_GROUP(seed_bodies) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_particles),
         cmocka_unit_test(test_anchors),

@@ -162,7 +162,7 @@ static void test_ease_runs_on_the_clock(void **state) {
     CHECK_CASES(cases);
 }
 
-int main(void) {
+TEST_GROUP(seed_clock) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_keys),           cmocka_unit_test(test_resolution),
         cmocka_unit_test(test_two_steps),      cmocka_unit_test(test_real_time),

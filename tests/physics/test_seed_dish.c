@@ -185,7 +185,7 @@ static void test_tempo(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(seed_dish) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_constrained), cmocka_unit_test(test_clumps),   cmocka_unit_test(test_no_overlap),
         cmocka_unit_test(test_equilibrium), cmocka_unit_test(test_eased_in), cmocka_unit_test(test_tempo),

@@ -122,7 +122,7 @@ static void test_ids_across_groups(void **state) {
     CHECK_CASES(cases);
 }
 
-int main(void) {
+TEST_GROUP(seed_groups) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reach),
         cmocka_unit_test(test_sight),

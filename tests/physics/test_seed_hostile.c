@@ -332,7 +332,7 @@ static void test_long_keys(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(seed_hostile) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_odd_numbers),    cmocka_unit_test(test_dimensions), cmocka_unit_test(test_endless_steps),
         cmocka_unit_test(test_clock_overflow), cmocka_unit_test(test_jumps),      cmocka_unit_test(test_many_forces),

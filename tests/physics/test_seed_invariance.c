@@ -155,7 +155,7 @@ static void test_embedded(void **state) {
             NEAR(numbers[1][i * 5 + k], k < 2 ? numbers[0][i * 2 + k] : 0, 0);
 }
 
-int main(void) {
+TEST_GROUP(seed_invariance) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_frame_rates), cmocka_unit_test(test_exact_frame_rates), cmocka_unit_test(test_translated),
         cmocka_unit_test(test_permuted),    cmocka_unit_test(test_embedded),

@@ -402,7 +402,7 @@ static void test_drag_takes_energy(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(seed_laws) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_momentum),
         cmocka_unit_test(test_spring_period),

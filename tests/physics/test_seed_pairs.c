@@ -206,7 +206,7 @@ static void test_direction(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(seed_pairs) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_collision), cmocka_unit_test(test_gravity),  cmocka_unit_test(test_electrostatic),
         cmocka_unit_test(test_adhesion),  cmocka_unit_test(test_distance), cmocka_unit_test(test_direction),

@@ -243,7 +243,7 @@ static void test_silence(void **state) {
     world_close(&world);
 }
 
-int main(void) {
+TEST_GROUP(seed_reports) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shapes),
         cmocka_unit_test(test_changing_values),

@@ -209,7 +209,7 @@ static void test_random_is_normal(void **state) {
     world_close(&world);
 }
 
-int main(void) {
+TEST_GROUP(seed_singles) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_constant),     cmocka_unit_test(test_field),
         cmocka_unit_test(test_drag),         cmocka_unit_test(test_buoyancy),

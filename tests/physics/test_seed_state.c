@@ -199,7 +199,7 @@ static void test_reload(void **state) {
     world_close(&world);
 }
 
-int main(void) {
+TEST_GROUP(seed_state) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_several_systems), cmocka_unit_test(test_all_keys),
         cmocka_unit_test(test_shared_prefix),   cmocka_unit_test(test_counters),

@@ -1,6 +1,7 @@
 // world.h: helpers that run a script from a string and read its printed state, with petri.h only.
 #pragma once
 
+#include "groups.h"
 #include "last_frame.h"
 #include "petri-inspect.h"
 

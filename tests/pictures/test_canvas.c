@@ -679,7 +679,7 @@ static void test_bad_input_is_reported_once(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(canvas) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_blend_modes_match_model),
         cmocka_unit_test(test_filter_blend),

@@ -258,7 +258,7 @@ static void test_exact_numbers_of_spec(void **state) {
     drawn_close(&drawn);
 }
 
-int main(void) {
+TEST_GROUP(effects) {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exact_numbers_of_spec),
         cmocka_unit_test(test_combining),
@@ -269,6 +269,5 @@ int main(void) {
         cmocka_unit_test(test_noise),
         cmocka_unit_test(test_flare),
     };
-    enum { SKIP = 77 };
-    return drawn_can_run() ? cmocka_run_group_tests(tests, NULL, NULL) : SKIP;
+    return drawn_can_run() ? cmocka_run_group_tests(tests, NULL, NULL) : GROUP_SKIPPED;
 }

@@ -341,8 +341,7 @@ static void test_memory_limit_is_reported_once(void **state) {
     }
 }
 
-int main(int argc, char **argv) {
-    (void)argv;
+TEST_GROUP(tree) {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ids_refer_to_pictures),
         cmocka_unit_test(test_memory_limit_is_reported_once),
@@ -355,8 +354,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(test_bad_input_is_reported_once),
     };
     static const struct CMUnitTest without[] = {cmocka_unit_test(test_without_gpu_children_are_drawn)};
-    enum { SKIP = 77 };
     if (argc > 1)
         return cmocka_run_group_tests(without, NULL, NULL);
-    return drawn_can_run() ? cmocka_run_group_tests(tests, NULL, NULL) : SKIP;
+    return drawn_can_run() ? cmocka_run_group_tests(tests, NULL, NULL) : GROUP_SKIPPED;
 }

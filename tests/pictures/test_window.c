@@ -200,7 +200,7 @@ static void test_gl_must_be_adopted_first(void **state) {
     petri_painter_close(&painter);
 }
 
-int main(void) {
+TEST_GROUP(window) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_window_equals_file),
         cmocka_unit_test(test_canvas_is_drawn_at_window_size),
@@ -209,12 +209,11 @@ int main(void) {
         cmocka_unit_test(test_without_picture),
         cmocka_unit_test(test_gl_must_be_adopted_first),
     };
-    enum { SKIPPED = 77 };
     if (!drawn_can_run())
-        return SKIPPED;
+        return GROUP_SKIPPED;
     if (!open_window()) {
         printf("skipped: EGL has no windows in memory here\n");
-        return SKIPPED;
+        return GROUP_SKIPPED;
     }
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

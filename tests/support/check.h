@@ -1,6 +1,8 @@
 // check.h: cmocka and the headers it needs, and assertions that name the failed row of a table.
 #pragma once
 
+#include "groups.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -222,7 +222,7 @@ static void test_overflowing_sizes_escape(void **state) {
     arena_free(&attempt.arena);
 }
 
-int main(void) {
+TEST_GROUP(base_arena) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_allocations_are_aligned),
         cmocka_unit_test(test_allocations_do_not_overlap),

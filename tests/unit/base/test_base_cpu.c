@@ -36,7 +36,7 @@ static void test_requested_level_is_limited(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(base_cpu) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_environment_limits_detected_level),
                                        cmocka_unit_test(test_requested_level_is_limited)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -151,7 +151,7 @@ static void test_one_line_form_names_location(void **state) {
     assert_text("location", str_to_c(&arena, diag_one_line(&arena, &diag)), "bad (a.fl:2)");
 }
 
-int main(void) {
+TEST_GROUP(base_diag) {
     const struct CMUnitTest tests[] = {
         DIAG_TEST(test_caret_marks_span),
         DIAG_TEST(test_control_characters_are_replaced),

@@ -161,7 +161,7 @@ static void test_links_made_after_the_check_are_not_followed(void **state) {
     remove_files(left, sizeof left / sizeof left[0]);
 }
 
-int main(void) {
+TEST_GROUP(base_file) {
     const struct CMUnitTest tests[] = {
         FILE_TEST(test_read_respects_limit),         FILE_TEST(test_version_changes_with_file),
         FILE_TEST(test_canonical_path_has_no_links), FILE_TEST(test_normalise_removes_dots),

@@ -127,7 +127,7 @@ static void test_hash_has_known_values(void **state) {
     assert_true(hash_mix(1) == UINT64_C(0x5692161d100b05e5)); // expected value from the finaliser of SplitMix64
 }
 
-int main(void) {
+TEST_GROUP(base_hash_index) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_empty_index_finds_nothing), cmocka_unit_test(test_added_keys_are_found),
         cmocka_unit_test(test_index_matches_model),       cmocka_unit_test(test_deleted_slots_are_reclaimed),

@@ -88,7 +88,7 @@ static void test_writes_what_the_host_knows(void **state) {
     assert_false(host_struct_write(NULL, sizeof found, &defaults, sizeof defaults));
 }
 
-int main(void) {
+TEST_GROUP(base_host_struct) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reads_shorter_structs_with_defaults),
         cmocka_unit_test(test_reads_longer_structs_unless_unknown_fields_are_set),

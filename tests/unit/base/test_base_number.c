@@ -206,7 +206,7 @@ static void test_floor_matches_c(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(base_number) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_floor_matches_c),         cmocka_unit_test(test_known_numbers_are_printed),
         cmocka_unit_test(test_powers_of_two_read_back), cmocka_unit_test(test_random_numbers_read_back),

@@ -170,7 +170,7 @@ static void test_stale_files_are_removed(void **state) {
     check_content(".petri-0123456789abcdef.tmp.mine", "another's");
 }
 
-int main(void) {
+TEST_GROUP(base_replace) {
     const struct CMUnitTest tests[] = {
         FILE_TEST(test_file_is_replaced),
         FILE_TEST(test_permissions_are_kept),

@@ -47,7 +47,7 @@ static void test_hashes_match_standard(void **state) {
             assert_string_equal(hashed(rows[i].text, rows[i].count, pieces[j]), rows[i].hash);
 }
 
-int main(void) {
+TEST_GROUP(base_sha256) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_hashes_match_standard)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,7 +121,7 @@ static void test_paths_are_split_and_joined(void **state) {
                     joins[i].joined);
 }
 
-int main(void) {
+TEST_GROUP(base_source) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_line_ends_are_unified, setup, teardown),
         cmocka_unit_test_setup_teardown(test_offsets_are_located, setup, teardown),

@@ -218,7 +218,7 @@ static void test_split_keeps_empty_parts(void **state) {
     assert_null(str_split(&rest, ','));
 }
 
-int main(void) {
+TEST_GROUP(base_str) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_utf8_round_trip),
         cmocka_unit_test(test_utf8_rejects_ill_formed_bytes),

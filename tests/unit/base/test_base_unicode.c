@@ -50,7 +50,7 @@ static void test_printable_characters(void **state) {
         assert_false(unicode_is_printable(unprintable[i]));
 }
 
-int main(void) {
+TEST_GROUP(base_unicode) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_classes_match_name_ranges),
         cmocka_unit_test(test_name_characters),

@@ -332,7 +332,7 @@ static void test_cache_is_limited(void **state) {
     assert_true(check(world, "read('a.txt') => 'text'"));
 }
 
-int main(void) {
+TEST_GROUP(files) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_read_returns_contents, place_setup, place_teardown),
         cmocka_unit_test_setup_teardown(test_failures_are_reported_once, place_setup, place_teardown),

@@ -190,7 +190,7 @@ static void test_any_argument_names_give_valid_results(void **state) {
                 }
 }
 
-int main(void) {
+TEST_GROUP(hostile) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_equal_arguments_give_valid_results, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_argument_pairs_give_valid_results, world_setup, world_teardown),

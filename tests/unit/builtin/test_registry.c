@@ -126,7 +126,7 @@ static void test_callbacks_are_optional(void **state) {
     assert_true(same_value(builtin_call(&world->context, builtin_find(STR("debug")), &one, 1, NULL, NULL, 0), one));
 }
 
-int main(void) {
+TEST_GROUP(registry) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_all_functions_exist),
         cmocka_unit_test(test_table_is_sorted),

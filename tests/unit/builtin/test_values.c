@@ -530,7 +530,7 @@ static void test_functions_apply_to_each_element(void **state) {
     assert_true(tried > 25);
 }
 
-int main(void) {
+TEST_GROUP(values) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_maths_matches_specification, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_plane_geometry_matches_specification, world_setup, world_teardown),

@@ -5,6 +5,7 @@
 #include "builtin/builtin.h"
 #include "builtin/files.h"
 #include "builtin/noise.h"
+#include "groups.h"
 
 #include <math.h>
 #include <setjmp.h>

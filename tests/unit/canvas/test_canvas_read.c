@@ -151,7 +151,7 @@ static void test_unsupported_nodes(void **state) {
     end(&f);
 }
 
-int main(void) {
+TEST_GROUP(canvas_read) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_attributes_have_types),
         cmocka_unit_test(test_bad_attributes_are_reported),

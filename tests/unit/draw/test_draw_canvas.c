@@ -225,7 +225,7 @@ static void test_deep_layers_are_drawn(void **state) {
     assert_near("deep", pixels[9], (Colour){1, 0, 0, 1}, 0);
 }
 
-int main(void) {
+TEST_GROUP(draw_canvas) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_blend_modes_match_formulas),    PLAYER_TEST(test_stroke_modes),
         PLAYER_TEST(test_linear_light_adds_whole_bytes), PLAYER_TEST(test_paint_gives_expected_pixel),

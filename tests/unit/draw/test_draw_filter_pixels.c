@@ -143,7 +143,7 @@ static void test_noise_repeats_in_tiles(void **state) {
     assert_int_equal(petri_noise_draw(tiled, IDENTITY, pixels, 1 << 20, 1 << 20), PETRI_INVALID);
 }
 
-int main(void) {
+TEST_GROUP(draw_filter_pixels) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_offset_moves_the_drawing),
         cmocka_unit_test(test_shadow_lies_below_the_drawing),

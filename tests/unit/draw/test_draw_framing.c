@@ -160,7 +160,7 @@ static void test_view_of_degenerate_systems(void **state) {
     assert_true(isfinite(scene.frame.half) && shows(&scene, 1e300, 0));
 }
 
-int main(void) {
+TEST_GROUP(draw_framing) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_view_shows_all_bodies),          cmocka_unit_test(test_view_only_grows),
         cmocka_unit_test(test_view_does_not_follow_lone_body), cmocka_unit_test(test_scale_bar_has_round_length),

@@ -177,7 +177,7 @@ static void test_estimated_work_follows_pixels_and_mode(void **state) {
     assert_true(large < source && source < multiply && multiply < hue);
 }
 
-int main(void) {
+TEST_GROUP(draw_painter) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_bars_beside_picture_are_black), PLAYER_TEST(test_background_of_svg_is_black),
         PLAYER_TEST(test_detail_reduces_resolution),     PLAYER_TEST(test_older_picture_is_drawn_again),

@@ -570,7 +570,7 @@ static void test_host_backend_draws_canvases(void **state) {
     petri_painter_close(&painter);
 }
 
-int main(void) {
+TEST_GROUP(draw_pictures) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_no_fonts_without_text),
         PLAYER_TEST(test_select_windows),

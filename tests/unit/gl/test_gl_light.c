@@ -509,7 +509,7 @@ static void test_example_of_spec(void **state) {
     assert_int_equal(pixels[SIZE * SIZE / 2 + SIZE / 2] & 0xffffff, 0xfcfcfc);
 }
 
-int main(void) {
+TEST_GROUP(gl_light) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_walls_match_model),
                                        cmocka_unit_test(test_spheres_match_model),
                                        cmocka_unit_test(test_example_of_spec)};

@@ -473,7 +473,7 @@ static void test_hull_extremes(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(gl_mesh) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_box, setup, teardown),
         cmocka_unit_test_setup_teardown(test_sphere, setup, teardown),

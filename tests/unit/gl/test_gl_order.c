@@ -278,7 +278,7 @@ static void test_limits_are_reported_once(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(gl_order) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_which_spheres_become_discs), cmocka_unit_test(test_transparent_instances_are_sorted),
         cmocka_unit_test(test_disc_rim_touches_sphere), cmocka_unit_test(test_disc_mesh_is_regular),

@@ -143,7 +143,7 @@ static void test_sine_of_turns_matches_remquo(void **state) {
     assert_number("whole", turns_sin(0x1p60), 0);
 }
 
-int main(void) {
+TEST_GROUP(maths_arrays) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_arrays_match_scalars), cmocka_unit_test(test_result_may_overwrite_arguments),
         cmocka_unit_test(test_uniform_array_matches_items), cmocka_unit_test(test_normals_match_items),

@@ -196,7 +196,7 @@ static void test_reduction_is_within_error(void **state) {
     mpfr_clear(pi);
 }
 
-int main(void) {
+TEST_GROUP(maths_fixed) {
     mpfr_inits2(BITS, a, b, c, d, (mpfr_ptr)0);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_arithmetic_is_within_error), cmocka_unit_test(test_rounding_matches_mpfr),

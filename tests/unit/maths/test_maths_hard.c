@@ -113,7 +113,7 @@ static void test_range_limits_are_rounded_correctly(void **state) {
     assert_int_equal(wrong, 0);
 }
 
-int main(void) {
+TEST_GROUP(maths_hard) {
     model_start();
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_listed_cases_are_rounded_correctly),
                                        cmocka_unit_test(test_powers_of_two_are_rounded_correctly),

@@ -109,7 +109,7 @@ static void test_sine_of_turns_matches_remquo(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(maths_random) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sine_of_turns_matches_remquo),     cmocka_unit_test(test_raw_items_match_spec),
         cmocka_unit_test(test_seed_hash_matches_spec),           cmocka_unit_test(test_uniform_items_match_spec),

@@ -63,7 +63,7 @@ static void test_results_have_recorded_bits(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(maths_same) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_results_have_recorded_bits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

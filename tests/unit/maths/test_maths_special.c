@@ -257,7 +257,7 @@ static void test_functions_are_symmetric(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(maths_special) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_unary_special_values), cmocka_unit_test(test_binary_special_values),
         cmocka_unit_test(test_new_nan_has_no_sign), cmocka_unit_test(test_functions_are_symmetric)};

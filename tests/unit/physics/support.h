@@ -1,6 +1,7 @@
 // support.h: small helpers for the tests of lib/physics.
 #pragma once
 
+#include "groups.h"
 #include "physics/system.h"
 
 #include <math.h>

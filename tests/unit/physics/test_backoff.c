@@ -137,7 +137,7 @@ static void test_tuner_picks_faster(void **state) {
     assert_true(play_tuner(&tuner, 20, 12) < 12.3);
 }
 
-int main(void) {
+TEST_GROUP(backoff) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_quiet),      cmocka_unit_test(test_busy),
         cmocka_unit_test(test_disturbed),  cmocka_unit_test(test_quiet_again),

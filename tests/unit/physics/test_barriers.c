@@ -180,7 +180,7 @@ static void test_speed_of_light(void **state) {
     phys_free(system);
 }
 
-int main(void) {
+TEST_GROUP(barriers) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_elastic),
         cmocka_unit_test(test_restitution),

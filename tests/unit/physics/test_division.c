@@ -106,7 +106,7 @@ static void test_far_forces_are_gathered(void **state) {
     phys_free(plain);
 }
 
-int main(void) {
+TEST_GROUP(division) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_hooks_replace_parts_of_a_frame),
                                        cmocka_unit_test(test_far_forces_are_gathered)};
     return cmocka_run_group_tests(tests, NULL, NULL);

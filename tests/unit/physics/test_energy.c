@@ -197,7 +197,7 @@ static void test_energy_is_conserved(void **state) {
                     2);
 }
 
-int main(void) {
+TEST_GROUP(energy) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_forces_are_gradients),
         cmocka_unit_test(test_forces_without_potential),

@@ -294,7 +294,7 @@ static void test_interrupt_between_charges(void **state) {
     phys_free(system);
 }
 
-int main(void) {
+TEST_GROUP(explain) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_random_systems),
         cmocka_unit_test(test_each_force),

@@ -270,7 +270,7 @@ static void test_explanations(void **state) {
     phys_free(system);
 }
 
-int main(void) {
+TEST_GROUP(far) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_errors_shrink_with_theta),
         cmocka_unit_test(test_theta_without_effect),

@@ -348,7 +348,7 @@ static void test_changed_force(void **state) {
     phys_free(system);
 }
 
-int main(void) {
+TEST_GROUP(forces) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_distance),
         cmocka_unit_test(test_distance_powers),

@@ -149,7 +149,7 @@ static void test_new_description(void **state) {
     phys_free(system);
 }
 
-int main(void) {
+TEST_GROUP(groups) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sight),           cmocka_unit_test(test_link_across),
         cmocka_unit_test(test_handles),         cmocka_unit_test(test_singles_reach_subgroups),

@@ -184,7 +184,7 @@ static void test_a_million_groups(void **state) {
     phys_free(system);
 }
 
-int main(void) {
+TEST_GROUP(hostile) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_extreme_numbers),  cmocka_unit_test(test_stays_inside),
         cmocka_unit_test(test_infinite_force),   cmocka_unit_test(test_all_at_one_point),

@@ -64,9 +64,9 @@ static void test_spheres(void **state) {
     compare_with_limit(3, 11);
 }
 
-int main(void) {
+TEST_GROUP(limit) {
     if (cpu_detected.level < CPU_AVX512)
-        return 77; // skipped, because the kernel needs AVX-512
+        return GROUP_SKIPPED; // skipped, because the kernel needs AVX-512
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_discs), cmocka_unit_test(test_spheres)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

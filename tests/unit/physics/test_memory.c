@@ -110,7 +110,7 @@ static void test_records(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(memory) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_records),
         cmocka_unit_test(test_warm_frame),

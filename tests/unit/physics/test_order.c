@@ -73,7 +73,7 @@ static void test_order_is_visible(void **state) {
     phys_free(system);
 }
 
-int main(void) {
+TEST_GROUP(order) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_dimension),    cmocka_unit_test(test_two_dimensions),
         cmocka_unit_test(test_three_dimensions), cmocka_unit_test(test_four_dimensions),

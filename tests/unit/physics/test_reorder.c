@@ -326,7 +326,7 @@ static void test_strips(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(reorder) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels),
                                        cmocka_unit_test(test_kept_forces),
                                        cmocka_unit_test(test_interrupted_frames_leave_no_trace),

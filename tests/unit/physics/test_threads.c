@@ -132,7 +132,7 @@ static void test_chunk_counts(void **state) {
     phys_free(system);
 }
 
-int main(void) {
+TEST_GROUP(threads) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_each_chunk_runs_once),
         cmocka_unit_test(test_systems_share_threads),

@@ -107,7 +107,7 @@ static void test_empty_system(void **state) {
     phys_free(NULL);
 }
 
-int main(void) {
+TEST_GROUP(timestep) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lockstep),          cmocka_unit_test(test_crumbs),
         cmocka_unit_test(test_real_time),         cmocka_unit_test(test_no_progress),

@@ -326,7 +326,7 @@ static void test_far_in_groups(void **state) {
     check_scene(&scene);
 }
 
-int main(void) {
+TEST_GROUP(variants) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_small),         cmocka_unit_test(test_contact),       cmocka_unit_test(test_bounded),
         cmocka_unit_test(test_unbounded),     cmocka_unit_test(test_moved_at_once), cmocka_unit_test(test_nested),

@@ -91,7 +91,7 @@ static void test_limit(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(work) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_particles), cmocka_unit_test(test_single_forces),
                                        cmocka_unit_test(test_pair_forces), cmocka_unit_test(test_limit)};
     return cmocka_run_group_tests(tests, NULL, NULL);

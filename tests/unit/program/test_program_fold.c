@@ -111,7 +111,7 @@ static void test_include_paths_are_folded(void **state) {
                 "move r0 = 5\nadd r1 = 5 1\nnode r2 = (v=r1) none included\nreturn r2\n");
 }
 
-int main(void) {
+TEST_GROUP(program_fold) {
     const struct CMUnitTest tests[] = {
         DESK_TEST(test_constants_are_folded),        DESK_TEST(test_constant_branches_are_pruned),
         DESK_TEST(test_static_evaluation_requests),  DESK_TEST(test_closures_are_folded_once),

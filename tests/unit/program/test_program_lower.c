@@ -149,7 +149,7 @@ static void test_memory_per_statement(void **state) {
     assert_true(desk->program.used < STATEMENTS * MAX_BYTES);
 }
 
-int main(void) {
+TEST_GROUP(program_lower) {
     const struct CMUnitTest tests[] = {DESK_TEST(test_instructions),          DESK_TEST(test_calls),
                                        DESK_TEST(test_nodes_and_loops),       DESK_TEST(test_node_batches),
                                        DESK_TEST(test_instruction_positions), DESK_TEST(test_memory_per_statement)};

@@ -84,7 +84,7 @@ static void test_default_outside_range_is_reported(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(program_parameters) {
     const struct CMUnitTest tests[] = {DESK_TEST(test_parameters_are_found), DESK_TEST(test_definition_keeps_default),
                                        DESK_TEST(test_default_outside_range_is_reported)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -118,7 +118,7 @@ static void test_exports(void **state) {
     assert_null(program_find_export(program, name_of(&desk->world, "p")));
 }
 
-int main(void) {
+TEST_GROUP(program_scope) {
     const struct CMUnitTest tests[] = {
         DESK_TEST(test_slots),
         DESK_TEST(test_captures),

@@ -33,7 +33,7 @@ static void test_curve_visits_adjacent_cells(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(hilbert) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_curve_visits_adjacent_cells)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -214,7 +214,7 @@ static void test_open_rejects_other_files(void **state) {
     }
 }
 
-int main(int argc, char **argv) {
+TEST_GROUP(recording_damage) {
     stride = argc > 1 ? strtoul(argv[1], NULL, 10) : stride;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_open_rejects_other_files),

@@ -318,7 +318,7 @@ static void test_functions_reject_missing_arguments(void **state) {
     petri_archive_close(NULL);
 }
 
-int main(void) {
+TEST_GROUP(recording_replay) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_replay_computes_recorded_frames),
         cmocka_unit_test(test_replay_starts_at_any_frame),

@@ -168,7 +168,7 @@ static void test_ids_are_charged(void **state) {
     free_stage(&stage);
 }
 
-int main(void) {
+TEST_GROUP(scene_mirror) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_vanished),
         WORLD_TEST(test_forces),

@@ -143,7 +143,7 @@ static void test_mistakes_are_reported(void **state) {
     end(&f);
 }
 
-int main(void) {
+TEST_GROUP(schema_reader) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_help_shows_defaults),         cmocka_unit_test(test_rows_are_consistent),
         cmocka_unit_test(test_values_are_limited),          cmocka_unit_test(test_vectors_match_dimensions),

@@ -203,7 +203,7 @@ static void test_default_values(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(scene_attributes) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_malformed_attributes_are_reported),
         PLAYER_TEST(test_unknown_attributes_are_reported),

@@ -116,7 +116,7 @@ static void test_continued_systems_match_restored(void **state) {
     folder_close(&folder);
 }
 
-int main(void) {
+TEST_GROUP(scene_binding) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_continued_systems_match_restored),
     };

@@ -168,7 +168,7 @@ static void test_invalid_counters_are_reported(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(scene_counters) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_values),
         PLAYER_TEST(test_keys),

@@ -188,7 +188,7 @@ static void test_state_stays_finite(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(scene_extremes) {
     const struct CMUnitTest tests[] = {PLAYER_TEST(test_state_stays_finite)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -216,7 +216,7 @@ static void test_input_nodes_can_disappear(void **state) {
     assert_non_null(strstr(player_state(player), "$:other = 1\n"));
 }
 
-int main(void) {
+TEST_GROUP(scene_input) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_without_reports_nothing_is_written),
         PLAYER_TEST(test_pointer),

@@ -261,7 +261,7 @@ static void test_step_limit(void **state) {
     assert_non_null(strstr(player_diagnostics(player), "[step-limit]"));
 }
 
-int main(void) {
+TEST_GROUP(scene_particles) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_first_frames),
         PLAYER_TEST(test_anchors),

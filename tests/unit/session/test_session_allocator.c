@@ -323,7 +323,7 @@ static int restore_heap(void **state) {
     return petri_set_allocator(NULL) == PETRI_OK ? 0 : -1;
 }
 
-int main(void) {
+TEST_GROUP(session_allocator) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_everything_is_released, restore_heap),
         cmocka_unit_test_teardown(test_failing_allocation_leaks_nothing, restore_heap),

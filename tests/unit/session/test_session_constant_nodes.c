@@ -67,7 +67,7 @@ static void test_new_program_changes_generation(void **state) {
     petri_config_free(config);
 }
 
-int main(void) {
+TEST_GROUP(session_constant_nodes) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_constant_children_keep_address),
         PLAYER_TEST(test_changing_children_are_not_marked),

@@ -48,7 +48,7 @@ static void test_digest_does_not_depend_on_threads(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(session_digest) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_digest_does_not_depend_on_threads)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

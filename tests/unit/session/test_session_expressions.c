@@ -176,7 +176,7 @@ static void test_expression_edge_cases(void **state) {
     check_all(*state, false, checks, COUNT_OF(checks));
 }
 
-int main(void) {
+TEST_GROUP(session_expressions) {
     const struct CMUnitTest tests[] = {PLAYER_TEST(test_examples_of_specification),
                                        PLAYER_TEST(test_expression_edge_cases)};
     return cmocka_run_group_tests(tests, NULL, NULL);

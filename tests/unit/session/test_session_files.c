@@ -441,7 +441,7 @@ static void test_files_are_reported_when_they_are_read(void **state) {
     free(files.text);
 }
 
-int main(void) {
+TEST_GROUP(session_files) {
     const struct CMUnitTest tests[] = {
         DESK_TEST(test_import),
         DESK_TEST(test_only_allowed_folders_are_read),

@@ -150,7 +150,7 @@ static void test_invalid_functions_are_rejected(void **state) {
     petri_call_error(NULL, "");
 }
 
-int main(void) {
+TEST_GROUP(session_functions) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_calls),
         PLAYER_TEST(test_results_are_copied),

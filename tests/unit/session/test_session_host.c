@@ -518,7 +518,7 @@ static void test_version_and_status_texts(void **state) {
     assert_string_equal(petri_status_text((PetriStatus)100), "unknown status");
 }
 
-int main(void) {
+TEST_GROUP(session_host) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_retained_diagnostics),
         PLAYER_TEST(test_version_and_status_texts),

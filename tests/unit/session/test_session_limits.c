@@ -141,7 +141,7 @@ static void test_large_constants_are_not_folded(void **state) {
     assert_text("tree", player_tree(player), "!a v=8000000\n!b v=1\n");
 }
 
-int main(void) {
+TEST_GROUP(session_limits) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_work_limit_aborts_frame),        PLAYER_TEST(test_memory_limit_aborts_frame),
         PLAYER_TEST(test_abort_leaves_state_unchanged),   PLAYER_TEST(test_work_is_summed),

@@ -577,7 +577,7 @@ static int tear_down(void **state) {
     return 0;
 }
 
-int main(void) {
+TEST_GROUP(session_memory) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_failed_allocations_change_nothing, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_step_without_rollback_continues, set_up, tear_down),

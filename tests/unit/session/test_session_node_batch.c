@@ -143,7 +143,7 @@ static void test_memory_per_particle(void **state) {
     assert_true(bytes > (size_t)COUNT * 100 && bytes <= (size_t)COUNT * EACH);
 }
 
-int main(void) {
+TEST_GROUP(session_node_batch) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_batched_nodes_match_single_nodes),
         PLAYER_TEST(test_scripts_see_single_nodes),

@@ -356,7 +356,7 @@ static void test_recompiling_does_not_parse(void **state) {
     folder_close(&folder);
 }
 
-int main(void) {
+TEST_GROUP(session_parameters) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_parameters_are_recognised),
         PLAYER_TEST(test_comments),

@@ -340,7 +340,7 @@ static void test_reload_rejects_pipe(void **state) {
     folder_close(&folder);
 }
 
-int main(void) {
+TEST_GROUP(session_promises) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_texts_stay_valid),
         PLAYER_TEST(test_toggles_rewind),

@@ -279,7 +279,7 @@ static void test_prompt_needs_script(void **state) {
     assert_null(petri_source_file(player->session, 0));
 }
 
-int main(void) {
+TEST_GROUP(session_prompt) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_values),
         PLAYER_TEST(test_statements_persist),

@@ -512,7 +512,9 @@ static void test_empty_halos_send_two_numbers(void **state) {
     }
 }
 
-int main(int argc, char **argv) {
+TEST_GROUP(session_ranks) {
+    if (argc < 2)
+        return GROUP_SKIPPED; // no folders
     scripts_set_folders(argc, argv);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scripts_match_single_process), cmocka_unit_test(test_ranks_match_single_rank),

@@ -255,7 +255,7 @@ static void test_clock_changes_do_not_jump(void **state) {
     assert_float_equal(last_frame(player->session).tempo, 120, 0);
 }
 
-int main(void) {
+TEST_GROUP(session_rewind) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_snapshot_restores_session), PLAYER_TEST(test_config_restores_script),
         PLAYER_TEST(test_interrupt_rolls_back),      PLAYER_TEST(test_should_interrupt),

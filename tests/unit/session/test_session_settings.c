@@ -255,7 +255,7 @@ static void test_step_at_sets_clock(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(session_settings) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_pragmas),
         PLAYER_TEST(test_pragma_warnings),

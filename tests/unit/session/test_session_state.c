@@ -118,7 +118,7 @@ static void test_saving_retains_no_memory(void **state) {
     folder_close(&folder);
 }
 
-int main(void) {
+TEST_GROUP(session_state) {
     const struct CMUnitTest tests[] = {PLAYER_TEST(test_invalid_state_files_are_rejected),
                                        PLAYER_TEST(test_large_frame_numbers),
                                        PLAYER_TEST(test_saving_retains_no_memory)};

@@ -338,7 +338,7 @@ static void test_aborted_explanation(void **state) {
     assert_non_null(strstr(player->diagnostics.text, "the explanation exceeded its limit of 80000 work units"));
 }
 
-int main(void) {
+TEST_GROUP(session_systems) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_systems),
         PLAYER_TEST(test_particles),

@@ -188,7 +188,7 @@ static void test_tree(void **state) {
     assert_null(petri_tree_kind(NULL));
 }
 
-int main(void) {
+TEST_GROUP(session_values) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_printed_values), PLAYER_TEST(test_state_access),
         PLAYER_TEST(test_iteration),      PLAYER_TEST(test_moved_particle),

@@ -222,7 +222,7 @@ static void test_functions_of_other_versions(void **state) {
     assert_int_equal(petri_add_function(player->session, &newer.known), PETRI_OK);
 }
 
-int main(void) {
+TEST_GROUP(session_versions) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_filled_structs_have_the_size_of_the_host),
         PLAYER_TEST(test_fields_of_older_hosts_keep_their_values),

@@ -170,7 +170,7 @@ static void test_surface_has_same_bits_everywhere(void **state) {
     assert_string_equal(digits, "cc449e68d5997fbcc8ba40bb385bcb969ecdbd71e742c7c1565a25b9b5fb931f");
 }
 
-int main(void) {
+TEST_GROUP(field) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_volumes_of_primitives, setup, teardown),
         cmocka_unit_test_setup_teardown(test_volumes_of_operations, setup, teardown),

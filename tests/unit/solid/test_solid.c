@@ -264,7 +264,7 @@ static void test_random_trees(void **state) {
     assert_string_equal(digits, "b4d09f9737e421be686273d985b194539af7e52e3d6905cc24c8bec62e712dea");
 }
 
-int main(void) {
+TEST_GROUP(solid) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_overlapping_boxes, setup, teardown),
         cmocka_unit_test_setup_teardown(test_coplanar_and_touching_boxes, setup, teardown),

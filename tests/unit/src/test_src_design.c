@@ -215,7 +215,7 @@ static void test_where_keeps_matching_runs(void **state) {
     finish(&study);
 }
 
-int main(void) {
+TEST_GROUP(src_design) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_axis_lists_and_ranges),
         cmocka_unit_test(test_axis_reports_invalid_values),

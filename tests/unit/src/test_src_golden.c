@@ -120,7 +120,7 @@ static void test_long_lines_are_shortened_at_characters(void **state) {
     assert_non_null(strstr(text, "007, got ...ää"));
 }
 
-int main(void) {
+TEST_GROUP(src_golden) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lines_are_compared_by_token),
         cmocka_unit_test(test_strings_are_compared_by_contents),

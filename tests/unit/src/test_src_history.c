@@ -5,13 +5,6 @@
 #include "petri-live.h"
 #include "player.h"
 
-#include <stdarg.h>
-
-// Stub: messages of the command are ignored.
-void message(const char *format, ...) {
-    (void)format;
-}
-
 static const char *const SCRIPT = "%pragma tempo 60\n"
                                   "!physics state=:p dimensions=2 time=beat resolution=0.01\n"
                                   "    for i in ..4\n"
@@ -199,7 +192,7 @@ static void test_recompute_restores_whole_frame(void **state) {
     history_free(&history);
 }
 
-int main(void) {
+TEST_GROUP(src_history) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_goto_any_frame_gives_same_bits), PLAYER_TEST(test_change_applies_to_later_frames),
         PLAYER_TEST(test_goto_before_start_is_rejected),  PLAYER_TEST(test_many_changes_drop_the_oldest_frames),

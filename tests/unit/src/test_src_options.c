@@ -161,7 +161,7 @@ static void test_due_frames(void **state) {
     assert_false(options_due(&options, 30, 0, 60));
 }
 
-int main(void) {
+TEST_GROUP(src_options) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_can_be_attached),
         cmocka_unit_test(test_defaults),

@@ -90,7 +90,7 @@ static void test_lines_and_columns_are_counted(void **state) {
     assert_int_equal(overlay_columns("a\n\xC3\xA4\xE2\x80\xA6 b\nc"), 4);
 }
 
-int main(void) {
+TEST_GROUP(src_overlay_text) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_set_removes_control_sequences), cmocka_unit_test(test_set_truncates_between_characters),
         cmocka_unit_test(test_fit_wraps_and_truncates_lines), cmocka_unit_test(test_fit_never_exceeds_buffer),

@@ -187,7 +187,7 @@ static void test_sizes_are_limited(void **state) {
     text_free(&linked.text);
 }
 
-int main(void) {
+TEST_GROUP(src_pack) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_link_keeps_text_name_changes_and_digest),
         cmocka_unit_test(test_a_link_with_a_hash_can_be_read),

@@ -83,7 +83,7 @@ static void test_fraction_selects_value(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(src_parameter_step) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_step_gives_expected_value),
                                        cmocka_unit_test(test_step_down_undoes_step_up),
                                        cmocka_unit_test(test_fraction_selects_value)};

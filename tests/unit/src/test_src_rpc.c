@@ -106,7 +106,7 @@ static void test_members_of_other_types_are_missing(void **state) {
     json_object_put(object);
 }
 
-int main(void) {
+TEST_GROUP(src_rpc) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_messages_follow_each_other),
         cmocka_unit_test(test_invalid_json_does_not_end_the_input),

@@ -152,7 +152,7 @@ static void test_end_of_input_closes(void **state) {
     assert_true(input.closed);
 }
 
-int main(void) {
+TEST_GROUP(src_terminal_keys) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_sequence_gives_key),           cmocka_unit_test(test_unknown_sequence_is_ignored),
         cmocka_unit_test(test_lone_escape_is_a_key),         cmocka_unit_test(test_split_sequence_is_decoded),

@@ -123,7 +123,7 @@ static void test_unknown_terminals_work(void **state) {
     terminal_picture_free(NULL);
 }
 
-int main(void) {
+TEST_GROUP(src_terminal_picture) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_fit_keeps_aspect_ratio),   cmocka_unit_test(test_cells_are_coloured_lines),
         cmocka_unit_test(test_other_locales_give_ascii), cmocka_unit_test(test_graphics_protocol_by_terminal),
@@ -131,7 +131,7 @@ int main(void) {
     };
     if (!terminal_picture_possible()) {
         print_message("built without libchafa\n");
-        return 77;
+        return GROUP_SKIPPED;
     }
     return cmocka_run_group_tests_name("terminal_picture", tests, NULL, NULL);
 }

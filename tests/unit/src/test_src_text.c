@@ -58,7 +58,7 @@ static void test_columns_are_as_wide_as_their_cells(void **state) {
     assert_string_equal(text.bytes, "a     ä€  x\nlong      y\n");
 }
 
-int main(void) {
+TEST_GROUP(src_text) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_messages_contain_no_control_characters),
         cmocka_unit_test(test_long_messages_are_one_shortened_line),

@@ -1,4 +1,5 @@
 // test_state_compact.c: removal of slots whose keys were removed.
+#include "groups.h"
 #include "state/state.h"
 
 #include <setjmp.h>
@@ -73,7 +74,7 @@ static void test_compact_removes_all_unused_slots(void **unused) {
     state_free(state);
 }
 
-int main(void) {
+TEST_GROUP(state_compact) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_compact_keeps_used_slots_in_order),
                                        cmocka_unit_test(test_compact_removes_all_unused_slots)};
     return cmocka_run_group_tests(tests, NULL, NULL);

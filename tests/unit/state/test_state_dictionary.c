@@ -260,7 +260,7 @@ static void test_state_matches_model(void **state) {
                                 model[k] != 0 ? value_number(model[k]) : VALUE_NULL));
 }
 
-int main(void) {
+TEST_GROUP(state_dictionary) {
     const struct CMUnitTest tests[] = {
         STATE_TEST(test_empty_state_has_no_values),
         STATE_TEST(test_entries_keep_insertion_order),

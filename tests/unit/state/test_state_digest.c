@@ -327,7 +327,7 @@ static void test_digest_fails_if_out_of_memory(void **unused) {
     assert_int_equal(budget.memory, 0);
 }
 
-int main(int argc, char **argv) {
+TEST_GROUP(state_digest) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_examples_have_the_specified_digests),
         cmocka_unit_test(test_ranges_have_the_digests_of_entries),
@@ -338,6 +338,8 @@ int main(int argc, char **argv) {
         WORLD_TEST(test_only_numbers_are_hashed_if_no_length_changes),
         cmocka_unit_test(test_digest_fails_if_out_of_memory),
     };
-    examples_path = argc > 1 ? argv[1] : "digests.txt";
+    if (argc < 2)
+        return GROUP_SKIPPED; // no file of examples
+    examples_path = argv[1];
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 // test_state_key_range.c: key ranges behave exactly like separate entries but use less memory.
 #include "base/budget.h"
 #include "base/heap.h"
+#include "groups.h"
 #include "state/state.h"
 
 #include <math.h>
@@ -311,7 +312,7 @@ static void test_range_matches_entries(void **unused) {
     }
 }
 
-int main(void) {
+TEST_GROUP(state_key_range) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_range_needs_no_memory),
         cmocka_unit_test(test_range_keys_match_exactly),

@@ -1,4 +1,5 @@
 // test_state_views.c: entries whose values point to an owner's numbers (state.h).
+#include "groups.h"
 #include "state/state.h"
 
 #include <setjmp.h>
@@ -111,7 +112,7 @@ static void test_compact_keeps_and_clear_ends_references(void **unused) {
     state_free(f.state);
 }
 
-int main(void) {
+TEST_GROUP(state_views) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reference_shows_owners_numbers),
         cmocka_unit_test(test_detach_copies_numbers),

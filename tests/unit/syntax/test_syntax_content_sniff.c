@@ -76,7 +76,7 @@ static void test_other_text_gives_one_error(void **state) {
     assert_non_null(strstr(reports_of(world, "old", "/old", few), "9: unexpected ')'"));
 }
 
-int main(void) {
+TEST_GROUP(syntax_content_sniff) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_other_encodings_are_named),
         WORLD_TEST(test_binary_file_gives_one_error),

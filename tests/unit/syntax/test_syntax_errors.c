@@ -211,7 +211,7 @@ static void test_mutated_programs_never_crash(void **state) {
     assert_true(accepted > 1000 && accepted < 19000);
 }
 
-int main(void) {
+TEST_GROUP(syntax_errors) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_common_mistakes_have_hints),   WORLD_TEST(test_each_mistake_is_reported_once),
         WORLD_TEST(test_invalid_utf8_gives_one_error), WORLD_TEST(test_symbol_collision_is_an_error),

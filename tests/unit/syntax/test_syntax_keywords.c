@@ -214,7 +214,7 @@ static void test_pragma_and_include_positions(void **state) {
         assert_text(rows[i][0], shape(world, rows[i][0]), rows[i][1]);
 }
 
-int main(void) {
+TEST_GROUP(syntax_keywords) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_keywords_at_statement_start),
         WORLD_TEST(test_keywords_in_compositions),

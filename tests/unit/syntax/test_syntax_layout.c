@@ -170,7 +170,7 @@ static void test_high_trees_are_rejected(void **state) {
     assert_non_null(strstr(complaints(world, text_str(&text)), "nested too deeply"));
 }
 
-int main(void) {
+TEST_GROUP(syntax_layout) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_indentation_makes_blocks),     WORLD_TEST(test_deep_parentheses_are_rejected),
         WORLD_TEST(test_deep_indentation_is_rejected), WORLD_TEST(test_high_trees_are_rejected),

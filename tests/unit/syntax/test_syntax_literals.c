@@ -169,7 +169,7 @@ static void test_texts_parsed_as_timecodes(void **state) {
         assert_claim(bad[i], !literal_parse_timecode(str_from(bad[i]), &x));
 }
 
-int main(void) {
+TEST_GROUP(syntax_literals) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_number_tokens),           WORLD_TEST(test_timecode_tokens),
         WORLD_TEST(test_string_tokens),           WORLD_TEST(test_name_tokens),

@@ -175,7 +175,7 @@ static void test_lists_grow(void **state) {
     assert_number("last", suite->children[102]->value.as.number, 2);
 }
 
-int main(void) {
+TEST_GROUP(syntax_tree) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_precedence_shapes_tree),
         WORLD_TEST(test_nodes_span_their_text),

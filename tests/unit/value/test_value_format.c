@@ -108,7 +108,7 @@ static void test_keys_are_ordered(void **state) {
         }
 }
 
-int main(void) {
+TEST_GROUP(value_format) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_values_are_printed), WORLD_TEST(test_registered_symbols_are_printed),
         WORLD_TEST(test_trees_are_printed),  WORLD_TEST(test_debug_text),

@@ -223,7 +223,7 @@ static void test_copy_is_deep(void **state) {
     assert_int_equal(copy->height, 2);
 }
 
-int main(void) {
+TEST_GROUP(value_node) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_new_node_is_empty),
         WORLD_TEST(test_attributes_keep_order),

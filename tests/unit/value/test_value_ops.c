@@ -146,7 +146,7 @@ static void test_too_long_range_is_reported(void **state) {
     assert_number("last", range.as.numbers[999999], 999999);
 }
 
-int main(void) {
+TEST_GROUP(value_ops) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_arithmetic_by_element),
         WORLD_TEST(test_square_is_multiplication),

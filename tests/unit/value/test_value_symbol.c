@@ -120,7 +120,7 @@ static void test_stream_positions_match_spec(void **state) {
         assert_true(value_stream_position(rows[i].x) == rows[i].position);
 }
 
-int main(void) {
+TEST_GROUP(value_symbol) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_symbol_numbers_match_spec),
         WORLD_TEST(test_interned_names_are_unique),

@@ -272,7 +272,7 @@ static void test_text_concatenates_elements(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(value_vector) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_composition_concatenates_parts),
         WORLD_TEST(test_builder_turns_mixed),

@@ -150,7 +150,7 @@ static void test_work_matches(void **state) {
     assert_in_range(work[0], work[1] * 3 / 4, work[1] * 5 / 4);
 }
 
-int main(void) {
+TEST_GROUP(vm_batch) {
     const struct CMUnitTest tests[] = {RUNNER_TEST(test_batches_match_single_iterations),
                                        RUNNER_TEST(test_stream_items_match), RUNNER_TEST(test_errors_keep_their_order),
                                        RUNNER_TEST(test_work_matches)};

@@ -112,7 +112,7 @@ static void test_lookups(void **state) {
     check_trees(runner, rows, COUNT_OF(rows), 4);
 }
 
-int main(void) {
+TEST_GROUP(vm_code) {
     const struct CMUnitTest tests[] = {
         RUNNER_TEST(test_registers), RUNNER_TEST(test_loops),   RUNNER_TEST(test_nodes),
         RUNNER_TEST(test_elements),  RUNNER_TEST(test_lookups),

@@ -159,7 +159,7 @@ static void test_static_evaluation_reports_limit(void **state) {
     assert_int_equal(runner->static_vm.reported_count > 0, true);
 }
 
-int main(void) {
+TEST_GROUP(vm_limits) {
     const struct CMUnitTest tests[] = {
         RUNNER_TEST(test_closure_depth),
         RUNNER_TEST(test_stack_limit),

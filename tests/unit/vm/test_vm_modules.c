@@ -75,7 +75,7 @@ static void test_nested_imports_cost_more(void **state) {
     assert_true(import_chain(*state, 200) > 2 * work);
 }
 
-int main(void) {
+TEST_GROUP(vm_modules) {
     const struct CMUnitTest tests[] = {RUNNER_TEST(test_imports), RUNNER_TEST(test_nested_imports_cost_more)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -141,7 +141,7 @@ static void test_diagnostics(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(vm_names) {
     const struct CMUnitTest tests[] = {
         RUNNER_TEST(test_scopes),      RUNNER_TEST(test_functions), RUNNER_TEST(test_templates),
         RUNNER_TEST(test_control),     RUNNER_TEST(test_nodes),     RUNNER_TEST(test_order_of_evaluation),

@@ -97,7 +97,7 @@ static void test_iterations_free_their_data(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(vm_nodes) {
     const struct CMUnitTest tests[] = {
         RUNNER_TEST(test_positions_of_nodes),         RUNNER_TEST(test_constant_children_are_shared),
         RUNNER_TEST(test_node_construction),          RUNNER_TEST(test_many_attributes),
