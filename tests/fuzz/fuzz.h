@@ -1,5 +1,5 @@
-// fuzz.h: functions shared by the fuzzing harnesses. Each harness is a file with libFuzzer's entry point, which handles
-// one input. A finding aborts the process, through a sanitizer or fuzz_fail.
+// fuzz.h: functions shared by the fuzzing harnesses. Each harness is a file with a function that handles one input. A
+// finding aborts the process, through a sanitizer or fuzz_fail.
 #pragma once
 
 #include "petri.h"
@@ -8,7 +8,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+// Defines the function of a harness, with the parameters `data` and `size`. It is libFuzzer's entry point, or, in
+// builds without libFuzzer, a function that replay.c calls. Returns 0.
+#ifdef HAVE_LIBFUZZER
+#define FUZZ_HARNESS(name)                                                                                             \
+    int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);                                                      \
+    int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+#else
+#define FUZZ_HARNESS(name)                                                                                             \
+    int fuzz_##name(const uint8_t *data, size_t size);                                                                 \
+    int fuzz_##name(const uint8_t *data, size_t size)
+#endif
 
 // Prints a message and aborts.
 __attribute__((format(printf, 1, 2), noreturn)) void fuzz_fail(const char *format, ...);

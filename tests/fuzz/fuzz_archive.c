@@ -125,7 +125,7 @@ static void replay(PetriArchive *archive) {
     fuzz_close(&session);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(archive) {
     if (!base)
         make_base();
     if (size == 0 || !write_archive(data[0], data + 1, size - 1))

@@ -39,7 +39,7 @@ static void copy_commands(void) {
     }
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(arguments) {
     enum { MAX_WORDS = 64 };
     static const CommandContext host = {.program = "petri", .invoked_as = "petri", .stack_bytes = 1 << 20};
     char *text = calloc(1, size + 1), *words[MAX_WORDS];

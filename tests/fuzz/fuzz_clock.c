@@ -9,20 +9,26 @@
 #include <string.h>
 #include <time.h>
 
-// Time of the simulated clock in seconds. The linker uses the functions below instead of those of the C library
-// (meson.build).
-static double now;
+// The linker uses the functions __wrap_… instead of those without this prefix (meson.build).
+int __real_clock_gettime(clockid_t clock, struct timespec *time);
 int __wrap_clock_gettime(clockid_t clock, struct timespec *time);
+int __real_nanosleep(const struct timespec *pause, struct timespec *left);
 int __wrap_nanosleep(const struct timespec *pause, struct timespec *left);
 
+static bool simulated; // true once this harness runs; other harnesses in its program use the real clock
+static double now;     // time of the simulated clock in seconds
+
 int __wrap_clock_gettime(clockid_t clock, struct timespec *time) {
+    if (!simulated)
+        return __real_clock_gettime(clock, time);
     now += 1e-5;
     *time = (struct timespec){(time_t)now + (clock == CLOCK_REALTIME ? 1600000000 : 0), (long)(fmod(now, 1) * 1e9)};
     return 0;
 }
 
 int __wrap_nanosleep(const struct timespec *pause, struct timespec *left) {
-    (void)left;
+    if (!simulated)
+        return __real_nanosleep(pause, left);
     if (pause->tv_sec < 0 || pause->tv_nsec < 0 || pause->tv_nsec >= 1000000000)
         fuzz_fail("a pause of %lld s %ld ns", (long long)pause->tv_sec, pause->tv_nsec);
     now = fmin(1e15, now + (double)pause->tv_sec + 1e-9 * (double)pause->tv_nsec);
@@ -81,7 +87,8 @@ static void perform_action(PetriSession *session, PetriSnapshot **snapshot, int 
     fuzz_check_state(session);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(clock) {
+    simulated = true;
     enum { ACTION_SIZE = 1 + sizeof(double), MAX_ACTIONS = 8 };
     PetriOptions options = fuzz_options();
     PetriSnapshot *snapshot = NULL;

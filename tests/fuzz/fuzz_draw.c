@@ -3,14 +3,20 @@
 #include "gl/gl.h"
 #include "pictures.h"
 
-// The linker uses this function instead of gl_open (meson.build).
+static bool without_gl; // true once this harness runs; other harnesses in its program use OpenGL
+
+// The linker uses __wrap_gl_open instead of gl_open (meson.build).
+Gl *__real_gl_open(const char **problem);
 Gl *__wrap_gl_open(const char **problem);
 Gl *__wrap_gl_open(const char **problem) {
+    if (!without_gl)
+        return __real_gl_open(problem);
     *problem = "this harness draws without OpenGL";
     return NULL;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(draw) {
+    without_gl = true;
     static PetriPainter *painter; // reused for all inputs, because finding fonts takes long
     painter = painter ? painter : petri_painter_open();
     pictures_draw(painter, (const char *)data, size, true);

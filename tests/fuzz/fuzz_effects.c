@@ -45,7 +45,7 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
     return false;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(effects) {
     static PetriPainter *painter; // reused for all inputs, because compiling the effects' shaders takes long
     FuzzText script = {0}, text = {0};
     const uint8_t *part = memchr(data, 30, size);

@@ -3,7 +3,7 @@
 #include "fuzz.h"
 #include "petri-inspect.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(files) {
     static const char *const scripts[] = {
         "!a x=csv('data',frame) y=csv('data',3) z=csv('data',1e9)\n",
         "!a x=srt('data',frame) y=srt('data',3.5) z=srt('data',0/0)\n",

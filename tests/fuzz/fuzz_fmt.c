@@ -3,7 +3,7 @@
 #include "fmt/layout.h"
 #include "fuzz.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(fmt) {
     SCOPED_TEXT text = {0}, once = {0}, twice = {0};
     PetriSession *session = fuzz_open(NULL);
     text_add(&text, (Str){(const char *)data, size});

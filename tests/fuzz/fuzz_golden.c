@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(golden) {
     const uint8_t *part = memchr(data, 30, size);
     size_t length = part ? (size_t)(part - data) : size;
     Golden golden;

@@ -194,7 +194,7 @@ static void continue_file(const char *path, int64_t after) {
     store_end(&store, true);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(h5md) {
     static FuzzText base; // the valid file
     enum { CHANGE = 4, MAX_CHANGES = 16 };
     const char *path = fuzz_file("t.h5");

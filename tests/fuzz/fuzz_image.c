@@ -4,7 +4,7 @@
 
 enum { SIDE = 32 };
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(image) {
     static uint32_t pixels[SIDE * SIDE];
     static PetriSession *session;
     static PetriPicture *picture;

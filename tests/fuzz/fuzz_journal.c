@@ -47,7 +47,7 @@ static void print_results(Sweep *sweep) {
     summary_make(sweep, &summary);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(journal) {
     static const CommandContext context = {.program = "petri", .invoked_as = "petri"};
     static Options options = {.script = "s.fl"};
     static Metric metrics[] = {{.name = "speed", .expression = "1"}, {.name = "size", .expression = "2"}};

@@ -51,7 +51,7 @@ static void check_round_trip(const Linked *linked) {
     link_free(&again);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(link) {
     SCOPED_TEXT link = {0};
     Linked linked = {0};
     text_add_c(&link, "");

@@ -60,7 +60,7 @@ static void send_text(const char *text, size_t length) {
     close(ends[0]);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(listen) {
     enum { INPUTS = 200 }; // number of inputs for which a session is used
     static unsigned count;
     const char *at = (const char *)data, *end = at + size, *part;

@@ -47,7 +47,7 @@ static int serve(const CommandContext *context, Options *options) {
     return lsp_serve(context, options);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(lsp) {
     static const CommandContext context = {
         .program = "petri", .invoked_as = "petri", .stack_bytes = 1 << 20, .run_lsp = serve};
     static const char first[] = "{\"id\":0,\"method\":\"initialize\",\"params\":{}}";

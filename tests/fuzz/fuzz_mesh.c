@@ -70,7 +70,7 @@ static void make_mesh(void *context) {
     mesh_bounds(&mesh, low, high);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(mesh) {
     static Arena arena;
     if (size == 0)
         return 0;

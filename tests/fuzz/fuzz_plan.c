@@ -18,7 +18,7 @@ static int plan_runs(const CommandContext *context, Options *options) {
     return STATUS_DONE;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(plan) {
     static const CommandContext context = {.program = "petri", .invoked_as = "petri", .stack_bytes = 1 << 20};
     Command command = SWEEP_COMMAND;
     TextList words = {0};

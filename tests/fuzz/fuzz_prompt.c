@@ -119,7 +119,7 @@ static void perform_action(Host *host, const char *text, size_t length) {
     }
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(prompt) {
     Host host = {.session = fuzz_open(NULL)};
     const char *at = (const char *)data, *end = at + size, *part;
     size_t length;

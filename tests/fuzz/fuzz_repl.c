@@ -43,7 +43,7 @@ static bool leaves_folder(const uint8_t *data, size_t size) {
     return false;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(repl) {
     static const CommandContext host = {.program = "petri", .invoked_as = "petri", .stack_bytes = 1 << 20};
     static char words[][16] = {"--threads", "1", "--limit", "20", "--work", "2M", "fuzz.fl"};
     if (leaves_folder(data, size))

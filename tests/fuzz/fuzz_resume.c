@@ -18,7 +18,7 @@ static bool resume_once(const char *path, bool csv, int64_t after, ResumeFile *f
     return true;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(resume) {
     ResumeFile first, second;
     if (size == 0)
         return 0;

@@ -69,7 +69,7 @@ static void find_scenes(const CanvasPicture *picture, const DrawNode *node) {
     arena_free(&arena);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(scene) {
     static bool model_written;
     if (!model_written)
         fuzz_put("model.obj", MODEL, sizeof MODEL - 1);

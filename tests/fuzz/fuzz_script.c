@@ -3,7 +3,7 @@
 #include "petri-edit.h"
 #include "petri-inspect.h"
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(script) {
     PetriSession *session = fuzz_open(NULL);
     petri_define(session, "COUNT=7");
     if (petri_load_text(session, "fuzz.fl", (const char *)data, size) == PETRI_OK) {

@@ -38,7 +38,7 @@ static Run run_script(const uint8_t *data, size_t size, bool simplify) {
     return run;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(simplify) {
     Run plain = run_script(data, size, false), simplified = run_script(data, size, true);
     bool same = plain.loaded == simplified.loaded && fuzz_texts_equal(&plain.frames, &simplified.frames);
     if (!same && !plain.aborted && !simplified.aborted)

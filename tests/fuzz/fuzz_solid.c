@@ -69,7 +69,7 @@ static void combine_solids(void *context) {
     }
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(solid) {
     static Arena arena;
     Budget budget = {.memory_limit = (size_t)256 << 20};
     if (size < 3)

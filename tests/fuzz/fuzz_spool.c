@@ -32,7 +32,7 @@ static void read_frames(Spool *spool, Store *store) {
     trajectory_file_end(&file);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(spool) {
     FuzzText file = {0};
     Spool spool;
     Store store;

@@ -37,7 +37,7 @@ static void check_round_trip(PetriSession *first) {
     petri_close(&second);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(state) {
     if (size == 0)
         return 0;
     (data[0] == '#' ? fuzz_put : fuzz_put_state)("state", data + 1, size - 1);

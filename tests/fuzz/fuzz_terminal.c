@@ -7,7 +7,7 @@
 #include <math.h>
 #include <unistd.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+FUZZ_HARNESS(terminal) {
     TerminalInput input = {0};
     fuzz_put("typed", data, size);
     int file = open(fuzz_file("typed"), O_RDONLY);
