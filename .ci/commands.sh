@@ -23,7 +23,8 @@ package [--test | --wheel | --manylinux | --static | --vscode]: make Debian pack
   --static     make a static program without pictures there, with musl
   --vscode     make the extension for VS Code there
 dist: make the source archive in build/dist, with bill of materials and checksums
-sanitize [--memory | --thread]: build with clang's address and undefined-behaviour sanitizers and run most tests
+sanitize [--memory | --thread | NAME...]: run most tests with clang's address and undefined-behaviour sanitizers
+  NAME      only tests and suites with these names
   --memory  run tests of the libraries with the memory sanitizer instead
   --thread  run tests of the thread pool with the thread sanitizer instead
 fuzz [--minutes N | --seconds N] [HARNESS...]: run each fuzzing harness of tests/fuzz, or those named

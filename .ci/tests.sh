@@ -52,16 +52,18 @@ unlikely_names() {
         }' "$@"
 }
 
-# reject_names NAMES: if there are lines in NAMES, reports the first as unknown, and exits.
+# reject_names SUBCOMMAND NAMES: if there are lines in NAMES, reports the first as unknown, and exits.
 reject_names() {
-    [ -z "$1" ] || reject test "no such test or suite: '$(echo "$1" | head -n 1)'; tests/README.md lists the suites"
+    [ -z "$2" ] || reject "$1" "no such test or suite: '$(echo "$2" | head -n 1)'; tests/README.md lists the suites"
 }
 
-# choose_tests [--all | NAME...]: sets `chosen` to the tests and `targets` to what they need ('': everything). Exits if a
-# NAME is unknown.
+# choose_tests SUBCOMMAND FOLDER [--all | NAME...]: sets `chosen` to the tests of a build folder and `targets` to what they
+# need ('': everything). Exits if a NAME is unknown.
 choose_tests() {
-    facts=$(python3 "$root/.ci/tests.py" "$root/build" "$@")
-    reject_names "$(echo "$facts" | sed -n 's/^unknown //p')"
+    subcommand=$1
+    shift
+    facts=$(python3 "$root/.ci/tests.py" "$@")
+    reject_names "$subcommand" "$(echo "$facts" | sed -n 's/^unknown //p')"
     chosen=$(echo "$facts" | sed -n 's/^test //p')
     targets=$(echo "$facts" | sed -n 's/^target //p')
 }
@@ -84,11 +86,11 @@ run_tests() {
         [ $# -gt 0 ] || omitted="$omitted --no-suite thorough"
         folders=$all_folders
         prepare "$TEST_NEEDS"
-        choose_tests "$@"
+        choose_tests test "$root/build" "$@"
         targets='' names=''
         ;;
     *)
-        reject_names "$(unlikely_names "$@")"
+        reject_names test "$(unlikely_names "$@")"
         omitted='' folders='' other=''
         for name; do
             found=$(echo "$all_folders" | grep -E "(^|/)$name\$") || other="$other $name"
@@ -100,7 +102,7 @@ run_tests() {
             # Meson's lists must be those of the sources.
             quietly "$root/build/setup.log" ninja -C "$root/build" build.ninja
             # shellcheck disable=SC2086 # names are words
-            choose_tests $other
+            choose_tests test "$root/build" $other
         else
             prepare "$RUN_NEEDS"
         fi
