@@ -1,7 +1,7 @@
 #!/bin/sh
 # limits.sh PETRI: short scripts that need too much work or memory. Each must end within 3 GiB of address space with a
 # diagnostic that has a position and with status 1, or must succeed. To save time, the limits are a quarter of the default
-# ones; LIMITS=whole uses the defaults, as .ci/run does.
+# ones; LIMITS=whole uses the defaults, as .ci/deep does.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
