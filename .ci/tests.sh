@@ -57,8 +57,8 @@ reject_names() {
     [ -z "$2" ] || reject "$1" "no such test or suite: '$(echo "$2" | head -n 1)'; tests/README.md lists the suites"
 }
 
-# choose_tests SUBCOMMAND FOLDER [--all | NAME...]: sets `chosen` to the tests of a build folder and `targets` to what they
-# need ('': everything). Exits if a NAME is unknown.
+# choose_tests SUBCOMMAND FOLDER [--all | NAME...]: sets `chosen` to the tests of a build folder and, if there are
+# names, `targets` to what they need. Exits if a NAME is unknown.
 choose_tests() {
     subcommand=$1
     shift
@@ -87,7 +87,7 @@ run_tests() {
         folders=$all_folders
         prepare "$TEST_NEEDS"
         choose_tests test "$root/build" "$@"
-        targets='' names=''
+        targets=all names=''
         ;;
     *)
         reject_names test "$(unlikely_names "$@")"
@@ -100,17 +100,18 @@ run_tests() {
         if [ -n "$other" ]; then
             prepare "$TEST_NEEDS"
             # Meson's lists must be those of the sources.
-            quietly "$root/build/setup.log" ninja -C "$root/build" build.ninja
+            make_targets "$root/build" build.ninja
             # shellcheck disable=SC2086 # names are words
             choose_tests test "$root/build" $other
         else
             prepare "$RUN_NEEDS"
         fi
         [ -z "$(echo "$folders" | xargs)" ] || targets="$targets src/petri"
+        targets=$(echo "$targets" | xargs)
         names=$chosen
         ;;
     esac
-    make_targets "$root/build" "$targets"
+    [ -z "$targets" ] || make_targets "$root/build" "$targets" # some tests need only the sources
     cd "$root"
     log=build/tests.log scripts=build/scripts.log
     code=0 good=0 bad=0 failed=''

@@ -34,7 +34,7 @@ machine() {
     cp "$root"/.ci/* "$project/.ci"
     sed -i "s|/usr/share/fonts|$work/fonts|; s|/usr/lib/\*|$work/mesa|;
             s|:/usr/sbin:/sbin||; s|/usr/bin/python3|$work/bin/python3|" "$project/dev" "$project/.ci"/*
-    echo "tests = {'quick': 'base', 'slow': 'view', 'other': 'base', 'whole': 'lint'}" >"$project/tests/meson.build"
+    echo "tests = {'quick': 'base', 'slow': 'view', 'other': 'base', 'whole': 'lint', 'prose': 'text'}" >"$project/tests/meson.build"
     : >"$work/calls"
     uid=0 groups=users network=yes breaks=
     fake_tool bin/id <<'END'
@@ -140,7 +140,8 @@ setup*)
 [{"name": "quick", "suite": ["petri:base"], "cmd": ["$build/quick"], "depends": ["quick@exe"]},
  {"name": "slow", "suite": ["petri:view"], "cmd": ["slow.sh", "$build/src/petri"], "depends": ["petri@exe"]},
  {"name": "other", "suite": ["petri:base"], "cmd": ["$build/other"], "depends": ["quick@exe", "other@sta"]},
- {"name": "whole", "suite": ["petri:lint", "petri:thorough"], "cmd": ["whole.sh", "$build"], "depends": []}]
+ {"name": "whole", "suite": ["petri:lint", "petri:thorough"], "cmd": ["whole.sh", "$build"], "depends": []},
+ {"name": "prose", "suite": ["petri:text", "petri:thorough"], "cmd": ["prose.py"], "depends": []}]
 JSON
     cat >"$2/meson-info/intro-targets.json" <<JSON
 [{"id": "quick@exe", "name": "quick", "type": "executable", "filename": ["$build/tests/quick"]},
@@ -329,6 +330,9 @@ dev test slow
 check "test NAME builds petri and the programs that petri starts" has calls "ninja -C $project/build src/petri src/petri-ranks"
 dev test lint
 check "a test that reads the build folder needs everything" has calls "ninja -C $project/build all"
+dev test prose
+check "a test of the sources needs nothing" [ "$(grep ninja calls)" = "ninja -C $project/build build.ninja" ]
+check "a test of the sources runs" has calls "prose"
 dev test golden
 check "test FOLDER builds only petri" has calls "ninja -C $project/build src/petri"
 check "test FOLDER does not ask for the tests" lacks calls "meson"
