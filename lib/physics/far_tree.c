@@ -2,6 +2,7 @@
 #include "physics/far_field.h"
 #include "physics/threads.h"
 
+#include <assert.h>
 #include <string.h>
 
 enum { HALF_LEVELS = FAR_LEVELS / 2, MIN_EXPONENT = -400, MIN_FOR_THREADS = 20000 };
@@ -242,6 +243,7 @@ static bool add_tree(PhysSystem *system, FarForest *forest, FarTree *tree) {
 
 bool phys_far_build(PhysSystem *system, FarForest *forest) {
     const Group *groups = system->groups.bytes;
+    assert(system->dimensions <= FAR_DIMENSIONS); // phys_is_far
     forest->dimensions = system->dimensions;
     forest->cell_count = 0;
     if (!reserve_members(system, forest))

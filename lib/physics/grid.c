@@ -9,6 +9,7 @@
 #include "maths/maths.h"
 #include "physics/threads.h"
 
+#include <assert.h>
 #include <float.h>
 #include <string.h>
 
@@ -322,6 +323,7 @@ static void pad_arrays(const PairPass *pass, NeighbourList *list, uint32_t dummy
 static bool layout_cells(Sorting *sorting, double max, Survey *survey, Grid *grid) {
     NeighbourList *list = sorting->list;
     Samples samples;
+    assert(sorting->pass->dimensions <= PHYS_VECTOR_DIMENSIONS);
     sample_particles(sorting->pass, list, &samples);
     double median = samples.count ? samples.of[PHYS_VECTOR_DIMENSIONS][samples.count / 2] : 0;
     list->contact_distance = fmax(2 * median, list->bound);

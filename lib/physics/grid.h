@@ -4,7 +4,6 @@
 #include "physics/neighbour_list.h"
 
 enum {
-    PHYS_MAX_LANES = 8,         // maximum number of lanes of all kernels
     PHYS_MAX_NEIGHBOURS = 1024, // maximum length of a list
 };
 

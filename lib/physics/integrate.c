@@ -3,6 +3,8 @@
 
 #include "physics/threads.h"
 
+#include <assert.h>
+
 // Appends to system->chain all forces of a stage that act on a group: first those of the group itself, then those of
 // the enclosing groups. Returns the number of these forces. `already` is the length of the chain before the call.
 static uint32_t collect_forces(const PhysSystem *system, uint32_t group, Stage stage, uint32_t already) {
@@ -37,6 +39,7 @@ void phys_integrate_rows(const Integrator *integrator, size_t first, size_t end)
     double scratch[3 * PHYS_VECTOR_DIMENSIONS];
     Columns columns = *integrator->pass.columns;
     IntegratePass pass = integrator->pass;
+    assert(!integrator->wide || columns.dimensions <= PHYS_VECTOR_DIMENSIONS);
     if (integrator->wide)
         columns.scratch = scratch;
     pass.columns = &columns;

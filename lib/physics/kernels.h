@@ -19,6 +19,7 @@
 
 enum {
     PHYS_VECTOR_DIMENSIONS = 3, // maximum number of dimensions of the kernels
+    PHYS_MAX_LANES = 8,         // maximum number of lanes of all kernels
     PHYS_MAX_TERMS = 8,         // maximum number of pair forces in a pass of the kernels
     PHYS_QUAD = 4,              // values of ListView.width: doubles per particle
     PHYS_PAIR = 2,

@@ -188,7 +188,7 @@ static void large_forces(const ListPass *work) {
     const PassRanges *ranges = &list->ranges;
     uint32_t end = list->view.listed, own = phys_own_keys(list);
     for (uint32_t index = list->view.regular; index < end && !phys_pass_stopped(work->pass);) {
-        uint32_t targets[8] = {0}, count = 0;
+        uint32_t targets[PHYS_MAX_LANES] = {0}, count = 0;
         bool inner = list->key[index] < own;
         // In this pass, large particles of enclosing groups interact only with the pass's own group.
         for (; index < end && count < list->lanes && (list->key[index] < own) == inner; index++)

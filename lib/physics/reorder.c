@@ -7,49 +7,66 @@
 #include "physics/neighbour_list.h"
 #include "physics/threads.h"
 
+#include <assert.h>
 #include <string.h>
 
-enum { MAX_ARRAYS = 4 * PHYS_VECTOR_DIMENSIONS + 6 };
+// Columns to permute: the components of a vector attribute, or one number per particle.
+typedef struct Attribute {
+    double *numbers;
+    size_t parts; // number of components, which may be any number of dimensions
+} Attribute;
+
+enum { MAX_ATTRIBUTES = 10 }; // 4 vectors and 6 numbers (Columns)
 
 typedef struct Reordering {
     PhysSystem *system;
     const NeighbourList *list;
-    double *arrays[MAX_ARRAYS]; // columns to permute; phys_reorder copies positions from the list instead
-    size_t count;
-    size_t next; // first array of the current batch
+    Attribute attributes[MAX_ATTRIBUTES]; // phys_reorder copies positions from the list instead
+    size_t count;                         // length of `attributes`
+    size_t arrays;                        // sum of all `parts`
+    size_t next;                          // first array of the current batch
 } Reordering;
 
-static void add_vector(Reordering *reordering, double *vector, size_t parts) {
-    for (size_t k = 0; k < parts; k++)
-        reordering->arrays[reordering->count++] = vector + k * reordering->system->columns.stride;
+static void add_attribute(Reordering *reordering, double *numbers, size_t parts) {
+    assert(reordering->count < MAX_ATTRIBUTES);
+    reordering->attributes[reordering->count++] = (Attribute){numbers, parts};
+    reordering->arrays += parts;
 }
 
 // Collects the columns to permute, including positions if `positions` is set. Attributes that all particles share
 // (record_stride 0) are not moved.
-static void add_arrays(Reordering *reordering, bool positions) {
+static void add_attributes(Reordering *reordering, bool positions) {
     const PhysSystem *system = reordering->system;
     const Columns *columns = &system->columns;
     if (positions)
-        add_vector(reordering, columns->position, columns->dimensions);
-    add_vector(reordering, columns->velocity, columns->dimensions);
+        add_attribute(reordering, columns->position, columns->dimensions);
+    add_attribute(reordering, columns->velocity, columns->dimensions);
     bool own = system->own_forces != OWN_FORCES_NONE;
     if (own) {
-        add_vector(reordering, columns->own_force, columns->dimensions);
-        add_vector(reordering, columns->ease, 1);
+        add_attribute(reordering, columns->own_force, columns->dimensions);
+        add_attribute(reordering, columns->ease, 1);
     }
     if (own || positions)
-        add_vector(reordering, columns->force, columns->dimensions); // if neither is true, all forces are still 0
+        add_attribute(reordering, columns->force, columns->dimensions); // if neither is true, all forces are still 0
     if (!system->record_stride)
         return;
     double *numbers[] = {columns->radius, columns->mass, columns->charge, columns->section, columns->volume};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        add_vector(reordering, numbers[i], 1);
+        add_attribute(reordering, numbers[i], 1);
+}
+
+// Returns array number `a` of all components of all attributes.
+static double *array_at(const Reordering *reordering, size_t a) {
+    const Attribute *attribute = reordering->attributes;
+    for (; a >= attribute->parts; attribute++)
+        a -= attribute->parts;
+    return attribute->numbers + a * reordering->system->columns.stride;
 }
 
 // Returns how many of the remaining arrays fit into ListView.packed at once. Until the list is refreshed, only the
 // dummy in `packed` is in use, and the rest of it is scratch memory.
 static size_t arrays_at_once(const Reordering *reordering) {
-    size_t left = reordering->count - reordering->next, room = reordering->list->view.width;
+    size_t left = reordering->arrays - reordering->next, room = reordering->list->view.width;
     return left < room ? left : room;
 }
 
@@ -59,7 +76,7 @@ static void gather_chunk(void *context, int chunk, int chunks) {
     const uint32_t *column = list->view.column;
     size_t first = phys_chunk_begin(list->total, chunk, chunks), end = phys_chunk_begin(list->total, chunk + 1, chunks);
     for (size_t a = 0; a < arrays_at_once(reordering); a++) {
-        const double *from = reordering->arrays[reordering->next + a];
+        const double *from = array_at(reordering, reordering->next + a);
         double *to = list->view.packed + a * list->total;
         for (size_t i = first; i < end; i++)
             to[i] = from[column[i]];
@@ -72,12 +89,12 @@ static void copy_chunk(void *context, int chunk, int chunks) {
     size_t first = phys_chunk_begin(list->total, chunk, chunks),
            count = phys_chunk_begin(list->total, chunk + 1, chunks) - first;
     for (size_t a = 0; a < arrays_at_once(reordering) && count; a++)
-        memcpy(reordering->arrays[reordering->next + a] + first, list->view.packed + a * list->total + first,
+        memcpy(array_at(reordering, reordering->next + a) + first, list->view.packed + a * list->total + first,
                count * sizeof(double));
 }
 
 static void move_arrays(Reordering *reordering, int chunks) {
-    for (reordering->next = 0; reordering->next < reordering->count; reordering->next += arrays_at_once(reordering)) {
+    for (reordering->next = 0; reordering->next < reordering->arrays; reordering->next += arrays_at_once(reordering)) {
         phys_parallel(reordering->system, chunks, gather_chunk, reordering);
         phys_parallel(reordering->system, chunks, copy_chunk, reordering);
     }
@@ -89,6 +106,17 @@ static void move_marks(const Reordering *reordering, bool *marks) {
     for (uint32_t i = 0; i < list->total; i++)
         moved[i] = marks[list->view.column[i]];
     memcpy(marks, moved, list->total);
+}
+
+static void swap_numbers(const Reordering *reordering, uint32_t i, uint32_t j) {
+    size_t stride = reordering->system->columns.stride;
+    for (const Attribute *attribute = reordering->attributes; attribute < reordering->attributes + reordering->count;
+         attribute++)
+        for (size_t k = 0; k < attribute->parts; k++) {
+            double *numbers = attribute->numbers + k * stride, number = numbers[i];
+            numbers[i] = numbers[j];
+            numbers[j] = number;
+        }
 }
 
 static void swap_marks(bool *marks, uint32_t i, uint32_t j) {
@@ -135,7 +163,7 @@ void phys_reorder(PhysSystem *system, NeighbourList *list) {
         return;
     Reordering reordering = {.system = system, .list = list};
     int chunks = phys_chunk_count(system, list->total, PHYS_MIN_FOR_THREADS);
-    add_arrays(&reordering, false);
+    add_attributes(&reordering, false);
     move_arrays(&reordering, chunks);
     if (system->record_stride || system->remote)
         move_marks(&reordering, system->columns.anchor);
@@ -166,18 +194,14 @@ void phys_allow_reorder(PhysSystem *system, bool allowed) {
 void phys_restore_order(PhysSystem *system) {
     Reordering reordering = {.system = system};
     uint32_t *order = system->order, *column_of = system->column_of, next = 0;
-    add_arrays(&reordering, true);
+    add_attributes(&reordering, true);
     // In this loop, order[i] becomes the column to which the particle in column i belongs.
     for (uint32_t handle = 0; handle < system->handle_count; handle++)
         if (column_of[handle] != NO_COLUMN)
             order[column_of[handle]] = next++;
     for (uint32_t i = 0; i < system->columns.count; i++)
         for (uint32_t home = order[i]; home != i; home = order[i]) {
-            for (size_t a = 0; a < reordering.count; a++) {
-                double number = reordering.arrays[a][i];
-                reordering.arrays[a][i] = reordering.arrays[a][home];
-                reordering.arrays[a][home] = number;
-            }
+            swap_numbers(&reordering, i, home);
             swap_marks(system->columns.anchor, i, home);
             if (system->remote)
                 swap_marks(system->remote, i, home);

@@ -63,12 +63,25 @@ void phys_free(PhysSystem *system) {
     arena_free(&home);
 }
 
+static void return_to(PhysSystem *system, SystemState state) {
+    if (system->state > state)
+        system->state = state;
+}
+
+void phys_discard_columns(PhysSystem *system) {
+    system->state = SYSTEM_DESCRIBED;
+}
+
 void phys_set_options(PhysSystem *system, const PhysOptions *options) {
     CpuLevel best = cpu_detected.level;
     if (options->division != system->options.division)
         free_division(system);
     if (!system->options.pool)
         phys_threads_free(system->threads);
+    if (options->keep_forces != system->options.keep_forces) { // `force_rows` is reserved with the columns
+        phys_discard_columns(system);
+        system->has_forces = false;
+    }
     system->options = *options;
     if (options->threads <= 0)
         system->options.threads = os_processor_count();
@@ -106,15 +119,6 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->any_from_attribute = system->has_forces = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
-}
-
-static void return_to(PhysSystem *system, SystemState state) {
-    if (system->state > state)
-        system->state = state;
-}
-
-void phys_discard_columns(PhysSystem *system) {
-    system->state = SYSTEM_DESCRIBED;
 }
 
 // Sets whether the columns may be reordered. Returns false if out of memory.

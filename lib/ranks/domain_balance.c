@@ -1,6 +1,7 @@
 // domain_balance.c: divides space into patches and assigns them to ranks along a Hilbert curve.
 #include "ranks/domain.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -123,8 +124,10 @@ static bool layout_patches(PhysSystem *system, Domain *domain) {
     round_patches(&domain->patches);
     domain->large_count = 0;
     for (uint32_t i = 0; i < system->particle_count; i++)
-        if (survey->cell[i] == PHYS_CELL_LARGE)
+        if (survey->cell[i] == PHYS_CELL_LARGE) {
+            assert(domain->large_count < PHYS_MAX_LARGE);
             domain->large[domain->large_count++] = i;
+        }
     return true;
 }
 

@@ -326,8 +326,156 @@ static void test_strips(void **state) {
     }
 }
 
+// ---- systems that change in any state ----
+
+enum { MAX_DIMENSIONS = 40, MAX_GROUPS = 3 };
+
+// Describes a random system, twice.
+static void describe_any(Twins *twins, Dice *dice) {
+    static const uint32_t dimensions[] = {1, 2, 2, 3, 3, 4, 5, 6, 8, 13, MAX_DIMENSIONS},
+                          counts[] = {0, 1, 5, 150, 150, 150};
+    uint32_t count = counts[dice_below(dice, COUNT_OF(counts))],
+             groups = 1 + dice_below(dice, 9) / 6 * dice_below(dice, MAX_GROUPS);
+    bool pushed = dice_below(dice, 2), equal = dice_below(dice, 2);
+    uint64_t seed = dice_next(dice);
+    twins->dimensions = dimensions[dice_below(dice, COUNT_OF(dimensions))];
+    PhysSystem *systems[] = {twins->plain, twins->listed};
+    for (int s = 0; s < 2; s++) {
+        Dice own = {seed};
+        phys_begin(systems[s], (uint32_t)twins->dimensions);
+        for (uint32_t g = 1; g < groups; g++)
+            phys_add_group(systems[s], dice_below(&own, g));
+        for (uint32_t i = 0; i < count; i++) {
+            double place[MAX_DIMENSIONS], velocity[MAX_DIMENSIONS], force[MAX_DIMENSIONS];
+            for (int k = 0; k < MAX_DIMENSIONS; k++) {
+                place[k] = dice_between(&own, 0, k < 2 ? 12 : 1);
+                velocity[k] = dice_between(&own, -1, 1);
+                force[k] = dice_between(&own, -1, 1);
+            }
+            PhysParticle p = {.position = place, .velocity = velocity, .radius = 0.5, .mass = 1};
+            if (!equal) {
+                p.radius = dice_between(&own, 0, 0.6);
+                p.charge = dice_between(&own, -1, 1);
+                p.anchor = dice_below(&own, 9) == 0;
+            }
+            p.force = pushed ? force : NULL;
+            p.ease = pushed ? i % 3 : 0;
+            phys_add_particle(systems[s], i % groups, &p);
+        }
+    }
+}
+
+// Replaces the forces of both systems by random ones. Most of them permit neighbour lists in cell order.
+static void choose_forces(Twins *twins, Dice *dice) {
+    uint32_t count = 1 + dice_below(dice, 12) * dice_below(dice, 2), groups = phys_group_count(twins->plain);
+    phys_begin_forces(twins->plain);
+    phys_begin_forces(twins->listed);
+    for (uint32_t f = 0; f < count; f++) {
+        bool any = f > 0 && dice_below(dice, 3) == 0;
+        PhysForce force = force_of(any ? (PhysForceKind)dice_below(dice, PHYS_FORCE_KINDS) : PHYS_COLLISION);
+        double vectors[2][MAX_DIMENSIONS] = {{0.5, 1}, {0, 1}};
+        force.vector = vectors[0];
+        force.vector2 = vectors[1];
+        if (twins->dimensions == 1)
+            vectors[1][0] = 1;
+        force.strength = dice_between(dice, 0, 20);
+        force.max_distance = dice_below(dice, 2) ? 0 : 1;
+        force.theta = dice_below(dice, 2) ? 0 : 0.5;
+        force.has_maximum = true;
+        force.maximum = dice_between(dice, 0, 10);
+        force.from = dice_below(dice, 200);
+        force.to = dice_below(dice, 200);
+        uint32_t group = groups > 1 ? dice_below(dice, groups) : 0;
+        phys_add_force(twins->plain, group, &force);
+        phys_add_force(twins->listed, group, &force);
+    }
+}
+
+static void update_any(Twins *twins, Dice *dice) {
+    uint32_t count = phys_particle_count(twins->plain);
+    if (!count)
+        return;
+    double numbers[MAX_DIMENSIONS];
+    for (int k = 0; k < MAX_DIMENSIONS; k++)
+        numbers[k] = dice_between(dice, 0, 3);
+    PhysParticle p = {.position = numbers, .velocity = numbers, .radius = dice_between(dice, 0, 1), .mass = 1};
+    p.force = dice_below(dice, 2) ? numbers : NULL;
+    p.ease = dice_below(dice, 2);
+    uint32_t handle = dice_below(dice, count);
+    PhysPreserve preserve = {.position = dice_below(dice, 2), .velocity = dice_below(dice, 2)};
+    phys_update_particle(twins->plain, handle, &p, preserve);
+    phys_update_particle(twins->listed, handle, &p, preserve);
+}
+
+// Simulates a frame. The system with lists is first interrupted at the call with this number, if that call is made.
+static void frame_of_any(Twins *twins, Budget *budget, atomic_bool *interrupt, int call, int *calls_left) {
+    PhysTime time = {.last = twins->frame * 0.02, .now = twins->frame * 0.02 + 0.02, .resolution = 0.01};
+    time.clock = time.last;
+    time.lockstep = true;
+    time.keep_last_finite = twins->frame % 3 > 0;
+    twins->frame++;
+    assert_int_equal(phys_simulate(twins->plain, &time).status, PHYS_OK);
+    for (int attempt = 0; attempt < 2; attempt++) {
+        atomic_store(interrupt, false);
+        *calls_left = attempt ? 0 : call;
+        budget_begin(budget, UINT64_MAX, interrupt);
+        PhysStatus status = phys_simulate(twins->listed, &time).status;
+        if (status == PHYS_OK)
+            break;
+        assert_int_equal(attempt, 0);
+        assert_int_equal(status, PHYS_STOPPED);
+    }
+    check_same(twins, __LINE__);
+}
+
+// Dimensions, numbers of particles, groups, kinds of forces, attributes and options change in every state of a system
+// and of the order of its columns, also after an interrupted frame.
+static void test_anything_changes_in_any_state(void **state) {
+    (void)state;
+    enum { SEEDS = 40, CHANGES = 60 };
+    int wider_from_cell_order = 0;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+        Dice dice = {seed * UINT64_C(0x9e3779b97f4a7c15)};
+        int calls_left = 0;
+        atomic_bool interrupt = false;
+        Budget budget = {.memory_limit = SIZE_MAX, .should_interrupt = interrupt_later, .user_data = &calls_left};
+        PhysOptions options = {.cpu = (CpuLevel)(seed % (cpu_detected.level + 1u)),
+                               .threads = 1 + (int)(seed / 8 % 2),
+                               .neighbours = PHYS_NEIGHBOURS_ALWAYS,
+                               .budget = &budget};
+        Twins twins = twins_of(2, &options);
+        for (int change = 0; change < CHANGES; change++) {
+            bool by_cell = twins.listed->column_order == ORDER_BY_CELL;
+            switch (dice_below(&dice, 5)) {
+            case 0:
+            case 1:
+                describe_any(&twins, &dice);
+                choose_forces(&twins, &dice);
+                wider_from_cell_order += by_cell && twins.dimensions > PHYS_VECTOR_DIMENSIONS;
+                break;
+            case 2:
+                choose_forces(&twins, &dice);
+                break;
+            case 3:
+                update_any(&twins, &dice);
+                break;
+            default:
+                options.keep_forces = dice_below(&dice, 2);
+                options.neighbours = dice_below(&dice, 4) ? PHYS_NEIGHBOURS_ALWAYS : PHYS_NEIGHBOURS_AUTO;
+                phys_set_options(twins.listed, &options);
+            }
+            for (uint32_t f = dice_below(&dice, 4); f > 0; f--)
+                frame_of_any(&twins, &budget, &interrupt, 1 + (int)dice_below(&dice, 20), &calls_left);
+        }
+        phys_free(twins.plain);
+        phys_free(twins.listed);
+    }
+    assert_true(wider_from_cell_order > SEEDS);
+}
+
 TEST_GROUP(reorder) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels),
+                                       cmocka_unit_test(test_anything_changes_in_any_state),
                                        cmocka_unit_test(test_kept_forces),
                                        cmocka_unit_test(test_interrupted_frames_leave_no_trace),
                                        cmocka_unit_test(test_resting_particles_keep_lists),
