@@ -1,10 +1,13 @@
-// fuzz_script.c: fuzzes scripts. Runs three frames, prints everything, and dumps the syntax tree and the code.
+// fuzz_script.c: fuzzes scripts. Runs three frames, prints everything, and dumps the syntax tree and the code. Inputs
+// of odd length use neighbour lists also for a few particles.
 #include "fuzz.h"
 #include "petri-edit.h"
 #include "petri-inspect.h"
 
 FUZZ_HARNESS(script) {
-    PetriSession *session = fuzz_open(NULL);
+    PetriOptions options = fuzz_options();
+    options.neighbours = size % 2 ? PETRI_NEIGHBOURS_ALWAYS : PETRI_NEIGHBOURS_AUTO;
+    PetriSession *session = fuzz_open(&options);
     petri_define(session, "COUNT=7");
     if (petri_load_text(session, "fuzz.fl", (const char *)data, size) == PETRI_OK) {
         for (int i = 0; i < 3 && petri_step(session) == PETRI_OK; i++) {

@@ -168,6 +168,25 @@ static void write_clock(void) {
     }
 }
 
+// Writes systems that change from frame to frame (fuzz_physics.c).
+static void write_systems(void) {
+    for (int what = 0; what < 16; what++) {
+        char name[20];
+        uint8_t text[8 * 6];
+        for (int i = 0; i < 48; i += 6) {
+            int frame = i / 6;
+            text[i] = (uint8_t)(frame < 4 ? 1 + what % 2 : 128 + (what * 7 + frame * 11) % 128);      // dimensions
+            text[i + 1] = (uint8_t)(what % 4 == 3 ? 5 + 9 * frame : 200);                             // particles
+            text[i + 2] = (uint8_t)(what % 8 < 6 ? 0 : 130 + frame);                                  // in a group
+            text[i + 3] = (uint8_t)(frame % 4 < 3 || what % 4 < 2 ? 1 : 1 << (what + frame) % 8 | 1); // forces
+            text[i + 4] = (uint8_t)(what < 8 ? 0 : what * 29 + frame * 3);                            // more forces
+            text[i + 5] = (uint8_t)(what * 17 + frame / 2);                                           // attributes
+        }
+        snprintf(name, sizeof name, "system-%d", what);
+        write_seed("physics", name, text, sizeof text);
+    }
+}
+
 static void write_others(void) {
     seed("prompt", "all",
          "1+A\x1e\x01\x1e\x02\x1elet x=frame\x1e!s v=x\x1e\x01\x1e\x03\x1e\x06x*2\x1e\x07\x1e\x08\x1e\x0c<\x02\x1e"
@@ -318,10 +337,10 @@ static void write_image(void) {
 }
 
 int main(int argc, char **argv) {
-    static const char *const folders[] = {"",         "script", "simplify", "draw",    "effects", "scene",  "mesh",
-                                          "prompt",   "clock",  "state",    "files",   "image",   "golden", "arguments",
-                                          "repl",     "link",   "plan",     "journal", "lsp",     "resume", "fmt",
-                                          "terminal", "listen", "spool",    "h5md"};
+    static const char *const folders[] = {"",          "script",   "simplify", "draw",  "effects", "scene", "mesh",
+                                          "prompt",    "clock",    "physics",  "state", "files",   "image", "golden",
+                                          "arguments", "repl",     "link",     "plan",  "journal", "lsp",   "resume",
+                                          "fmt",       "terminal", "listen",   "spool", "h5md"};
     if (argc != 2) {
         fputs("usage: fuzz_seeds FOLDER\n", stderr);
         return 2;
@@ -334,6 +353,7 @@ int main(int argc, char **argv) {
     write_nodes();
     write_commands();
     write_clock();
+    write_systems();
     write_others();
     write_foreign();
     write_editor_messages();
