@@ -3,6 +3,7 @@
 
 #include "base/number.h"
 
+#include <math.h>
 #include <string.h>
 
 static bool same_bits(double x, double y) {
@@ -34,19 +35,28 @@ static bool has_range_form(const KeyRange *range, Value key) {
            (key.len == n + 1 || same_bits(key.as.numbers[n + 1], range->head[n + 1]));
 }
 
+// Returns the only pair that can have this id, or UINT32_MAX if none can. The difference of two ids is rounded to the
+// nearest number of pairs, because it is inexact if they have fractions: 4.1 - 0.1 is less than 4.
+static uint32_t pair_of(const KeyRange *range, double id) {
+    double pair = floor(id - range->head[range->prefix_len] + 0.5);
+    if (!(pair >= 0 && pair < UINT32_MAX) || !same_bits(key_range_id(range, (uint32_t)pair), id))
+        return UINT32_MAX;
+    return (uint32_t)pair;
+}
+
 StateSlot key_range_find(const KeyRange *range, Value key) {
     if (!has_range_form(range, key))
         return STATE_NO_SLOT;
-    double id = key.as.numbers[range->prefix_len], pair = id - range->head[range->prefix_len];
-    if (!(pair >= 0 && pair < range->count))
+    uint32_t pair = pair_of(range, key.as.numbers[range->prefix_len]);
+    if (pair > range->count / 2)
         return STATE_NO_SLOT;
-    uint32_t at = 2 * (uint32_t)pair + (key.len > range->prefix_len + 1);
-    return at < range->count && same_bits(key_range_id(range, (uint32_t)pair), id) ? range->first + at : STATE_NO_SLOT;
+    uint32_t at = 2 * pair + (key.len > range->prefix_len + 1);
+    return at < range->count ? range->first + at : STATE_NO_SLOT;
 }
 
 bool key_range_is_next(const KeyRange *range, Value key) {
     return has_range_form(range, key) && key.len == range->prefix_len + 1 + range->count % 2 &&
-           same_bits(key.as.numbers[range->prefix_len], key_range_id(range, range->count / 2));
+           pair_of(range, key.as.numbers[range->prefix_len]) == range->count / 2;
 }
 
 bool key_range_follows(Value position, Value velocity, Value next_position, Value next_velocity) {

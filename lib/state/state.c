@@ -175,21 +175,23 @@ static StateSlot find_in_key_ranges(const State *state, Value key) {
     return found;
 }
 
-// Converts the last SLOTS entries to a range, unless one has a value or the keys are too long.
+// Converts the last SLOTS entries to a range, unless one has a value, the keys are too long, or a key differs from that
+// of the range. The last can happen if ids have fractions, because each only follows from the one before it.
 static void begin_key_range(State *state) {
     enum { SLOTS = 2 * MAX_SEPARATE_PAIRS };
     const StateEntry *entries = state->entries + state->entry_count - SLOTS;
     state->candidate_pairs = 0;
     if (entries[1].key.len > STATE_KEY_BUFFER)
         return;
-    for (uint32_t i = 0; i < SLOTS; i++)
-        if (entries[i].value.len > 0)
-            return;
     StateSlot first = state->count - SLOTS;
+    KeyRange range = {
+        .first = first, .count = SLOTS, .prefix_len = entries[1].key.len - 2, .head = entries[1].key.as.numbers};
+    for (uint32_t i = 0; i < SLOTS; i++)
+        if (entries[i].value.len > 0 || key_range_find(&range, entries[i].key) != first + i)
+            return;
     for (uint32_t i = 0; i < SLOTS; i++)
         hash_index_remove(&state->index, (uint64_t)entries[i].hash << 32, first + i);
-    state->ranges[state->range_count++] = (KeyRange){
-        .first = first, .count = SLOTS, .prefix_len = entries[1].key.len - 2, .head = entries[1].key.as.numbers};
+    state->ranges[state->range_count++] = range;
     state->entry_count -= SLOTS;
     budget_release(state->budget, SLOTS * SLOT_BYTES);
 }

@@ -101,6 +101,39 @@ static void test_range_keys_match_exactly(void **unused) {
     state_free(state);
 }
 
+// Each key has one slot, also if ids have fractions, so that their differences are inexact, or if ids are so large that
+// some numbers have no successor.
+static void test_fractional_and_large_ids_have_one_slot(void **unused) {
+    (void)unused;
+    static const double firsts[] = {0.1,     -0.1,         -7.3,          1.0 / 3,       1e-300,       -0x1p-1074,
+                                    1e9 / 7, 0x1p53 - 100, 0x1p53 - 99,   0x1p53 + 2,    0x1p52 + 0.5, 0x1p54 + 4,
+                                    1e17,    -0x1p53 + 2,  -0x1p53 - 100, -0x1p54 - 100, 0x1p51 + 0.25};
+    for (size_t n = 0; n < 2 * sizeof firsts / sizeof *firsts; n++) {
+        size_t f = n / 2;
+        bool counted = n % 2; // each id is computed from the first one, or from the one before it
+        State *state = state_new(NULL);
+        double buffer[3], ids[SLOTS];
+        StateSlot slots[SLOTS];
+        double id = firsts[f];
+        for (int i = 0; i < SLOTS; i++, id = i % 2 ? id : counted ? firsts[f] + i / 2 : id + 1) {
+            ids[i] = id;
+            slots[i] = state_slot(state, key_of(id, i % 2, buffer));
+        }
+        for (int i = 0; i < SLOTS; i++) {
+            Value key = key_of(ids[i], i % 2, buffer);
+            assert_int_equal(state_find(state, key), slots[i]);
+            assert_int_equal(state_slot(state, key), slots[i]);
+            Value stored = state_slot_key(state, slots[i]);
+            assert_true(stored.len == key.len && memcmp(stored.as.numbers, buffer, key.len * sizeof *buffer) == 0);
+        }
+        for (int i = 0; i < SLOTS; i += 2) { // ids between those of a range
+            StateSlot slot = state_slot(state, key_of(ids[i] + 0.375, false, buffer));
+            assert_int_equal(slot_of(state, ids[i] + 0.375, false), slot);
+        }
+        state_free(state);
+    }
+}
+
 // The last particle of a range may have only one slot so far.
 static void test_range_may_end_with_incomplete_pair(void **unused) {
     (void)unused;
@@ -316,6 +349,7 @@ TEST_GROUP(state_key_range) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_range_needs_no_memory),
         cmocka_unit_test(test_range_keys_match_exactly),
+        cmocka_unit_test(test_fractional_and_large_ids_have_one_slot),
         cmocka_unit_test(test_range_may_end_with_incomplete_pair),
         cmocka_unit_test(test_range_with_three_arrays_keeps_all_values),
         cmocka_unit_test(test_range_keeps_its_owner),
