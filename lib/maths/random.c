@@ -49,7 +49,7 @@ double turns_cos(double t) {
 }
 
 uint64_t random_hash_number(double x) {
-    double whole = isfinite(x) ? number_floor(x) : x;
+    double whole = isfinite(x) ? number_floor(x) : isnan(x) ? (double)NAN : x; // processors differ in the bits of NaN
     uint64_t bits;
     memcpy(&bits, &whole, sizeof bits);
     return bits;

@@ -22,7 +22,8 @@ static inline uint64_t random_hash_step(uint64_t hash, uint64_t y) {
     hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
     return hash ^ (hash >> 31);
 }
-// Returns the bits that represent a number in a seed hash: those of floor(x), or of x itself if it is infinite or NaN.
+// Returns the bits that represent a number in a seed hash: those of floor(x), of x itself if it is infinite, or of
+// the name `nan` if it is NaN.
 uint64_t random_hash_number(double x) PRIVATE_API(random_hash_number);
 
 // Returns item i of the five-round Squares generator (Widynski, "Squares: A Fast Counter-Based RNG"; spec B9.4).

@@ -54,7 +54,7 @@ static uint64_t hash_node(Hashing *hashing, const Node *node) {
 static uint64_t hash_item(Hashing *hashing, Item item, bool floored) {
     switch (item.type) {
     case ITEM_NUMBER:
-        return floored ? random_hash_number(item.as.number) : number_bits(item.as.number);
+        return floored || isnan(item.as.number) ? random_hash_number(item.as.number) : number_bits(item.as.number);
     case ITEM_STRING:
         return symbol_hash(item.as.string->text);
     case ITEM_NODE:

@@ -25,7 +25,9 @@ static void test_seed_hash_matches_spec(void **state) {
                 {-0.0, 0x8000000000000000},
                 {INFINITY, 0x7ff0000000000000},
                 {0.5, 0},
-                {-INFINITY, 0xfff0000000000000}};
+                {-INFINITY, 0xfff0000000000000},
+                {NAN, 0x7ff8000000000000},
+                {-NAN, 0x7ff8000000000000}};
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         assert_true(random_hash_number(rows[i].x) == rows[i].bits);
 }
