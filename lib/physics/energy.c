@@ -155,7 +155,9 @@ static PhysStatus add_pairs(Source *source) {
 
 static void add_link(Source *source) {
     const PhysForce *link = &source->force;
-    if (link->from == link->to)
+    uint32_t count = source->system->particle_count;
+    if (link->from == link->to || link->from >= count || link->to >= count ||
+        (phys_is_anchor(source->system, link->from) && phys_is_anchor(source->system, link->to)))
         return;
     double length = distance_between(source->system, link->from, link->to);
     if (!(length > 0 && length < INFINITY))

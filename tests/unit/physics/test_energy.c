@@ -106,6 +106,28 @@ static void test_forces_are_gradients(void **state) {
         check_gradient(&setups[i]);
 }
 
+// Anchors do not move, so a force between two of them does no work.
+static void test_links_of_two_anchors_have_no_energy(void **state) {
+    (void)state;
+    PhysSystem *system = phys_new();
+    phys_begin(system, 1);
+    for (uint32_t i = 0; i < 3; i++)
+        phys_add_particle(system, 0, &(PhysParticle){.position = VEC(3.0 * i), .mass = 1, .anchor = i < 2});
+    PhysForce link = force_of(PHYS_DISTANCE);
+    link.has_maximum = true;
+    link.maximum = 1;
+    static const double wanted[][3] = {{0, 1, 0}, {1, 2, 2}, {2, 0, 12.5}, {2, 3, 0}};
+    for (size_t i = 0; i < COUNT_OF(wanted); i++) {
+        double energy;
+        link.from = (uint32_t)wanted[i][0];
+        link.to = (uint32_t)wanted[i][1];
+        uint32_t number = phys_add_force(system, 0, &link);
+        assert_int_equal(phys_potential_energy(system, number, 0, &energy), PHYS_OK);
+        assert_same(energy, wanted[i][2]);
+    }
+    phys_free(system);
+}
+
 static void test_forces_without_potential(void **state) {
     (void)state;
     assert_true(isnan(energy_of(&(Setup){"drag", {.kind = PHYS_DRAG, .strength = 1}, false}, BODIES, 0, 0, 0)));
@@ -200,6 +222,7 @@ static void test_energy_is_conserved(void **state) {
 TEST_GROUP(energy) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_forces_are_gradients),
+        cmocka_unit_test(test_links_of_two_anchors_have_no_energy),
         cmocka_unit_test(test_forces_without_potential),
         cmocka_unit_test(test_energy_is_conserved),
     };
