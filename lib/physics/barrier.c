@@ -24,22 +24,22 @@ static void put_on_surface(const Columns *columns, size_t i, const PhysForce *ba
         columns->position[k * stride + i] -= x * phys_at(barrier->vector2, k);
 }
 
-// p_k = p_k − τ · v_k;  v_k = (v_k − τ · a_k) · restitution
-static void move_back_to_contact(const Columns *columns, size_t i, double tau, double restitution) {
+// p_k = p_k − τ · v_k;  v_k = v_k − τ · a_k
+static void move_back_to_contact(const Columns *columns, size_t i, double tau) {
     size_t n = columns->dimensions, stride = columns->stride;
     const double *acceleration = phys_acceleration(columns);
     for (size_t k = 0; k < n; k++) {
         double *v = &columns->velocity[k * stride + i];
         columns->position[k * stride + i] -= tau * *v;
-        *v = (*v - tau * acceleration[k]) * restitution;
+        *v -= tau * acceleration[k];
     }
 }
 
-// v_k = v_k − (2 · w) · normal_k
-static void reflect(const Columns *columns, size_t i, const PhysForce *barrier, double w) {
+// v_k = v_k − speed · normal_k
+static void reduce_velocity(const Columns *columns, size_t i, const PhysForce *barrier, double speed) {
     size_t n = columns->dimensions, stride = columns->stride;
     for (size_t k = 0; k < n; k++)
-        columns->velocity[k * stride + i] -= 2 * w * phys_at(barrier->vector2, k);
+        columns->velocity[k * stride + i] -= speed * phys_at(barrier->vector2, k);
 }
 
 // b = Σ a_k · normal_k
@@ -51,16 +51,27 @@ static double acceleration_along(const Columns *columns, const PhysForce *barrie
     return sum;
 }
 
-// Moves particle i for the time `delta` and sets a_k = (v_k after − v_k before) / delta.
-static void move_again(const Columns *columns, size_t i, double delta, double speed_of_light) {
-    size_t n = columns->dimensions;
-    Block block = block_at(columns, i);
-    double *acceleration = phys_acceleration(columns), *before = acceleration + n;
-    for (size_t k = 0; k < n; k++)
-        before[k] = velocity_component(&block, k);
-    move_particles(n, &block, delta, speed_of_light);
-    for (size_t k = 0; k < n; k++)
-        acceleration[k] = (velocity_component(&block, k) - before[k]) / delta;
+// v_k = v_k · restitution, reflected if it still points behind the barrier
+static void hit(const Columns *columns, size_t i, const PhysForce *barrier) {
+    for (size_t k = 0; k < columns->dimensions; k++)
+        columns->velocity[k * columns->stride + i] *= barrier->restitution;
+    double c = velocity_along(columns, i, barrier);
+    if (c < 0)
+        reduce_velocity(columns, i, barrier, 2 * c);
+}
+
+// Keeps a particle that has moved for the time `tau` since its contact on the right side of the barrier. Sets
+// a_k = (v_k − u_k) / tau, where u is its velocity at the contact, or 0 if tau is not above 0.
+static void end_bounce(const Columns *columns, size_t i, const PhysForce *barrier, double tau, const double *u) {
+    double w = velocity_along(columns, i, barrier);
+    if (w < 0)
+        reduce_velocity(columns, i, barrier, w);
+    double x = particle_height(columns, i, barrier, -columns->radius[phys_numbers_at(columns, i)]);
+    if (x < 0)
+        put_on_surface(columns, i, barrier, x);
+    double *acceleration = phys_acceleration(columns);
+    for (size_t k = 0; k < columns->dimensions; k++)
+        acceleration[k] = tau > 0 ? (columns->velocity[k * columns->stride + i] - u[k]) / tau : 0;
 }
 
 // Symbols are those of single_formulas.h, and a is the acceleration in the move:
@@ -68,16 +79,19 @@ static void move_again(const Columns *columns, size_t i, double delta, double sp
 //   x = −r + Σ (p_k − position_k)·normal_k, added in this order;   w = Σ v_k·normal_k;   b = Σ a_k·normal_k
 //   if x ≥ 0: done
 //   if not w < 0: put on the surface; done                     because it is already moving away
-//   τ = x / w;  outside = τ > delta;  if outside: τ = delta    time since contact, at most the whole step
+//   τ = x / w;  if τ > delta: τ = delta                        time since contact, at most the whole step
 //   move back to the contact
-//   w' = Σ v_k·normal_k
-//   if outside: x' as x above; if x' < 0: put on the surface
-//   if w' < 0: reflect
-//   if b < 0 and w'/b < τ: τ = max(w'/b, 0)                    not beyond the apex of the bounce
-//   if τ > 0: move again for the time τ, with the same force; else a = 0
+//   c = Σ v_k·normal_k                                         the speed at which it arrives
+//   if c < (b·delta if b < 0, else 0): hit                     it is faster than the force alone makes it in one step
+//   else if c < 0: v_k = v_k − (c·(1 + restitution))·normal_k  it lies on the barrier and keeps its speed along it
+//   u = v
+//   if τ > 0: move again for the time τ, with the same force
+//   w as above; if w < 0: v_k = v_k − w·normal_k               not beyond the apex of the bounce
+//   x as above; if x < 0: put on the surface
+//   a_k = (v_k − u_k) / τ if τ > 0, else 0                     for the next barrier
 void phys_reflect(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;
-    double radius = columns->radius[phys_numbers_at(columns, i)], x = particle_height(columns, i, barrier, -radius);
+    double x = particle_height(columns, i, barrier, -columns->radius[phys_numbers_at(columns, i)]);
     if (x >= 0)
         return;
     double w = velocity_along(columns, i, barrier), b = acceleration_along(columns, barrier);
@@ -86,25 +100,19 @@ void phys_reflect(const Columns *columns, size_t i, const Force *force, double d
         return;
     }
     double tau = x / w;
-    bool outside = tau > delta;
-    if (outside)
+    if (tau > delta)
         tau = delta;
-    move_back_to_contact(columns, i, tau, barrier->restitution);
-    w = velocity_along(columns, i, barrier);
-    if (outside) {
-        x = particle_height(columns, i, barrier, -radius);
-        if (x < 0)
-            put_on_surface(columns, i, barrier, x);
-    }
-    if (w < 0)
-        reflect(columns, i, barrier, w);
-    if (b < 0 && w / b < tau)
-        tau = w / b > 0 ? w / b : 0;
-    if (tau > 0) {
-        move_again(columns, i, tau, speed_of_light);
-        return;
-    }
-    double *acceleration = phys_acceleration(columns);
+    move_back_to_contact(columns, i, tau);
+    double c = velocity_along(columns, i, barrier);
+    if (c < (b < 0 ? b * delta : 0))
+        hit(columns, i, barrier);
+    else if (c < 0)
+        reduce_velocity(columns, i, barrier, c * (1 + barrier->restitution));
+    Block block = block_at(columns, i);
+    double *u = phys_acceleration(columns) + columns->dimensions;
     for (size_t k = 0; k < columns->dimensions; k++)
-        acceleration[k] = 0;
+        u[k] = velocity_component(&block, k);
+    if (tau > 0)
+        move_particles(columns->dimensions, &block, tau, speed_of_light);
+    end_bounce(columns, i, barrier, tau, u);
 }

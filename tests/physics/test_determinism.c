@@ -119,10 +119,10 @@ static const struct {
 } scenes[] = {
     {"dish", dish, 120, UINT64_C(0xf472d431038a733a)},
     {"groups", groups, 90, UINT64_C(0x3e3d0877fe71a0a2)},
-    {"space", space, 90, UINT64_C(0x261c2b5ae8438598)},
+    {"space", space, 90, UINT64_C(0xbcc7168218252c65)},
     {"wire", wire, 200, UINT64_C(0x3b06fa0fe4596ec6)},
     {"five", five, 120, UINT64_C(0x729731c05be36a95)},
-    {"barriers", barriers, 120, UINT64_C(0xf264f0a44b9cbc34)},
+    {"barriers", barriers, 120, UINT64_C(0xbd3312e5bfb5f109)},
     {"feedback", feedback, 150, UINT64_C(0xfb5a5dbc4b991dbc)},
     {"crowd", crowd, 12, UINT64_C(0x386fbe18f17bc205)},
 };

@@ -86,6 +86,35 @@ static void test_soft(void **state) {
     CHECK_CASES(cases);
 }
 
+// A particle that lies on a barrier moves along it as it would without the barrier. On the floor, v = 3;-2 and p = 3;-2
+// after one step. The contact was a whole step earlier, with velocity 0, which is not a hit. The motion is repeated,
+// and its part along the normal is removed.
+#define ON_FLOOR(attributes, barrier) P2 " !particle id=:a " attributes "\n !barrier normal=0;1 " barrier "\n"
+
+static void test_lying(void **state) {
+    (void)state;
+    static const Case cases[] = {
+        {"pushed along the floor", ON_FLOOR("force=3;-2", ""), 1, "a'=3;0 a=3;0", 0},
+        {"for two steps", ON_FLOOR("force=3;-2", ""), 2, "a'=6;0 a=9;0", 0},
+        {"whatever the restitution", ON_FLOOR("force=3;-2", "restitution=0"), 2, "a'=6;0 a=9;0", 0},
+        {"slides without friction", ON_FLOOR("velocity=4;0 force=0;-2", "restitution=0.5"), 3, "a'=4;0 a=12;0", 0},
+        // It arrives at speed 1, to which the force alone accelerates it in half a step. Only this part is reflected.
+        {"no hit: keeps its speed along it", ON_FLOOR("velocity=1;-1 force=0;-2", "restitution=0.5"), 1, "a'=1;0 a=1;0",
+         0},
+        // At speed 3, it hits: the velocity at the contact is 1;-3, and half of it 0.5;1.5 after the reflection.
+        {"a hit: loses speed along it", ON_FLOOR("velocity=1;-3 force=0;-1", "restitution=0.5"), 1,
+         "a'=0.5;0.5 a=0.5;0.5", 0},
+        {"pushed away from it", ON_FLOOR("force=1;2", ""), 1, "a'=1;2 a=1;2", 0},
+    };
+    CHECK_CASES(cases);
+    World world; // a slope of 3 to 4
+    world_open(&world, 1, P2 " !particle id=:a force=0;-12.5\n !barrier normal=3;4\n");
+    world_to(&world, 2);
+    EXPECT_NEAR(&world, ":s;:a", 1e-13, 18, -13.5);
+    EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-13, 12, -9);
+    world_close(&world);
+}
+
 // The reflected velocity w' is computed from the velocity at the contact, without the acceleration after the contact
 // (section 4.4).
 static void test_bounce_under_force(void **state) {
@@ -130,9 +159,8 @@ static void test_normals(void **state) {
 
 TEST_GROUP(seed_barriers) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bounce),
-        cmocka_unit_test(test_soft),
-        cmocka_unit_test(test_bounce_under_force),
+        cmocka_unit_test(test_bounce),  cmocka_unit_test(test_lying),
+        cmocka_unit_test(test_soft),    cmocka_unit_test(test_bounce_under_force),
         cmocka_unit_test(test_normals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

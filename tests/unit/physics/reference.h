@@ -233,6 +233,13 @@ static inline void reference_motion(const Model *model, ModelParticle *p, double
     }
 }
 
+static inline double reference_along(const double *vector, const double *normal, size_t n) {
+    double sum = 0;
+    for (size_t k = 0; k < n; k++)
+        sum = sum + vector[k] * normal[k];
+    return sum;
+}
+
 static inline void reference_bounce(const Model *model, const ModelForce *f, ModelParticle *p, double delta,
                                     double speed_of_light) {
     size_t n = model->n;
@@ -252,30 +259,39 @@ static inline void reference_bounce(const Model *model, const ModelForce *f, Mod
         return;
     }
     double tau = x / w;
-    bool outside = tau > delta;
-    if (outside)
+    if (tau > delta)
         tau = delta;
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < n; k++) {
         pos[k] = pos[k] - tau * v[k];
-    for (size_t k = 0; k < n; k++)
-        v[k] = (v[k] - tau * a[k]) * f->force.restitution;
-    double w2 = 0, x2 = -p->radius;
-    for (size_t k = 0; k < n; k++)
-        w2 = w2 + v[k] * normal[k];
-    for (size_t k = 0; k < n; k++)
-        x2 = x2 + (pos[k] - f->vector[k]) * normal[k];
-    for (size_t k = 0; k < n; k++)
-        if (outside && x2 < 0)
-            pos[k] = pos[k] - x2 * normal[k];
-    for (size_t k = 0; k < n; k++)
-        if (w2 < 0)
-            v[k] = v[k] - (2 * w2) * normal[k];
-    if (b < 0 && w2 / b < tau)
-        tau = fmax(w2 / b, 0);
+        v[k] = v[k] - tau * a[k];
+    }
+    double arrival = reference_along(v, normal, n), limit = 0;
+    if (b < 0)
+        limit = b * delta;
+    if (arrival < limit) {
+        for (size_t k = 0; k < n; k++)
+            v[k] = v[k] * f->force.restitution;
+        double rest = reference_along(v, normal, n);
+        for (size_t k = 0; k < n && rest < 0; k++)
+            v[k] = v[k] - (2 * rest) * normal[k];
+    } else if (arrival < 0) {
+        for (size_t k = 0; k < n; k++)
+            v[k] = v[k] - (arrival * (1 + f->force.restitution)) * normal[k];
+    }
+    double contact[MODEL_DIMENSIONS];
+    memcpy(contact, v, n * sizeof *v);
     if (tau > 0)
         reference_motion(model, p, tau, speed_of_light);
-    else
-        memset(p->acceleration, 0, sizeof p->acceleration);
+    w = reference_along(v, normal, n);
+    for (size_t k = 0; k < n && w < 0; k++)
+        v[k] = v[k] - w * normal[k];
+    x = -p->radius;
+    for (size_t k = 0; k < n; k++)
+        x = x + (pos[k] - f->vector[k]) * normal[k];
+    for (size_t k = 0; k < n && x < 0; k++)
+        pos[k] = pos[k] - x * normal[k];
+    for (size_t k = 0; k < n; k++)
+        a[k] = tau > 0 ? (v[k] - contact[k]) / tau : 0;
 }
 
 // Applies the stages of one step to a particle. Each stage processes the forces of its group, then those of the parent,

@@ -80,13 +80,13 @@ static void test_leaving(void **state) {
     phys_free(system);
 }
 
-// If a particle starts behind the barrier and moves deeper, its step is undone. Then it is placed on the surface and
-// reflected.
+// If a particle starts behind the barrier and moves deeper, its step is undone and repeated with the reflected
+// velocity. Then it is placed on the surface.
 static void test_outside(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, -5), VEC(2, -1), 0, 1);
     one_step(system);
-    check_ball(system, 2, 1, 2, 1);
+    check_ball(system, 2, 0, 2, 1);
     phys_free(system);
 }
 
@@ -162,6 +162,54 @@ static void test_ball_comes_to_rest(void **state) {
     phys_free(system);
 }
 
+// A ball on a slope rolls: it moves along it as fast as without it, at any angle and with any restitution.
+static void test_ball_rolls_down_a_slope(void **state) {
+    (void)state;
+    const double restitutions[] = {0, 0.5, 1};
+    for (int degrees = 5; degrees < 90; degrees += 5)
+        for (size_t r = 0; r < COUNT_OF(restitutions); r++) {
+            double angle = degrees * 3.14159265358979 / 180, normal[] = {sin(angle), cos(angle)};
+            double along[] = {cos(angle), -sin(angle)};
+            PhysSystem *system = phys_new();
+            phys_begin(system, 2);
+            PhysParticle p = {.position = VEC(0.5 * normal[0], 0.5 * normal[1]), .radius = 0.5, .mass = 1};
+            phys_add_particle(system, 0, &p);
+            PhysForce slope = floor_of(restitutions[r]), fall = gravity();
+            slope.vector2 = normal;
+            phys_add_force(system, 0, &slope);
+            phys_add_force(system, 0, &fall);
+            assert_int_equal(run_until(system, 1, 0.01).steps, 100);
+            const double *position = phys_position(system, 0), *velocity = phys_velocity(system, 0);
+            double speed = 10 * sin(angle), way = speed * 1.01 / 2; // of the first-order integrator
+            assert_near(velocity[0] * along[0] + velocity[1] * along[1], speed, 1e-9);
+            assert_near(position[0] * along[0] + position[1] * along[1], way, 1e-9);
+            assert_near(velocity[0] * normal[0] + velocity[1] * normal[1], 0, 1e-9);
+            assert_near(position[0] * normal[0] + position[1] * normal[1], 0.5, 1e-9);
+            phys_free(system);
+        }
+}
+
+// Balls that overlap on a floor push each other apart, although they are also pressed to the floor.
+static void test_balls_on_a_floor_part(void **state) {
+    (void)state;
+    enum { BALLS = 12 };
+    PhysSystem *system = phys_new();
+    phys_begin(system, 2);
+    for (uint32_t i = 0; i < BALLS; i++)
+        phys_add_particle(system, 0, &(PhysParticle){.position = VEC(0.6 * i, 0.5), .radius = 0.5, .mass = 1});
+    PhysForce fall = gravity(), collision = force_of(PHYS_COLLISION), floor = floor_of(0.2);
+    collision.strength = 100;
+    phys_add_force(system, 0, &fall);
+    phys_add_force(system, 0, &collision);
+    phys_add_force(system, 0, &floor);
+    run_until(system, 10, 1 / 120.0);
+    for (uint32_t i = 1; i < BALLS; i++) {
+        assert_true(phys_position(system, i)[0] - phys_position(system, i - 1)[0] > 0.99);
+        assert_near(phys_position(system, i)[1], 0.5, 1e-9);
+    }
+    phys_free(system);
+}
+
 // The speed of light, here 4, also limits the motion after a reflection. A force of 2 acts for the remaining half of
 // the step.
 static void test_speed_of_light(void **state) {
@@ -191,6 +239,8 @@ TEST_GROUP(barriers) {
         cmocka_unit_test(test_corner),
         cmocka_unit_test(test_bounce_height),
         cmocka_unit_test(test_ball_comes_to_rest),
+        cmocka_unit_test(test_ball_rolls_down_a_slope),
+        cmocka_unit_test(test_balls_on_a_floor_part),
         cmocka_unit_test(test_speed_of_light),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
