@@ -130,8 +130,7 @@ int helper_exec_ranks(char **argv, bool needed) {
     int cause = exec_helper("petri-ranks", argv, path);
     if (cause == ENOENT && !needed)
         return -1;
-    if (rank == 0) {
+    if (rank == 0)
         message("cannot start petri-ranks: %s%s", strerror(cause), cause == ENOENT ? ranks_hint(path) : "");
-    }
     return STATUS_FAILED;
 }

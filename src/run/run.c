@@ -123,7 +123,8 @@ static void report_pictures(const Run *run) {
     hint_pictures(run->host, options->script);
 }
 
-// Reports the systems and the digest of the state, if --show could not show the picture and no terminal is there either.
+// Reports the systems and the digest of the state, if --show could not show the picture and no terminal is there
+// either.
 static void report_result(const Run *run) {
     enum { MAX_SYSTEMS = 4, DIGEST_BYTES = 16 };
     const Options *options = run->frames.options;
