@@ -10,17 +10,15 @@ trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM HUP
 (cd "$root" && git ls-files -z | xargs -0 cp --parents -t "$work")
 meson setup "$work/build" "$work" --buildtype=release -Dcairo=disabled -Dgl=disabled >"$work/log"
-tests=$(ninja -C "$work/build" -t targets all | sed -n 's/^\(tests\/laws\/test_[a-z_]*\): .*/\1/p')
+tests=tests/laws/laws_tests
 
 # Builds the tests. Prints the names of those that fail.
 run() {
-    nice ninja -C "$work/build" $tests >"$work/log" 2>&1 || {
+    nice ninja -C "$work/build" "$tests" >"$work/log" 2>&1 || {
         cat "$work/log"
         exit 1
     }
-    for test in $tests; do
-        "$work/build/$test" 2>&1 | sed -n 's/^\[  FAILED  \] \(test_[a-z_]*\)$/\1/p'
-    done | sort -u | tr '\n' ' '
+    "$work/build/$tests" 2>&1 | sed -n 's/^\[  FAILED  \] \(test_[a-z_]*\)$/\1/p' | sort -u | tr '\n' ' '
 }
 
 status=0

@@ -2,6 +2,7 @@
 // engine. It is not derived from the formulas of the specification, so it also finds flaws of the specification.
 #pragma once
 
+#include "groups.h"
 #include "petri-inspect.h"
 
 #include <math.h>

@@ -156,7 +156,7 @@ static void test_far_anchors_do_no_harm(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(laws_barriers) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_motion_along_a_barrier_is_free),
         cmocka_unit_test(test_bodies_stay_inside),

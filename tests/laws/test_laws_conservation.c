@@ -117,7 +117,7 @@ static void test_orbits_keep_energy(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(laws_conservation) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_pair_forces_keep_momenta),
         cmocka_unit_test(test_springs_keep_energy),

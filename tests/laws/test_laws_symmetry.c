@@ -252,7 +252,7 @@ static void test_time_is_reversible(void **state) {
     }
 }
 
-int main(void) {
+TEST_GROUP(laws_symmetry) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_mirror_is_exact),       cmocka_unit_test(test_quarter_turn_is_exact),
         cmocka_unit_test(test_power_of_two_is_exact), cmocka_unit_test(test_other_frame_of_reference),
