@@ -132,12 +132,12 @@ typedef struct Text {
 } Text;
 
 __attribute__((format(printf, 2, 3))) static inline void add(Text *text, const char *format, ...) {
-    enum { LONGEST = 1000 };
+    enum { MAX_LENGTH = 1000 };
     va_list list;
-    text->bytes = realloc(text->bytes, text->length + LONGEST);
+    text->bytes = realloc(text->bytes, text->length + MAX_LENGTH);
     assert_non_null(text->bytes);
     va_start(list, format);
-    text->length += (size_t)vsnprintf(text->bytes + text->length, LONGEST, format, list);
+    text->length += (size_t)vsnprintf(text->bytes + text->length, MAX_LENGTH, format, list);
     va_end(list);
 }
 

@@ -96,10 +96,11 @@ static void test_bodies_stay_inside(void **state) {
     }
 }
 
-// Bodies that fall from rest on elastic barriers of any direction do not rise above the height of their start.
+// Bodies that fall from rest on elastic barriers of any direction do not rise above the height of their start. The
+// steps are short, because each bounce loses about a step of motion, which would hide small gains.
 static void test_elastic_bounces_gain_no_height(void **state) {
     (void)state;
-    enum { FRAMES = 400 };
+    enum { FRAMES = 200, STEPS = 32 };
     for (uint64_t seed = 1; seed <= SYSTEMS; seed++) {
         Dish dish = with_barrier(seed, FIELDS, false);
         uint64_t dice = seed;
@@ -108,6 +109,7 @@ static void test_elastic_bounces_gain_no_height(void **state) {
         dish.forces[1] = *barrier;
         dish.forces[1].restitution = 1;
         dish.force_count = 2;
+        dish.delta = DELTA / STEPS;
         random_vector(&dice, dish.dimensions, 2, up);
         for (int k = 0; k < dish.dimensions; k++)
             up[k] += 3 * dish.forces[1].vector2[k]; // gravity pulls towards the barrier
@@ -117,9 +119,9 @@ static void test_elastic_bounces_gain_no_height(void **state) {
         Dish start = dish;
         for (int i = 0; i < dish.body_count; i++)
             memset(dish.bodies[i].velocity, 0, sizeof dish.bodies[i].velocity);
-        PetriSession *session = open_dish(&dish, 1, seed);
+        PetriSession *session = open_dish(&dish, STEPS, seed);
         for (int frame = 0; frame < FRAMES; frame++) {
-            step_dish(session, &dish, 1);
+            step_dish(session, &dish, STEPS);
             for (int i = 0; i < dish.body_count; i++) {
                 double first = along(&dish, start.bodies[i].position, up),
                        now = along(&dish, dish.bodies[i].position, up);
@@ -132,16 +134,13 @@ static void test_elastic_bounces_gain_no_height(void **state) {
     }
 }
 
-// Anchors that jump, or are at no point at all, do no harm to bodies that they cannot reach.
+// Anchors that are so far away that their forces are 0, or at no point at all, do no harm.
 static void test_far_anchors_do_no_harm(void **state) {
     (void)state;
     enum { STEPS = 24 };
-    static const double places[] = {1e4, -1e9, 1e200, -1e300, INFINITY, NAN};
+    static const double places[] = {1e160, -1e180, 1e200, -1e300, INFINITY, NAN};
     for (uint64_t seed = 1; seed <= SYSTEMS; seed++) {
         Dish dish = random_dish(seed, (PAIRS & ~KIND(DISTANCE)) | FIELDS | KIND(DRAG), MAX_GROUPS), other = dish;
-        for (int f = 0; f < dish.force_count; f++)
-            dish.forces[f].max_distance = 2 + f;
-        other = dish;
         for (int a = 0; a < 3 && other.body_count < MAX_BODIES; a++) {
             Body *anchor = &other.bodies[other.body_count++];
             *anchor = (Body){.radius = 1, .mass = 5, .charge = 1, .anchor = true, .group = a % dish.group_count};
