@@ -128,6 +128,7 @@ run_tests() {
         good=$(counts Ok "$log")
         bad=$(($(counts Fail "$log") + $(counts Timeout "$log") + $(counts 'Unexpected Pass' "$log")))
         failed=$(sed -nE 's#^ *[0-9]+/[0-9]+ [^/]* / ([^ ]+) +(FAIL|TIMEOUT|ERROR|UNEXPECTEDPASS|INTERRUPT) .*#\1#p' "$log" | sort -u)
+        sed -nE 's#^ *[0-9]+/[0-9]+ [^/]* / ([^ ]+) +TIMEOUT +([^ ]+).*#timed out after \2, perhaps because the machine was busy: \1; to repeat: ./dev test \1#p' "$log"
         # Meson may fail without a failed test; count that as a failure.
         [ "$code" -eq 0 ] || [ "$bad" -gt 0 ] || bad=1
     fi

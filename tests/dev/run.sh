@@ -184,6 +184,11 @@ LOG
         printf '>>> the log of slow\n\nOk:                 2   \nFail:               1   \nTimeout:            0   \n'
         exit 1
     fi
+    if [ "$BREAKS" = time ]; then
+        echo '3/3 petri:view / slow    TIMEOUT  900.01s   killed by signal 15 SIGTERM'
+        printf '\nOk:                 2   \nFail:               0   \nTimeout:            1   \n'
+        exit 1
+    fi
     echo '3/3 petri:view / slow    OK    9.01s'
     printf '\nOk:                 3   \nFail:               0   \nTimeout:            0   \n'
     ;;
@@ -347,6 +352,10 @@ dev test
 check "test exits with 1 if a test fails" status_is 1
 check "the log of a failed test is shown" has out ">>> the log of slow"
 check "test names the log and the command that repeats the failed test" has out "log: build/tests.log; to repeat: ./dev test slow"
+breaks=time
+dev test
+check "test fails if a test takes too long" status_is 1
+check "test says that it took too long" has out "timed out after 900.01s, perhaps because the machine was busy: slow; to repeat: ./dev test slow"
 check "failures are counted" [ "$(tail -n 1 "$work/out")" = "12 passed, 1 failed" ]
 
 machine

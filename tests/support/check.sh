@@ -19,7 +19,9 @@ check() {
         echo "ok $name"
     else
         failed=$((failed + 1))
-        failure="FAIL $name: $*${status:+ (exit status $status)}"
+        reason=${status:+exit status $status}
+        [ "$status" != 124 ] || reason="exit status 124: stopped by this test's time limit"
+        failure="FAIL $name: $*${reason:+ ($reason)}"
         echo "$failure"
         failures="$failures$failure
 "
