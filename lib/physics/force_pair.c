@@ -10,10 +10,10 @@
 // inside it.
 typedef struct Pass {
     PhysSystem *system;
-    const Kernels *kernels;   // NULL: the pass is computed row by row
-    const PairKernel *kernel; // NULL: the pass is computed row by row
-    PairPass pairs;           // argument of the kernel
-    Move *move;               // motion that follows this pass; NULL: particles must not move
+    const Kernels *kernels; // NULL: the pass is computed row by row
+    PairKernel *kernel;     // NULL: the pass is computed row by row
+    PairPass pairs;         // argument of the kernel
+    Move *move;             // motion that follows this pass; NULL: particles must not move
 } Pass;
 
 void phys_fill_terms(PairTerm *terms, ForceRange forces) {
@@ -92,10 +92,8 @@ static void compute_region(const Pass *pass, const PairRegion *region) {
     int threads = phys_wavefront_threads(pass->system, phys_region_pairs(region));
     if (threads)
         run_wavefront(pass, region, threads);
-    else if (region->triangle)
-        pass->kernel->triangle(&pass->pairs, region->row, region->row_end);
     else
-        pass->kernel->tiles(&pass->pairs, region->row, region->row_end, region->column, region->column_end);
+        pass->kernel(&pass->pairs, region->triangle, region->row, region->row_end, region->column, region->column_end);
 }
 
 // Computes all pairs within one range.

@@ -5,7 +5,7 @@ static bool needs_contact(const PairTerm *term) {
     return phys_force_row(term->kind).reach == REACH_CONTACT;
 }
 
-static const PairKernel *pair_kernel(const PairPass *pass) {
+static PairKernel *pair_kernel(const PairPass *pass) {
     static const PairKernelTable *const tables[PHYS_VECTOR_DIMENSIONS] = {
         &PER_ISA(pair_kernels_1d), &PER_ISA(pair_kernels_2d), &PER_ISA(pair_kernels_3d)};
     const PairKernelTable *table = tables[pass->dimensions - 1];
@@ -15,8 +15,8 @@ static const PairKernel *pair_kernel(const PairPass *pass) {
     PairRest rest = pass->term_count == others ? REST_NONE : REST_CONTACT;
     for (size_t t = others; t < pass->term_count; t++)
         if (!needs_contact(&pass->terms[t]))
-            return &(*table)[LEAD_NONE][REST_ANY];
-    return &(*table)[lead][rest];
+            return (*table)[LEAD_NONE][REST_ANY];
+    return (*table)[lead][rest];
 }
 
 const Kernels PER_ISA(phys_kernels) = {

@@ -4,7 +4,7 @@
 
 #include "physics/pair_geometry.h"
 
-typedef PairKernel PairKernelTable[LEAD_NONE + 1][REST_ANY + 1]; // by lead and rest; NULL: no kernel
+typedef PairKernel *PairKernelTable[LEAD_NONE + 1][REST_ANY + 1]; // by lead and rest; NULL: no kernel
 
 extern const PairKernelTable PER_ISA(pair_kernels_1d);
 extern const PairKernelTable PER_ISA(pair_kernels_2d);

@@ -52,15 +52,10 @@ static inline bool phys_pass_stopped(const PairPass *pass) {
     return pass->stop && atomic_load_explicit(pass->stop, memory_order_relaxed);
 }
 
-// PairTriangle computes all pairs within one range. PairTiles computes all pairs between a range of rows and a range of
-// columns, which must not overlap.
-typedef void PairTriangle(const PairPass *pass, size_t first, size_t end);
-typedef void PairTiles(const PairPass *pass, size_t row, size_t row_end, size_t column, size_t column_end);
-
-typedef struct PairKernel {
-    PairTriangle *triangle;
-    PairTiles *tiles;
-} PairKernel;
+// Computes all pairs of a row and a column. The ranges of rows and columns must not overlap. With `triangle`, they must
+// be equal, and each pair within the range is computed once.
+typedef void PairKernel(const PairPass *pass, bool triangle, size_t row, size_t row_end, size_t column,
+                        size_t column_end);
 
 // Neighbour lists for the kernels. Particles are in sorted order (neighbour_list.h).
 typedef struct ListView {
@@ -93,8 +88,8 @@ typedef struct FarKernels FarKernels; // far_field.h
 
 typedef struct Kernels {
     size_t lanes;
-    // Returns the fastest kernels for the forces of a pass.
-    const PairKernel *(*pair)(const PairPass *pass);
+    // Returns the fastest kernel for the forces of a pass.
+    PairKernel *(*pair)(const PairPass *pass);
     // Updates `packed` and `sources` for sorted indices first to end - 1. Returns false if a particle has moved too far
     // or has grown.
     bool (*list_refresh)(const PairPass *pass, const ListView *view, size_t first, size_t end);

@@ -144,14 +144,11 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
 
 // The kernels. Lead and rest are constants in each, and DIMENSIONS is a constant of the file that defines them.
 #define PAIR_KERNEL(name, lead, rest)                                                                                  \
-    static void triangle_##name##rest(const PairPass *pass, size_t first, size_t end) {                                \
-        tile_rows(pass, (PairShape){DIMENSIONS, lead, rest, false}, first, end, 0, end, true);                         \
-    }                                                                                                                  \
-    static void tiles_##name##rest(const PairPass *pass, size_t row, size_t row_end, size_t column,                    \
-                                   size_t column_end) {                                                                \
-        tile_rows(pass, (PairShape){DIMENSIONS, lead, rest, false}, row, row_end, column, column_end, false);          \
+    static void kernel_##name##rest(const PairPass *pass, bool triangle, size_t row, size_t row_end, size_t column,    \
+                                    size_t column_end) {                                                               \
+        tile_rows(pass, (PairShape){DIMENSIONS, lead, rest, false}, row, row_end, column, column_end, triangle);       \
     }
-#define PAIR_ENTRY(name, lead, rest) [lead][rest] = {triangle_##name##rest, tiles_##name##rest},
+#define PAIR_ENTRY(name, lead, rest) [lead][rest] = kernel_##name##rest,
 
 // Every force whose range can be unlimited has kernels in which it is the lead.
 #define LEAD_CONTACT(MAKE, KIND)

@@ -57,10 +57,7 @@ void phys_pair_block(const PairBlocks *blocks, size_t row, size_t column) {
     size_t first = pairs->row + row * blocks->block, end = min_size(first + blocks->block, pairs->row_end);
     size_t other = pairs->column + column * blocks->block,
            other_end = min_size(other + blocks->block, pairs->column_end);
-    if (pairs->triangle && row == column)
-        pairs->kernel->triangle(pairs->pass, first, end);
-    else
-        pairs->kernel->tiles(pairs->pass, first, end, other, other_end);
+    pairs->kernel(pairs->pass, pairs->triangle && row == column, first, end, other, other_end);
 }
 
 static bool claim_row(Row *row) {

@@ -7,7 +7,7 @@
 // The pairs within one range of particles (a triangle, whose columns are the same particles as its rows), or between
 // two ranges (a rectangle).
 typedef struct PairRegion {
-    const PairKernel *kernel;
+    PairKernel *kernel;
     const PairPass *pass;
     bool triangle;
     size_t row, row_end;
