@@ -35,8 +35,7 @@ mutate [PATH...] [--count N] [--seed N] [--only NUMBERS]: plant faults in source
   --count N       plant N faults (default: 150)
   --seed N        choose other faults (default: 1)
   --only NUMBERS  try these faults again, such as 7,31, also with slow tests
-coverage [--omitted]: report which lines of lib/ and src/ the tests run; fail below 95 % or 90 %
-  --omitted  only print the suites that are left out
+coverage: report which lines of lib/ and src/ the tests run; fail below 95 % or 90 %
 format [--check]: format sources and scripts
   --check  only list unformatted files
 tidy [--deep]: run clang-tidy
