@@ -20,50 +20,6 @@ bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *outpu
     return started;
 }
 
-static bool is_text(const void *owner, uint32_t entry, const void *key) {
-    return strcmp(((const H5md *)owner)->texts.items[entry], key) == 0;
-}
-
-// Sets *number to the negative id that represents the string `text` in the data for petri-hdf5. Returns false if out of
-// memory.
-static bool number_text(H5md *file, const char *text, int64_t *number) {
-    uint64_t hash = hash_bytes(0, text, strlen(text));
-    uint32_t entry = hash_index_find(&file->index, hash, is_text, file, text);
-    if (entry == HASH_INDEX_NONE) {
-        entry = (uint32_t)file->texts.count;
-        if (!hash_index_add(&file->index, hash, entry))
-            return false;
-        texts_add(&file->texts, text);
-    }
-    *number = -2 - (int64_t)entry;
-    return true;
-}
-
-// Appends an id: an integer >= 0 unchanged, any other value as the negative id of its string. Returns false if out of
-// memory.
-static bool add_id(H5md *file, PetriSession *session, PetriValue value) {
-    const double MAX_INTEGER = 9007199254740992; // 2^53; doubles cannot represent every larger integer
-    double number = value.length == 1 && value.numbers ? value.numbers[0] : -1;
-    int64_t id = number >= 0 && number <= MAX_INTEGER ? (int64_t)number : -1;
-    if (id < 0 || (double)id != number) {
-        const char *text = petri_format_value(session, value);
-        if (!text || !number_text(file, text, &id))
-            return false;
-    }
-    text_add(&file->ids, (Str){(const char *)&id, sizeof id});
-    return true;
-}
-
-static bool add_ids(H5md *file, PetriSession *session, size_t s, const PetriSystem *system) {
-    PetriColumn ids = petri_particle_ids(session, s);
-    for (uint32_t i = 0; i < system->particle_count; i++) {
-        const double *number = !ids.data ? NULL : ids.data + i * ids.stride;
-        if (!add_id(file, session, !number ? petri_particle_id(session, s, i) : (PetriValue){1, number, NULL}))
-            return false;
-    }
-    return true;
-}
-
 static void send_text(Output *output, const char *text, size_t length) {
     static const char filling[8];
     output_write(output, text, length);
@@ -113,13 +69,13 @@ bool h5md_add(H5md *file, PetriSession *session, const ParticlesEnergies *energi
     text_add_c(&file->ids, "");
     text_add_c(&texts, "");
     for (; petri_system(session, frame.system_count, &system, sizeof system); frame.system_count++) {
-        if (!add_ids(file, session, frame.system_count, &system))
+        if (!id_numbers_of_system(&file->names, session, frame.system_count, &system, &file->ids))
             return false;
         bytes += sizeof(Hdf5System) + hdf5_padded(strlen(system.name)) +
                  system.particle_count * (2 * system.dimensions + HDF5_NUMBERS) * sizeof(double);
     }
-    for (; file->sent < file->texts.count; file->sent++)
-        text_add(&texts, (Str){file->texts.items[file->sent], strlen(file->texts.items[file->sent]) + 1});
+    for (; file->sent < file->names.texts.count; file->sent++)
+        text_add(&texts, (Str){file->names.texts.items[file->sent], strlen(file->names.texts.items[file->sent]) + 1});
     frame.text_count = file->sent - frame.text_count;
     frame.text_bytes = hdf5_padded(texts.len);
     send_head(output, HDF5_ADD, bytes + frame.text_bytes);
@@ -142,8 +98,7 @@ bool h5md_sync(H5md *file, Output *output) {
 bool h5md_close(H5md *file, bool keep, Output *output) {
     send_head(output, keep ? HDF5_COMMIT : HDF5_DISCARD, 0);
     bool sent = output_flush(output);
-    texts_free(&file->texts);
-    hash_index_free(&file->index);
+    id_numbers_free(&file->names);
     text_free(&file->ids);
     return hdf5_end(&file->writer) && sent;
 }

@@ -1,20 +1,19 @@
 // h5md.h: H5MD trajectories (`petri run --trajectory FILE.h5`), which petri-hdf5 writes.
 #pragma once
 
-#include "base/hash_index.h"
 #include "cli/hdf5.h"
 #include "cli/memory.h"
 #include "cli/output.h"
 #include "cli/particles.h"
 #include "petri.h"
+#include "run/id_numbers.h"
 #include "run/resume.h"
 
 typedef struct H5md {
     Hdf5 writer;
-    TextList texts;  // ids that are not integers >= 0, as strings
-    HashIndex index; // finds the position of a string in `texts`
-    size_t sent;     // number of `texts` that were sent to petri-hdf5
-    Text ids;        // ids of the particles of the current frame, as int64_t values
+    IdNumbers names;
+    size_t sent; // number of `names.texts` that were sent to petri-hdf5
+    Text ids;    // ids of the particles of the current frame, as int64_t values
 } H5md;
 
 // Starts petri-hdf5 and makes `output` write to it. `resume` describes the state from which the run continues; if it is

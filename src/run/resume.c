@@ -47,7 +47,7 @@ static bool read_integer(const char *text, const char *ends, int64_t *number) {
 // read_xyz and read_csv find the last complete frame that is not later than frame `after`. They set file->last to its
 // number and file->end to the offset of its end. They return false if the file is not a trajectory written by petri.
 
-static bool read_xyz(Lines *lines, int64_t after, ResumeFile *file) {
+static bool read_xyz(Lines *lines, int64_t after, XyzNames *names, ResumeFile *file) {
     int64_t count = 0, frame = 0;
     while (next_line(lines)) {
         if (!read_integer(lines->line, "\n", &count))
@@ -58,9 +58,13 @@ static bool read_xyz(Lines *lines, int64_t after, ResumeFile *file) {
         if (strncmp(lines->line, "Properties=species:S:1:pos:R:3:", 31) != 0 || !number ||
             !read_integer(number + strlen(" Frame="), "\n", &frame))
             return false;
-        while (frame <= after && count > 0 && next_line(lines))
+        if (frame > after)
+            return true;
+        if (!xyz_read_names(names, lines->line))
+            return false;
+        while (count > 0 && next_line(lines))
             count--;
-        if (frame > after || count > 0)
+        if (count > 0)
             return true;
         file->end = lines->end;
         file->last = frame;
@@ -101,7 +105,7 @@ static bool report_error(const char *path, const char *why) {
     return false;
 }
 
-static bool read_existing(ResumeFile *file, const char *path, bool csv, int64_t after) {
+static bool read_existing(ResumeFile *file, const char *path, XyzNames *names, int64_t after) {
     struct stat info;
     if (!os_lock(file->fd) && errno == EWOULDBLOCK)
         return report_error(path, "the file is in use by another petri process");
@@ -109,7 +113,7 @@ static bool read_existing(ResumeFile *file, const char *path, bool csv, int64_t 
     Lines lines = {.stream = again < 0 ? NULL : fdopen(again, "r")};
     if (!lines.stream)
         return report_error(path, again < 0 ? "not a regular file" : strerror(errno));
-    bool known = csv ? read_csv(&lines, after, file) : read_xyz(&lines, after, file);
+    bool known = names ? read_xyz(&lines, after, names, file) : read_csv(&lines, after, file);
     bool read = !ferror(lines.stream);
     int cause = errno;
     free(lines.line);
@@ -122,12 +126,12 @@ static bool read_existing(ResumeFile *file, const char *path, bool csv, int64_t 
            report_error(path, strerror(errno));
 }
 
-bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after) {
+bool resume_open(ResumeFile *file, const char *path, XyzNames *names, int64_t after) {
     *file = (ResumeFile){.last = -1};
     file->fd = file_open_at(AT_FDCWD, path, O_RDWR | O_NONBLOCK, 0);
     if (file->fd < 0)
         return errno == ENOENT || report_error(path, strerror(errno));
-    if (!read_existing(file, path, csv, after)) {
+    if (!read_existing(file, path, names, after)) {
         close(file->fd);
         file->fd = -1;
         return false;

@@ -4,6 +4,8 @@
 // A run that continues from the state removes later frames from the file and computes them again.
 #pragma once
 
+#include "run/xyz.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -23,9 +25,9 @@ typedef struct ResumeFile {
     bool energies;       // true if a CSV header has columns for energies
 } ResumeFile;
 
-// Opens an XYZ file, or a CSV file if `csv` is true, and removes the frames after frame `after`. Returns false after a
-// message. Does not modify a file that was not written by petri.
-bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after);
+// Opens a trajectory and removes the frames after frame `after`. Adds the names in an XYZ file to `names`; if `names`
+// is NULL, the file is a CSV file. Returns false after a message. Does not modify a file that was not written by petri.
+bool resume_open(ResumeFile *file, const char *path, XyzNames *names, int64_t after);
 // Reports the frames that are missing in the file: those from last + 1 up to the state. `last` is the last frame in the
 // file.
 void resume_report_gap(const char *path, int64_t last, const Resume *resume);

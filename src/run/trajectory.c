@@ -1,9 +1,6 @@
 // trajectory.c: the file of `petri run --trajectory`; see trajectory.h.
 //
-// Extended XYZ, as ASE and OVITO read it, has one block per frame with all systems. The format has three dimensions:
-// missing components are 0, and components after the third are omitted. The species is always X, which both programs
-// accept as "no element".
-// For CSV, see cli/particles.h; for H5MD, see h5md.h.
+// For extended XYZ, see xyz.h; for CSV, see cli/particles.h; for H5MD, see h5md.h.
 #include "run/trajectory.h"
 
 #include "base/file.h"
@@ -23,8 +20,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-enum { XYZ_DIMENSIONS = 3 };
 
 static bool report_error(Trajectory *trajectory, int error) {
     // These errors mean that petri-hdf5 has reported its own error and exited. The error is ECONNRESET if petri-hdf5
@@ -66,8 +61,11 @@ static void write_named(Trajectory *trajectory, int fd, size_t end) {
 // Continues an existing XYZ or CSV file. Returns false after a message.
 static bool resume_file(Trajectory *trajectory, const Resume *resume) {
     ResumeFile file;
-    if (!resume_open(&file, trajectory->path, trajectory->format == TRAJECTORY_CSV, resume->after))
+    XyzNames *names = trajectory->format == TRAJECTORY_CSV ? NULL : &trajectory->names;
+    if (!resume_open(&file, trajectory->path, names, resume->after)) {
+        xyz_free(&trajectory->names);
         return false;
+    }
     if (file.fd >= 0) {
         trajectory->dimensions = file.dimensions;
         if (file.dimensions > 0)
@@ -104,46 +102,6 @@ bool trajectory_open(Trajectory *trajectory, const char *path, bool energies, co
     return true;
 }
 
-static double column_number(PetriColumn column, uint32_t particle) {
-    return column.data[particle * column.stride];
-}
-
-static void add_xyz_vector(Output *output, PetriColumn column, uint32_t particle, uint32_t dimensions) {
-    for (uint32_t k = 0; k < XYZ_DIMENSIONS; k++)
-        output_format(output, " %.17g", k < dimensions ? column.data[particle * column.stride + k] : 0);
-}
-
-static void add_xyz(Output *output, PetriSession *session, const ParticlesEnergies *energies) {
-    PetriFrame frame;
-    petri_frame(session, &frame, sizeof frame);
-    PetriSystem system;
-    uint64_t count = 0;
-    ParticlesEnergies sum = {0};
-    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
-        count += system.particle_count;
-        sum.kinetic += energies ? energies[s].kinetic : 0;
-        sum.potential += energies ? energies[s].potential : 0;
-    }
-    output_format(output,
-                  "%" PRIu64 "\nProperties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:charge:R:1:"
-                  "id:I:1:system:I:1:anchor:I:1",
-                  count);
-    if (energies)
-        output_format(output, " kinetic_energy=%.17g potential_energy=%.17g", sum.kinetic, sum.potential);
-    output_format(output, " Time=%.17g Frame=%" PRId64 "\n", frame.time, frame.number);
-    uint64_t id = 0;
-    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
-        for (uint32_t i = 0; i < system.particle_count; i++) {
-            output_format(output, "X");
-            add_xyz_vector(output, system.position, i, system.dimensions);
-            add_xyz_vector(output, system.velocity, i, system.dimensions);
-            output_format(output, " %.17g %.17g %.17g %" PRIu64 " %zu %d\n", column_number(system.radius, i),
-                          column_number(system.mass, i), column_number(system.charge, i), id++, s,
-                          system.anchor[i * system.anchor_stride] ? 1 : 0);
-        }
-    }
-}
-
 static bool add_csv(Trajectory *trajectory, PetriSession *session, const ParticlesEnergies *energies) {
     if (trajectory->dimensions == 0) {
         trajectory->dimensions = particles_dimensions(session);
@@ -166,8 +124,7 @@ static ParticlesEnergies *measure_energies(const Trajectory *trajectory, PetriSe
 static bool add_frame(Trajectory *trajectory, PetriSession *session, const ParticlesEnergies *energies) {
     switch (trajectory->format) {
     case TRAJECTORY_XYZ:
-        add_xyz(&trajectory->output, session, energies);
-        return true;
+        return xyz_add(&trajectory->names, session, energies, &trajectory->output);
     case TRAJECTORY_CSV:
         return add_csv(trajectory, session, energies);
     default:
@@ -253,5 +210,6 @@ bool trajectory_close(Trajectory *trajectory, bool good) {
         return true;
     trajectory->open = false;
     bool keep = !trajectory->failed && (good || trajectory->resumable || trajectory->complete_bytes > 0);
+    xyz_free(&trajectory->names);
     return finish_file(trajectory, keep) && !trajectory->failed;
 }

@@ -6,6 +6,7 @@
 #include "petri.h"
 #include "run/h5md.h"
 #include "run/resume.h"
+#include "run/xyz.h"
 
 #include <stdint.h>
 
@@ -25,6 +26,7 @@ typedef struct Trajectory {
     size_t complete_bytes; // length of the file up to the end of the last complete frame
     size_t flushed_bytes;  // value of complete_bytes at the last flush
     uint32_t dimensions;   // CSV: largest number of dimensions of a system in the first frame; 0: no header yet
+    XyzNames names;        // XYZ: numbers of particles and systems
     bool failed;           // true after an error, which has been reported
     H5md h5md;             // used instead of `file` for H5MD
     Output output;

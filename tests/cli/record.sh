@@ -20,7 +20,25 @@ check "a trajectory leaves no temporary files" [ -z "$(find . -name '*.tmp')" ]
 petri run pair.fl --frames 5 --every 2 --trajectory run.xyz
 check "extended XYZ has a block for every K-th frame" count_is run.xyz "Properties=species:S:1:pos:R:3:velo:R:3:" 3
 check "an extended XYZ block contains all systems" lines_are run.xyz 18
-check "extended XYZ writes 0 for missing dimensions" has run.xyz "X 5 4 0 5 0 0 0.5 2 -3 1 0 0"
+check "extended XYZ writes 0 for missing dimensions" has run.xyz "X 5 4 0 5 0 0 0.5 2 -3 7 0 0"
+check "extended XYZ lists the ids that are not whole numbers" has run.xyz " id_texts=\"-2='a,%22b' -3=:p\""
+check "extended XYZ lists the names of systems" has run.xyz " systems=\"0=:w 1=:line\""
+cat >leave.fl <<'END'
+if frame < 2
+    !physics state=:first dimensions=4
+        !particle id=10 position=1;2;3;4 velocity=0;0;0;5
+!physics state=:swarm dimensions=3
+    for i in 10;'a b';:c;2.5;30
+        if i != 10 or frame < 1
+            !particle id=i position=frame;0;0
+END
+petri run leave.fl --frames 3 --trajectory leave.xyz
+check "extended XYZ keeps the ids of particles when others leave" \
+    [ "$(awk '$1 == "X" && $12 == 1 { printf "%s ", $11 }' leave.xyz)" = "10 -2 -3 -4 30 -2 -3 -4 30 -2 -3 -4 30 " ]
+check "extended XYZ keeps the text of ids" count_is leave.xyz " id_texts=\"-2='a%20b' -3=:c -4=2.5\"" 3
+check "extended XYZ keeps the number of a system when another ends" count_is leave.xyz " systems=\"1=:swarm\"" 1
+check "extended XYZ has columns for further dimensions" has leave.xyz "anchor:I:1:x4:R:1:v4:R:1 "
+check "extended XYZ contains the components after the third" has leave.xyz "X 1 2 3 0 0 0 0 1 0 10 0 0 4 5"
 petri run pair.fl --trajectory way.txt
 check "unknown trajectory formats are rejected" status_is 2
 check "the message lists the known trajectory formats" has err "a file name that ends in .xyz, .csv or .h5"
