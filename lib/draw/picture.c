@@ -5,6 +5,7 @@
 #include "base/heap.h"
 #include "base/host_struct.h"
 #include "base/number.h"
+#include "draw/history.h"
 #include "draw/render_graph.h"
 #include "draw/shader_errors.h"
 #include "draw/systems.h"
@@ -43,62 +44,6 @@ static Value attr_value(const Schema *schema, const Node *node, AttrRow row) {
     return node_get(node, schema->slots[row].name);
 }
 
-static bool has_word(Str text, Str word) {
-    for (size_t i = 0; i + word.len <= text.len; i++)
-        if (str_equal((Str){text.bytes + i, word.len}, word))
-            return true;
-    return false;
-}
-
-// Returns true if the node has a shader program that mentions `last`, the node's picture in the previous frame.
-static bool names_last(const Schema *schema, const Node *node) {
-    Value v = attr_value(schema, node, ROW_SHADER_FRAGMENT);
-    for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
-        if (v.as.items[i].type == ITEM_STRING && has_word(v.as.items[i].as.string->text, STR("last")))
-            return true;
-    return false;
-}
-
-// Returns true if a node in a canvas shows the picture of another node. Also returns true if *left, the number of nodes
-// that may still be searched, reaches 0.
-static bool shows_others(const Schema *schema, const Node *node, int depth, uint32_t *left) {
-    enum { MAX_DEPTH = 1000 };
-    if (*left == 0 || ((node->kind == schema->kinds[KIND_IMAGE] || node->kind == schema->kinds[KIND_PATTERN]) &&
-                       (attr_value(schema, node, ROW_IMAGE_IMAGE_ID).len > 0 ||
-                        attr_value(schema, node, ROW_IMAGE_TEXTURE_ID).len > 0)))
-        return true;
-    --*left;
-    for (uint32_t i = 0; i < node->child_count && depth < MAX_DEPTH; i++)
-        if (shows_others(schema, node->children[i], depth + 1, left))
-            return true;
-    return false;
-}
-
-static bool needs_history(const Schema *schema, const Node *node, NodeKind kind, int depth, uint32_t *left) {
-    enum { MAX_DEPTH = 100 };
-    if (*left == 0 || kind == KIND_FEEDBACK || kind == KIND_REFERENCE || names_last(schema, node) ||
-        (kind == KIND_RECORD && attr_value(schema, node, ROW_RECORD_FILENAME).len > 0))
-        return true;
-    --*left;
-    for (uint32_t i = 0; i < node->child_count && depth < MAX_DEPTH; i++) {
-        const Node *child = node->children[i];
-        NodeKind inside = schema_kind_in(schema, child, PLACE_PICTURES);
-        if (inside == KIND_CANVAS ? shows_others(schema, child, 0, left)
-                                  : inside < KIND_COUNT && needs_history(schema, child, inside, depth + 1, left))
-            return true;
-    }
-    return false;
-}
-
-static bool any_needs_history(const DrawAccess *access) {
-    uint32_t left = CANVAS_MAX_CHECKED;
-    const Node *window;
-    for (uint32_t at = 0; (window = canvas_next_window(access->schema, access->tree, &at));)
-        if (needs_history(access->schema, window, KIND_WINDOW, 0, &left))
-            return true;
-    return false;
-}
-
 static bool sample_function(void *user_data, void *function, const double (*points)[3], uint32_t count,
                             double *distances) {
     const Request *request = user_data;
@@ -128,7 +73,7 @@ static void copy_windows(Request *request, const Node *shown) {
             picture->shown = (int)count;
     }
     canvases->tops = tops;
-    canvases->needs_history = request->shown.samples || any_needs_history(&request->shown);
+    canvases->needs_history = history_is_needed(&request->shown);
     canvases->frame = request->shown.number;
     canvases->detail = scalable && !canvases->needs_history ? request->options->detail : 1;
     canvases->serial = ++serial;
@@ -181,7 +126,14 @@ bool petri_needs_history(PetriSession *session) {
     if (!session)
         return false;
     DrawAccess access = session_draw_access(session);
-    return access.samples || any_needs_history(&access);
+    return history_is_needed(&access);
+}
+
+bool petri_must_render(PetriSession *session) {
+    if (!session)
+        return false;
+    DrawAccess access = session_draw_access(session);
+    return history_is_shown(&access);
 }
 
 // Fills request->picture. If there is nothing to draw, stores the reason in request->problem and returns false.

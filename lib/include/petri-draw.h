@@ -76,6 +76,12 @@ PETRI_API int petri_find_window(PetriSession *session, const char *id);
 // (petri_picture_render).
 PETRI_API bool petri_needs_history(PetriSession *session);
 
+// Returns true if the picture of the last frame must be rendered even by a host that shows only a later frame: it
+// depends on pictures of earlier frames, sample() reads it, or a `!record` node saves it. Returns false if it only
+// refers to pictures of the same frame. The host may then skip it, although petri_needs_history returns true, unless
+// the next frame must be rendered: a reference of that frame can show a picture of this one.
+PETRI_API bool petri_must_render(PetriSession *session);
+
 // If the automatic picture is used, extends its visible region to include the particles of the last frame.
 // petri_picture does this automatically. A host that does not create a picture of every frame should call this function
 // for the other frames, starting with frame 0. A picture then does not depend on which frames were drawn before.

@@ -59,7 +59,6 @@ struct Job {
     Job *next;
     PetriPicture *picture;
     bool needs_history;
-    bool records; // true if the files of `!record` nodes are written
     Output *outputs;
     size_t output_count;
     bool failed;
@@ -245,7 +244,7 @@ static bool run_job(FrameWriter *writer, Job *job, PetriPainter *painter) {
     bool good = true;
     for (size_t i = 0; good && i < job->output_count; i++)
         good = write_output(writer, job, &job->outputs[i], painter);
-    if (good && job->records) {
+    if (good && job->needs_history) {
         good = recording_add(&writer->recording, job->picture, painter);
         if (!good && writer->recording.error_text)
             set_error_text(writer, writer->recording.error_text);
@@ -419,11 +418,9 @@ static void free_job(Job *job) {
     free(job);
 }
 
-bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, const FrameOutput *outputs, size_t count,
-                      bool repeats) {
+bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, const FrameOutput *outputs, size_t count) {
     Job *job = memory_calloc(sizeof *job);
     *job = (Job){.picture = picture, .needs_history = petri_picture_needs_history(picture), .output_count = count};
-    job->records = job->needs_history && !repeats;
     job->outputs = count > 0 ? memory_calloc(count * sizeof *job->outputs) : NULL;
     for (size_t i = 0; i < count; i++)
         job->outputs[i] = (Output){.window = outputs[i].window, .file = memory_strdup(outputs[i].file)};

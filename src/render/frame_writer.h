@@ -21,11 +21,11 @@ typedef struct FrameOutput {
 // message.
 FrameWriter *frame_writer_start(bool films, double film_fps, double fps);
 // Adds a picture to the queue and takes ownership of it. A thread writes the `count` outputs, whose file names are
-// copied. The thread also writes the files of the picture's `!record` nodes, unless `repeats` is true: a picture of the
-// same frame was added before. Pictures that need history (petri_picture_needs_history) must be added for every frame.
-// Waits while the queue is full, unless a signal arrives. Returns false if writing has failed before.
-bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, const FrameOutput *outputs, size_t count,
-                      bool repeats);
+// copied. The thread also writes the files of the picture's `!record` nodes. Pictures that need history
+// (petri_picture_needs_history) must be added in order, and once for each frame that must be rendered
+// (petri_must_render). Waits while the queue is full, unless a signal arrives. Returns false if writing has failed
+// before.
+bool frame_writer_add(FrameWriter *writer, PetriPicture *picture, const FrameOutput *outputs, size_t count);
 // Reports the diagnostics of finished pictures to the session's callback and frees the pictures.
 void frame_writer_report(FrameWriter *writer, PetriSession *session);
 // Waits for all pictures and completes the videos. If `abandon` is true, discards unfinished pictures. After a signal,

@@ -30,7 +30,8 @@ typedef struct Render {
     ShaderTester tester;      // of `sampler`
     int64_t drawn;            // number of frames drawn for the output
     bool thread_running;      // true if a thread is still drawing an abandoned picture
-    int64_t last_drawn;       // number of the frame that was drawn last; -1: none
+    PetriPicture *held;       // picture of the last frame, if it is drawn when the next frame is known; else NULL
+    bool held_must;           // true if `held` must be drawn even if the next frame does not depend on it
     bool failed;              // true after a failure: no more frames are drawn
     StdoutFile stdout_file;   // temporary file, for output to standard output
     const char *display_name; // name of the output in messages
@@ -121,43 +122,66 @@ static bool list_outputs(const Render *render, const PetriPicture *picture, Outp
     return good;
 }
 
-// Draws the last computed frame. If `wanted` is true, writes it to the output. Also writes the files of its `!record`
-// nodes.
-static void draw_frame(Render *render, bool wanted) {
+// Makes the picture of the last computed frame. Returns NULL if a signal has aborted it, or after setting `failed`.
+static PetriPicture *make_picture(Render *render) {
     PetriPicture *picture = NULL;
     frames_set_interruptible(&render->frames, true);
     PetriStatus status = petri_picture(render->frames.session, &render->picture, &picture);
     frames_set_interruptible(&render->frames, false);
-    if (status == PETRI_INTERRUPTED)
-        return; // aborted by a signal; frames that were drawn before are kept
     if (status == PETRI_OUT_OF_MEMORY) {
         progress_erase(&render->frames.progress);
         message("out of memory");
     }
-    int64_t number = petri_frame_number(render->frames.session);
-    bool repeats = number == render->last_drawn; // a single picture of a frame that was drawn for its history
-    render->last_drawn = number;
-    OutputList list = {.count = 0};
-    render->failed = status != PETRI_OK || (wanted && !list_outputs(render, picture, &list));
-    if (!render->failed && petri_samples_pictures(render->frames.session))
+    render->failed = render->failed || (status != PETRI_OK && status != PETRI_INTERRUPTED);
+    if (picture && petri_samples_pictures(render->frames.session))
         petri_picture_render(picture, render->sampler);
+    return picture;
+}
+
+// Draws a picture, which is freed. If `wanted` is true, writes it to the output. Also writes the files of its `!record`
+// nodes. NULL is ignored.
+static void draw_picture(Render *render, PetriPicture *picture, bool wanted) {
+    if (!picture)
+        return;
+    OutputList list = {.count = 0};
+    render->failed = wanted && !list_outputs(render, picture, &list);
     if (render->failed)
         petri_picture_free(&picture);
     else
-        render->failed = !frame_writer_add(render->writer, picture, list.items, (size_t)list.count, repeats);
+        render->failed = !frame_writer_add(render->writer, picture, list.items, (size_t)list.count);
     for (int i = 0; i < list.count; i++)
         free(list.names[i]);
     render->drawn += wanted;
 }
 
+// Draws or frees the held picture, after the next frame was computed. `must`: the next frame may depend on it.
+static void release_held(Render *render, bool must) {
+    if (must || render->held_must)
+        draw_picture(render, render->held, false);
+    else
+        petri_picture_free(&render->held);
+    render->held = NULL;
+}
+
+// Draws the last computed frame if it is an output or later frames depend on it. A frame that may become the single
+// picture is held, because it must not be drawn twice.
 static void output_frame(Render *render) {
     const Options *options = render->frames.options;
-    int64_t number = petri_frame_number(render->frames.session);
+    PetriSession *session = render->frames.session;
+    int64_t number = petri_frame_number(session);
+    bool single = render->kind == OUTPUT_PICTURE;
     bool wanted = options->frame >= 0 ? number == options->frame
                                       : (number - render->frames.before_first_picture) % options->every == 0;
-    wanted = wanted && render->kind != OUTPUT_PICTURE;
-    if (wanted || petri_needs_history(render->frames.session))
-        draw_frame(render, wanted);
+    bool must = petri_must_render(session);
+    release_held(render, must);
+    if (render->failed)
+        return;
+    if (!single && (wanted || must)) {
+        draw_picture(render, make_picture(render), wanted);
+    } else if (must || petri_needs_history(session)) {
+        render->held = make_picture(render);
+        render->held_must = must;
+    }
 }
 
 // Returns true for the first frames, in which particles have no positions yet (petri_picture_ready). They are computed,
@@ -175,7 +199,9 @@ static void output_picture(Render *render) {
         message("nothing to draw: the run ended with frame %" PRId64 ", before frame %" PRId64, number, options->frame);
         render->failed = true;
     } else {
-        draw_frame(render, true);
+        PetriPicture *picture = render->held ? render->held : make_picture(render);
+        render->held = NULL;
+        draw_picture(render, picture, true);
     }
 }
 
@@ -262,6 +288,7 @@ static int render_frames(Render *render) {
     }
     if (going && !render->failed && frames_signal() == 0 && frames->done > 0 && render->kind == OUTPUT_PICTURE)
         output_picture(render);
+    petri_picture_free(&render->held);
     int status = end_render(render, going);
     if (!render->thread_running)
         frame_writer_free(render->writer);
@@ -286,7 +313,7 @@ static int render_script(Render *render) {
 }
 
 static int render_run(const CommandContext *context, Options *options) {
-    Render render = {.last_drawn = -1};
+    Render render = {0};
     int status = frames_open(&render.frames, context, options);
     if (status == OPTIONS_READ)
         status = render_script(&render);

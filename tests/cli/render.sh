@@ -252,6 +252,34 @@ END
     petri render record.fl -o last.png --frames 4
     check "!record to an unknown kind of file is an error" one_error
 
+    # Earlier frames are drawn only if the picture depends on them. Drawing frame 1 gives a warning.
+    cat >own.fl <<'END'
+!window size=20;4
+    !canvas id=:top
+        !rect size=(2+frame;4) fill=true color=0;1;0
+    !canvas size=((20000;4) if frame == 1 else (20;4))
+        !image image_id=:top point=8;0
+    !record filename=null
+        !reference id=:top
+END
+    petri render own.fl -o own.png --frame 3
+    check "a picture of one frame is drawn alone if it refers only to this frame" eval 'status_is 0 && empty err'
+    petri render own.fl -o own%d.png --frames 4
+    check "the picture of one frame is that of a series" cmp -s own.png own3.png
+    petri render own.fl -o other.png --frames 4
+    check "the last picture is drawn alone if it refers only to its frame" eval 'lacks err bad-size && cmp -s own.png other.png'
+    sed '2s/id=:top/id=(:top if frame%3 else :other)/' own.fl >past.fl
+    petri render past.fl -o past%d.png --frames 8
+    check "references show the previous frame if the picture is missing" eval '! cmp -s own3.png past3.png'
+    for frame in 3 4 6; do
+        petri render past.fl -o past.png --frame $frame
+        check "frame $frame is drawn after the frames that it refers to" cmp -s past.png past$frame.png
+    done
+    printf '!window size=20;4\n    !feedback mixer=0.5\n        !canvas\n            !rect size=1+frame;4 fill=true\n' >past.fl
+    petri render past.fl -o past%d.png --frames 4
+    petri render past.fl -o past.png --frame 3
+    check "the picture of one frame contains the feedback of a series" cmp -s past.png past3.png
+
     # Frames are not saved before the systems have stored positions. Such a frame would be red, because its script finds no
     # position in the state.
     cat >early.fl <<'END'

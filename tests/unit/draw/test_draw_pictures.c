@@ -92,6 +92,38 @@ static int thread_count(void) {
     return count;
 }
 
+static void test_frames_that_must_be_rendered(void **state) {
+    Player *player = *state;
+    static const struct {
+        const char *pictures;
+        bool must, needs;
+    } cases[] = {
+        {"    !canvas id=:a\n", false, false},
+        {"    !canvas id=:a\n    !reference id=:a\n", false, true},
+        {"    !canvas id='a'\n    !reference id='a'\n", false, true},
+        {"    !shader id=:a\n        !canvas\n    !reference id=:a\n", false, true},
+        {"    !canvas id=:a\n    !canvas\n        !image image_id=:a\n", false, true},
+        {"    !canvas id=:a\n    !record filename=null\n        !reference id=:a\n", false, true},
+        {"    !reference id=:a\n    !canvas id=:a\n", true, true}, // the picture of the previous frame
+        {"    !canvas id=:a\n        !image image_id=:a\n", true, true},
+        {"    !canvas id=:a\n    !reference id=:b\n", true, true},
+        {"    !canvas id=:a\n    !reference\n", true, true},
+        {"    !image id=:a filename='missing.png'\n    !reference id=:a\n", true, true},
+        {"    !canvas id=:a\n    !record filename='a.png'\n        !reference id=:a\n", true, true},
+        {"    !feedback\n        !canvas\n", true, true},
+        {"    !shader fragment='last'\n        !canvas\n", true, true},
+        {"    !canvas id=:a\n    !shader fragment='beats'\n        !reference id=:a\n", true, true},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char script[300];
+        snprintf(script, sizeof script, "!window size=8;4\n%s", cases[i].pictures);
+        player_run(player, script, 1);
+        assert_int_equal(petri_must_render(player->session), cases[i].must);
+        assert_int_equal(petri_needs_history(player->session), cases[i].needs);
+    }
+    assert_false(petri_must_render(NULL));
+}
+
 // Pango searches for fonts in a background thread. A process may exit before the search has ended.
 static void test_no_fonts_without_text(void **state) {
     Player *player = *state;
@@ -572,6 +604,7 @@ static void test_host_backend_draws_canvases(void **state) {
 
 TEST_GROUP(draw_pictures) {
     const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_frames_that_must_be_rendered),
         PLAYER_TEST(test_no_fonts_without_text),
         PLAYER_TEST(test_select_windows),
         PLAYER_TEST(test_picture_outlives_session),
