@@ -49,7 +49,8 @@ static double start_wall_clock(Clock *clock) {
 }
 
 // Sleeps until the next frame is due, or starts the wall clock if it is not running. Returns the script's `time` of the
-// frame.
+// frame: the time at which it was due, unless the session is more than MAX_LAG behind. The threads' moments of waking
+// would make all steps of systems unequal, and a system that loses the excess of long steps would be slow.
 static double wait_for_frame(Clock *clock) {
     WallClock *wall = &clock->wall;
     if (!wall->running)
@@ -63,8 +64,9 @@ static double wait_for_frame(Clock *clock) {
         struct timespec pause = {(time_t)spare, (long)((spare - floor(spare)) * 1e9)};
         nanosleep(&pause, NULL);
     }
-    wall->due = fmax(wall->due, at - MAX_LAG) + 1 / clock->rates.fps;
-    return wall_time(clock);
+    double time = fmax(wall->due, at - MAX_LAG);
+    wall->due = time + 1 / clock->rates.fps;
+    return time;
 }
 
 void clock_advance(Clock *clock) {

@@ -16,6 +16,9 @@
 
 // Maximum delay in seconds before a saved script is noticed.
 static const double MAX_SLEEP = 0.05;
+// Seconds before a frame is due at which petri_step is called, which waits for the rest. Otherwise all frames would be
+// late, because events are handled with a precision of 1 ms. The frame counts as in time with more than 1 ms to spare.
+static const double EARLY = 0.002;
 enum { MAX_EVENTS = 256, DEFAULT_SIZE = 512 };
 
 // Global, because a signal handler has no other access.
@@ -77,11 +80,15 @@ static bool can_step(const View *view) {
     return !live_script_halted(&view->live) && (!view->paused || view->step_once);
 }
 
+static double seconds_until_step(const View *view) {
+    return view->step_once ? 0 : fmax(0, petri_seconds_until_due(view->live.session) - EARLY);
+}
+
 // Returns the number of seconds until the next action: a step, a picture, or the end of a notice.
 static double idle_seconds(const View *view) {
     double now = clock_seconds(), idle = MAX_SLEEP;
     if (can_step(view))
-        idle = fmin(idle, view->step_once ? 0 : petri_seconds_until_due(view->live.session));
+        idle = fmin(idle, seconds_until_step(view));
     if (view->redraw)
         idle = fmin(idle, view->drawn + view->kind->min_seconds - now);
     return fmax(0, fmin(idle, view->notice_ends - now));
@@ -337,7 +344,7 @@ static void run_loop(View *view) {
         handle_changes(view);
         if (clock_seconds() >= view->notice_ends)
             view_reset_notice(view);
-        if (can_step(view) && (view->step_once || petri_seconds_until_due(view->live.session) <= 0)) {
+        if (can_step(view) && seconds_until_step(view) <= 0) {
             if (view->paused)
                 petri_resync_clock(view->live.session);
             step_script(view);

@@ -266,6 +266,10 @@ check "standard error has all warnings" has err "'stroke_with'"
 # The view ends normally, by a signal or by a crash. In all cases, the terminal is restored.
 start left.fl --frames 10
 check "--frames ends it" ended 0
+printf '%%pragma fps 20\n!counter state=:in_time time=frame rate=1-slow_frame\n' | cat - left.fl >in_time.fl
+start in_time.fl --frames 30 --state in_time.state
+check "a view with frames in time ends" ended 0
+check "frames of a view are in time" grep -q '^\$(:in_time) = [1-9]' in_time.state
 start left.fl --runtime 1 --lockstep
 check "--runtime ends it" ended 0
 cat >last.fl <<'END'
