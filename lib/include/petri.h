@@ -196,6 +196,9 @@ typedef struct PetriOptions {
     // it is outside. A session reads a file again only if the file has changed. The arguments are valid only during the
     // call. Must not call the session. NULL (the default): never called.
     void (*on_file_read)(void *user_data, const char *name, const char *bytes, size_t length);
+    // Do not read a module again after it was imported, until petri_load or petri_reload reads the script. If false
+    // (the default), a module whose file has changed is read again in the next frame.
+    bool keep_modules;
 } PetriOptions;
 
 // Writes the default options to the first `size` bytes of `options`. Use petri_default_options instead.

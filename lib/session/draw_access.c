@@ -55,8 +55,9 @@ void session_add_work(PetriSession *session, uint64_t work) {
 bool session_has_source(const PetriSession *session, const Diag *fault) {
     const Unit *program = session->config.program;
     for (const Unit *unit = program; unit; unit = unit == program ? session->loader.modules : unit->next)
-        if (unit->source == fault->at.source && fault->at.source)
-            return fault->at.span.end <= fault->at.source->text.len;
+        for (const Unit *version = unit; version; version = version->last_good)
+            if (version->source == fault->at.source && fault->at.source)
+                return fault->at.span.end <= fault->at.source->text.len;
     return false;
 }
 

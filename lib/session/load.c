@@ -33,6 +33,7 @@ void unit_free(Unit *unit) {
     arena_free(&unit->scratch);
     arena_free(&unit->arena);
     unit_free(unit->parse_cache);
+    unit_free(unit->last_good);
     heap_free(unit);
 }
 
@@ -324,17 +325,12 @@ static void add_to_chain(PetriSession *session, Unit *unit) {
     *first = unit;
 }
 
-// Returns the cached module with a canonical path. Returns NULL if there is none, or if its file has changed.
-static Unit *cached_module(PetriSession *session, Str path, Str version) {
-    for (Unit *unit = *chain_of(session, path); unit; unit = unit->same_hash) {
-        if (unit->retired || !str_equal(unit->path, path))
-            continue;
-        if (str_equal(unit->version, version))
-            return unit;
-        unit->retired = true;
-        session_change_config(session, true);
-    }
-    return NULL;
+// Returns the cached module with a canonical path, or NULL.
+static Unit *find_module(PetriSession *session, Str path) {
+    Unit *unit = *chain_of(session, path);
+    while (unit && (unit->retired || !str_equal(unit->path, path)))
+        unit = unit->same_hash;
+    return unit;
 }
 
 Unit *session_use_unit(PetriSession *session, Unit *unit) {
@@ -342,9 +338,29 @@ Unit *session_use_unit(PetriSession *session, Unit *unit) {
     return unit;
 }
 
-const Program *session_module(void *host, Str path, Str *reason) {
-    PetriSession *session = host;
-    const char *file = str_to_c(&session->frame.arena, path);
+// Reads a module whose file is new or has changed. `before` is its cached version; NULL: none. If it
+// cannot be compiled, keeps the last good version.
+static Unit *read_module(PetriSession *session, const char *file, Unit *before) {
+    Unit *good = before && !before->program ? before->last_good : before;
+    if (before) {
+        before->retired = true;
+        session_change_config(session, true);
+    }
+    Unit *unit = unit_load_file(session, file, true, true);
+    unit->load = session->loader.loads;
+    if (!unit->program && good) {
+        good->references++;
+        unit->last_good = good;
+    }
+    add_to_chain(session, session_use_unit(session, unit));
+    return unit;
+}
+
+// Returns the module at a path. On failure, sets *reason and returns NULL.
+static Unit *current_module(PetriSession *session, const char *file, Str canonical, Str *reason) {
+    Unit *unit = find_module(session, canonical);
+    if (unit && session->options.keep_modules && unit->load == session->loader.loads)
+        return unit;
     Str version;
     if (!file_version(&session->frame.arena, host_files(session), file, &version)) {
         recorder_file(session, file, (Str){0});
@@ -353,16 +369,25 @@ const Program *session_module(void *host, Str path, Str *reason) {
     }
     if (session->reach.read_unsaved)
         file_version(&session->frame.arena, &session->reach, file, &version);
-    Str canonical = file_canonical(&session->frame.arena, &session->reach, file);
     if (!file_access_allows(&session->reach, FILE_ACCESS_READ, canonical.bytes)) {
         *reason = str_from(file_access_reason(&session->frame.arena, &session->reach, FILE_ACCESS_READ, file));
         return NULL;
     }
-    Unit *unit = cached_module(session, canonical, version);
+    if (!unit || !str_equal(unit->version, version))
+        return read_module(session, file, unit);
+    unit->load = session->loader.loads;
+    return unit;
+}
+
+const Program *session_module(void *host, Str path, Str *reason) {
+    PetriSession *session = host;
+    const char *file = str_to_c(&session->frame.arena, path);
+    Str canonical = file_canonical(&session->frame.arena, &session->reach, file);
+    Unit *unit = current_module(session, file, canonical, reason);
     if (!unit)
-        add_to_chain(session, unit = session_use_unit(session, unit_load_file(session, file, true, true)));
+        return NULL;
     *reason = unit->error;
-    return unit->program;
+    return unit->program || !unit->last_good ? unit->program : unit->last_good->program;
 }
 
 const char *petri_source_file(PetriSession *session, size_t number) {

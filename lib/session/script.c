@@ -118,6 +118,7 @@ static void install_script(PetriSession *session, const Load *load, LoadPurpose 
         session_clear_files(session);
     unit_free(session->config.program);
     session->config.program = session_use_unit(session, load->unit);
+    session->loader.loads += !session->recompiling;
     session_set_prompts(session, load->prompts);
     if (purpose == LOAD_RESTART)
         session_start(session, &load->rates);

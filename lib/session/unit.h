@@ -31,6 +31,8 @@ struct Unit {
     uint32_t included_count;
     DiagSink parse_sink; // diagnostics of the current parse
     DiagSink sink;       // diagnostics of the compilation
+    Unit *last_good;     // counted reference to the module's last version with a program, if this one has none; or NULL
+    uint64_t load;       // value of Loader.loads when the module was read
     bool retired;        // true if incomplete or replaced; the unit is freed as soon as no frame can refer to it
 };
 
@@ -48,6 +50,7 @@ typedef struct Loader {
     Unit *modules;                // list of imported modules
     Unit *by_path[MODULE_CHAINS]; // hash table that maps paths to modules
     uint64_t generation;          // number of units that frames have used so far (session_use_unit)
+    uint64_t loads;               // number of times that the script was loaded or reloaded from its file
     Unit *pending;                // unit being loaded, which is freed if the load is aborted
     Unit *compiling;              // unit that is being compiled; NULL: none
     bool lint;                    // true: report likely mistakes, for petri_check
@@ -80,8 +83,8 @@ void unit_free(Unit *unit);
 // may have the same addresses as data of a freed unit. Caches that compare addresses also compare the generation.
 // Returns the unit.
 Unit *session_use_unit(PetriSession *session, Unit *unit);
-// Returns the module at a path for the virtual machine. On failure, sets *reason and returns NULL. Called within a
-// protected call.
+// Returns the module at a path for the virtual machine. If its file has changed and cannot be compiled, returns the
+// last good version. On failure, sets *reason and returns NULL. Called within a protected call.
 const Program *session_module(void *host, Str path, Str *reason);
 // Clears all cached files and modules, because the next script may not be allowed to read them.
 void session_clear_files(PetriSession *session);

@@ -59,6 +59,7 @@ FIELD(const char *, as_threads,   NULL)           // test: overrides --threads o
 FIELD(const char *, as_neighbours, NULL)          // test: overrides --neighbours of goldens; NULL: no override
 FIELD(bool,         unsimplified, false)
 FIELD(bool,         no_batches,   false)
+FIELD(bool,         keep_modules, false)          // modules are not read again during the run
 FIELD(bool,         show,         false)          // run: show the picture if output is a terminal
 FIELD(bool,         stats,        false)
 FIELD(const char *, trajectory,   NULL)           // file; NULL: none

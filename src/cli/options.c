@@ -347,6 +347,7 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.simplify = !options->unsimplified;
     wanted.no_batches = options->no_batches;
+    wanted.keep_modules = options->keep_modules;
     wanted.keep_forces = options->prompt || options->keep_forces;
     wanted.rollback_frames = options->prompt || options->state_file; // a partly computed frame must not be saved
     wanted.profile = options->profile;

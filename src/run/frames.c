@@ -84,6 +84,8 @@ int frames_open(Frames *frames, const CommandContext *host, Options *options) {
     frames->options = options;
     frames->ranks = host->ranks;
     leave_ranks = host->leave_ranks;
+    // The result of a run in lockstep must not depend on when a file is saved. A replay repeats changes of files.
+    options->keep_modules = !options->realtime && !options->replayed;
     return options_open(options, host, on_diagnostic, frames, &frames->session);
 }
 

@@ -91,3 +91,26 @@ sed -n '/^@5/,$p' out >expected
 petri run many.fl --frames 3 --state many.state
 petri run many.fl --frames 3 --every 5 --print state --state many.state
 check "a state of many particles is restored completely" cmp -s out expected
+
+# a module that changes while petri runs
+printf 'let size=3\n' >part.fl
+printf "import size from 'part.fl'\n!out size=size\n" >main.fl
+# change_module OPTION...: starts a run, writes a syntax error into the module, and ends the run after further frames.
+change_module() {
+    printf 'let size=3\n' >part.fl
+    "$petri" run main.fl --frames 1000000000 --print tree "$@" >changed 2>err </dev/null &
+    job=$!
+    until [ "$(grep -c 'size=3' changed)" -gt 2 ] || ! kill -0 $job; do sleep 0.1; done
+    printf 'let size=(4\n' >part.fl
+    before=$(grep -c '^@' changed)
+    until [ "$(grep -c '^@' changed)" -gt $((before + 2)) ] || ! kill -0 $job; do sleep 0.1; done
+    sleep 0.5
+    kill -TERM $job
+    wait $job 2>/dev/null
+}
+change_module --realtime --fps 50
+check "a module with a syntax error is reported once" count_is err "error: " 1
+check "a run in real time keeps the last good module" [ "$(grep -v '^@' changed | sort -u)" = '!out size=3' ]
+change_module --every 100
+check "a run in lockstep does not read a module again" lacks err "part.fl"
+check "a run in lockstep keeps its modules" [ "$(grep -v '^@' changed | sort -u)" = '!out size=3' ]

@@ -112,7 +112,7 @@ static void test_changed_module_is_reloaded(void **state) {
     folder_write(&desk->folder, "m.fl", "let a=1\n");
     load(desk, "import a from 'm.fl'\n!x v=a\n");
     static const char *const versions[][2] = {
-        {"let a=2\n", "!x v=2\n"}, {"let a=(\n", "!x\n"}, {"let b=3\n", "!x\n"}, {"let a=4\n", "!x v=4\n"}};
+        {"let a=2\n", "!x v=2\n"}, {"let b=3\n", "!x\n"}, {"let a=4\n", "!x v=4\n"}};
     player_step(&desk->player, 2);
     assert_text("first", player_tree(&desk->player), "!x v=1\n");
     for (size_t i = 0; i < COUNT_OF(versions); i++) {
@@ -125,6 +125,60 @@ static void test_changed_module_is_reloaded(void **state) {
     remove(folder_file(&desk->folder, "m.fl"));
     player_step(&desk->player, 1);
     assert_text("gone", player_tree(&desk->player), "!x\n");
+}
+
+// While a module has errors, its last good version is used. Each error is reported once.
+static void test_invalid_change_keeps_last_good_module(void **state) {
+    Desk *desk = *state;
+    folder_write(&desk->folder, "m.fl", "import b from 'n.fl'\nfunc f(x)\n    x;b\n");
+    folder_write(&desk->folder, "n.fl", "let b=1\n");
+    load(desk, "import f from 'm.fl'\n!x v=f(5)\n");
+    static const char *const changes[][3] = {
+        {"m.fl", "func f(x)\n", "!x v=5;1\n"},
+        {"n.fl", "let b=2\n", "!x v=5;2\n"},
+        {"m.fl", "func f(x)\n    x+(\n", "!x v=5;2\n"},
+        {"n.fl", "let b=\xff\n", "!x v=5;2\n"},
+        {"m.fl", "let f=abs\n", "!x v=5\n"},
+        {"m.fl", "let f=)\n", "!x v=5\n"},
+    };
+    player_step(&desk->player, 2);
+    for (size_t i = 0; i < COUNT_OF(changes); i++) {
+        uint64_t errors = petri_diagnostic_count(desk->player.session, PETRI_ERROR);
+        folder_write(&desk->folder, changes[i][0], changes[i][1]);
+        for (int frame = 0; frame < 3; frame++) {
+            player_step(&desk->player, 1);
+            assert_text(changes[i][1], player_tree(&desk->player), changes[i][2]);
+        }
+        bool good = strcmp(changes[i][1], "let b=2\n") == 0 || strcmp(changes[i][1], "let f=abs\n") == 0;
+        assert_int_equal(petri_diagnostic_count(desk->player.session, PETRI_ERROR) - errors, !good);
+        assert_int_equal(petri_reload(desk->player.session, folder_file(&desk->folder, "main.fl")), PETRI_OK);
+        player_step(&desk->player, 1);
+        assert_text("reloaded", player_tree(&desk->player), changes[i][2]);
+    }
+    load(desk, "import f from 'm.fl'\n!x v=f(6)\n");
+    player_step(&desk->player, 1);
+    assert_text("loaded again", player_tree(&desk->player), "!x v=6\n");
+}
+
+static void test_modules_are_kept_until_reload(void **state) {
+    Desk *desk = *state;
+    Player *player = &desk->player;
+    PetriOptions options = player_options(player);
+    options.keep_modules = true;
+    player_reopen(player, &options);
+    folder_write(&desk->folder, "m.fl", "let a=1\n");
+    load(desk, "import a from 'm.fl'\n!x v=a\n");
+    player_step(player, 1);
+    folder_write(&desk->folder, "m.fl", "let a=20\n");
+    player_step(player, 1);
+    assert_text("kept", player_tree(player), "!x v=1\n");
+    remove(folder_file(&desk->folder, "m.fl"));
+    player_step(player, 1);
+    assert_text("kept without its file", player_tree(player), "!x v=1\n");
+    folder_write(&desk->folder, "m.fl", "let a=20\n");
+    assert_int_equal(petri_reload(player->session, folder_file(&desk->folder, "main.fl")), PETRI_OK);
+    player_step(player, 1);
+    assert_text("reloaded", player_tree(player), "!x v=20\n");
 }
 
 static void test_circular_imports_are_reported(void **state) {
@@ -447,6 +501,8 @@ TEST_GROUP(session_files) {
         DESK_TEST(test_only_allowed_folders_are_read),
         DESK_TEST(test_module_sees_only_builtins),
         DESK_TEST(test_changed_module_is_reloaded),
+        DESK_TEST(test_invalid_change_keeps_last_good_module),
+        DESK_TEST(test_modules_are_kept_until_reload),
         DESK_TEST(test_circular_imports_are_reported),
         DESK_TEST(test_invalid_modules_are_reported),
         DESK_TEST(test_include),
