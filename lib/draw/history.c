@@ -114,10 +114,10 @@ static bool any_window(const DrawAccess *access, bool whole_frame) {
     return false;
 }
 
-bool history_is_needed(const DrawAccess *access) {
+bool draw_needs_history(const DrawAccess *access) {
     return access->samples || any_window(access, false);
 }
 
-bool history_is_shown(const DrawAccess *access) {
+bool draw_shows_history(const DrawAccess *access) {
     return access->samples || any_window(access, true);
 }

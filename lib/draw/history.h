@@ -5,7 +5,7 @@
 
 // Returns true if a painter must render the pictures of this frame in order, for one of these reasons: they show or may
 // show pictures of earlier frames, they refer to other pictures of the frame, or a `!record` saves them.
-bool history_is_needed(const DrawAccess *access);
-// Like history_is_needed, but false if all pictures that the frame refers to are certainly pictures of the same frame.
+bool draw_needs_history(const DrawAccess *access);
+// Like draw_needs_history, but false if all pictures that the frame refers to are certainly pictures of the same frame.
 // A shader that reads the time since the previous picture (`beats`) counts as a reference to an earlier frame.
-bool history_is_shown(const DrawAccess *access);
+bool draw_shows_history(const DrawAccess *access);

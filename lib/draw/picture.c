@@ -73,7 +73,7 @@ static void copy_windows(Request *request, const Node *shown) {
             picture->shown = (int)count;
     }
     canvases->tops = tops;
-    canvases->needs_history = history_is_needed(&request->shown);
+    canvases->needs_history = draw_needs_history(&request->shown);
     canvases->frame = request->shown.number;
     canvases->detail = scalable && !canvases->needs_history ? request->options->detail : 1;
     canvases->serial = ++serial;
@@ -126,14 +126,14 @@ bool petri_needs_history(PetriSession *session) {
     if (!session)
         return false;
     DrawAccess access = session_draw_access(session);
-    return history_is_needed(&access);
+    return draw_needs_history(&access);
 }
 
 bool petri_must_render(PetriSession *session) {
     if (!session)
         return false;
     DrawAccess access = session_draw_access(session);
-    return history_is_shown(&access);
+    return draw_shows_history(&access);
 }
 
 // Fills request->picture. If there is nothing to draw, stores the reason in request->problem and returns false.
