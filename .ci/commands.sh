@@ -149,7 +149,7 @@ check_arguments() {
             if (kind ~ /^[a-z]/ && value != kind)
                 fail("unknown argument: \047" value "\047")
         }
-        function take_option(word,   other) {
+        function take_option(word) {
             if (!(word in group_of))
                 fail("unknown option: \047" word "\047")
             if (group_of[word] in chosen && chosen[group_of[word]] != word)

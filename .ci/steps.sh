@@ -1,5 +1,5 @@
 # steps.sh: runs steps of checks and reports their times. Sourced by run and deep, which define a function step_NAME for
-# each step. The comment above a function is its description in tests/README.md.
+# each step.
 
 # run_steps ALL [NAME...]: runs the named steps, or ALL, a list of names. A step that fails does not stop the others. Prints
 # a line for each step at its end and a summary, slowest first. A step that calls `skip` is reported as skipped. Returns 1
@@ -47,18 +47,6 @@ run_steps() {
 skip() {
     echo "skipped: $1"
     exit 77
-}
-
-# configured NAME COMPILER TYPE OPTION...: configures the build folder build-ci-NAME; warnings are errors.
-configured() {
-    local folder=build-ci-$1
-    [ -f "$folder/build.ninja" ] || CC=$2 meson setup "$folder" --werror --buildtype="$3" "${@:4}" >/dev/null
-}
-
-# check_hashes FOLDER: checks that the build has the stored result hashes.
-check_hashes() {
-    "$1/tests/physics/test_determinism"
-    tests/hashes/hashes.sh --check "$1/src/petri"
 }
 
 # The sources must not change, and no file may appear that git does not ignore.
