@@ -98,9 +98,10 @@ printf "import size from 'part.fl'\n!out size=size\n" >main.fl
 # change_module OPTION...: starts a run, writes a syntax error into the module, and ends the run after further frames.
 change_module() {
     printf 'let size=3\n' >part.fl
+    rm -f changed err # output of the previous run, which the loops below must not read
     "$petri" run main.fl --frames 1000000000 --print tree "$@" >changed 2>err </dev/null &
     job=$!
-    until [ "$(grep -c 'size=3' changed)" -gt 2 ] || ! kill -0 $job; do sleep 0.1; done
+    until [ -s changed ] && [ "$(grep -c 'size=3' changed)" -gt 2 ] || ! kill -0 $job; do sleep 0.1; done
     printf 'let size=(4\n' >part.fl
     before=$(grep -c '^@' changed)
     until [ "$(grep -c '^@' changed)" -gt $((before + 2)) ] || ! kill -0 $job; do sleep 0.1; done
