@@ -174,8 +174,8 @@ for i in range(256):
     assert r == 1 or abs(log) > fixed(largest)  # fast_two_sum of log + z needs this order
     # bounds |z|^3 relative to the smallest |ln x| of the row, which has k = 0
     ends = [low, low + width]
-    least = min(abs(1 - m) for m in ends if m != 1) if r != 1 else 0
-    assert r == 1 or largest**3 <= least * Fraction(1, 2**16), i
+    smallest = min(abs(1 - m) for m in ends if m != 1) if r != 1 else 0
+    assert r == 1 or largest**3 <= smallest * Fraction(1, 2**16), i
     rows.append([r] + parts(log, 42) + [Fraction(0)])
 show('double', 'log_table', '[256][4]', rows, 'r, then -ln r as high + low; r m - 1 is exact for each m of the row')
 

@@ -66,7 +66,7 @@ static void add_nodes(Text *out) {
         add_list(out, "attributes");
         PetriNodeAttribute attribute;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++) {
-            ROW(out, "name", attribute.name, "type", attribute.type, "fallback", attribute.default_value, "unit",
+            ROW(out, "name", attribute.name, "type", attribute.type, "defaultValue", attribute.default_value, "unit",
                 attribute.unit, "help", attribute.help);
             text_add_c(out, "}");
         }

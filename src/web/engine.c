@@ -13,10 +13,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static void on_diagnostic(void *user_data, const PetriDiagnostic *told) {
+static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
     (void)user_data;
-    host_diagnostic((int)told->level, told->file, told->text, told->code, told->hint, told->rendered, told->line,
-                    told->column, told->end_line, told->end_column);
+    host_diagnostic((int)diagnostic->level, diagnostic->file, diagnostic->text, diagnostic->code, diagnostic->hint,
+                    diagnostic->rendered, diagnostic->line, diagnostic->column, diagnostic->end_line,
+                    diagnostic->end_column);
 }
 
 static const char *read_file(void *user_data, const char *name, size_t *length) {

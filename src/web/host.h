@@ -26,8 +26,8 @@ HOST(frame)
 void host_frame(double number, double time, double beat, double fps, double tempo, double steps,
                 double evaluation_seconds, double physics_seconds);
 HOST(parameter)
-void host_parameter(const char *name, const char *fallback, const char *value, const char *comment, double number,
-                    double default_number, double least, double most, double step, bool defined, bool settable,
+void host_parameter(const char *name, const char *default_value, const char *value, const char *comment, double number,
+                    double default_number, double min, double max, double step, bool defined, bool settable,
                     uint32_t line, uint32_t column);
 // Receives a system; host_column then receives its columns. `data` points to the numbers of the first particle;
 // `stride` is the number of doubles from one particle to the next.
@@ -73,5 +73,5 @@ HOST(archived_file) void host_archived_file(const char *name, double frame, cons
 HOST(token) void host_token(int kind, size_t start, size_t end);
 // Receives a row of the help tables.
 HOST(help)
-void host_help(const char *area, const char *name, const char *parameters, const char *fallback, const char *unit,
+void host_help(const char *area, const char *name, const char *parameters, const char *default_value, const char *unit,
                const char *help);

@@ -13,6 +13,8 @@ HERE = Path(__file__).parent
 KINDS = {'.c': 'c', '.h': 'c', '.re': 'c', '.y': 'c', '.cpp': 'c', '.mjs': 'js', '.js': 'js', '.ts': 'js', '.glsl': 'c',
          '.frag': 'c', '.vert': 'c', '.md': 'md', '.sh': 'sh', '.py': 'sh', '.yml': 'sh', '.build': 'sh', '.cmake': 'sh'}
 SHELL_FILES = {'dev', 'run', 'builds', 'fresh', 'clean-install', 'web', 'clean-env'}
+# The rules of prose.txt for names in code, by the ending of a file.
+NAME_RULES = {'.c': 'name', '.h': 'name', '.mjs': 'script name', '.js': 'script name', '.ts': 'script name', '.py': 'script name'}
 # Recorded output, text by other authors, and the files of this lint.
 SKIPPED = re.compile(r'^(CHANGELOG\.md|LICENSE|tests/conformance/|tests/golden/.*\.fl|tests/fuzz/(crashes|corpus)/|'
                      r'tests/lint/(prose|retired)|src/manual/migrating\.md)|_tables\.h$')
@@ -129,6 +131,13 @@ def blocks_of_code(lines, kind):
         yield 'comment', block
 
 
+def code_only(lines, kind):
+    """Returns the lines without comments and the texts of strings, so that only names and punctuation are left."""
+    mark = '#' if kind == 'sh' else '//'
+    pattern = JS_STRING if kind == 'js' else STRING
+    return [re.sub(r"'(?:[^'\\]|\\.)*'", "''", pattern.sub('""', split_comment(line, mark)[0])) for line in lines]
+
+
 def find_hits(rules, kind, what, block):
     """Yields (line number, text, rule) for a block."""
     joined, starts = '', []
@@ -140,7 +149,7 @@ def find_hits(rules, kind, what, block):
         return max(pair for pair in starts if pair[0] <= offset)[1]
 
     for rule in rules:
-        if rule.where == 'name' or (rule.where == 'comment' and what != 'comment') or (rule.where == 'string' and what != 'string'):
+        if rule.where.endswith('name') or (rule.where == 'comment' and what != 'comment') or (rule.where == 'string' and what != 'string'):
             continue
         if rule.anchored:
             for number, text in block:
@@ -176,10 +185,11 @@ def main():
             blocks = blocks_of_markdown(lines) if kind == 'md' else blocks_of_code(lines, kind)
             for what, block in blocks:
                 hits += [(n, t, 'write: ' + r.instead) for n, t, r in find_hits(rules, kind, what, block)]
-        if kind == 'c':
-            for rule in rules:
-                if rule.where == 'name':
-                    hits += [(n, line, rule.instead) for n, line in enumerate(lines, 1) if rule.regex.search(line)]
+        where = NAME_RULES.get(Path(path).suffix)
+        for rule in rules:
+            if where and rule.where == where:
+                hits += [(n, lines[n - 1], rule.instead) for n, code in enumerate(code_only(lines, kind), 1)
+                         if rule.regex.search(code)]
         for number, line, reason in hits:
             allowed = [i for i, row in enumerate(exceptions) if row[0] == path and row[1] in line]
             used.update(allowed)

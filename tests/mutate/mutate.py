@@ -268,7 +268,7 @@ def measure(tests, own, slow):
     groups = [[t.name for t in ordered if own & t.suites],
               [t.name for t in ordered if CORPORA in t.suites and not own & t.suites],
               [t.name for t in ordered if CORPORA not in t.suites and not own & t.suites]]
-    return groups, {name: 5 + int(3 * taken) for name, taken in seconds.items()}
+    return groups, {name: 5 + int(3 * duration) for name, duration in seconds.items()}
 
 
 def suites_of(paths):

@@ -21,7 +21,7 @@ function made() {
             world.now += act === 'step' ? count * world.cost : 0;
             world.frame = act === 'load' ? 0 : act === 'step' ? world.frame + count : act === 'seek' ? frame : world.frame;
             world.asked.push(act === 'step' ? count : act === 'seek' ? `to ${frame}` : act);
-            const data = { type: 'frame', id, frame: world.frame, lastFrame: world.frame, fps: 60, parameters: [], told: [] };
+            const data = { type: 'frame', id, frame: world.frame, lastFrame: world.frame, fps: 60, parameters: [], reported: [] };
             const answer = () => worker.onmessage({ data });
             world.holds ? world.held.push(answer) : queueMicrotask(answer);
         },

@@ -68,7 +68,7 @@ test('petri.d.ts declares exactly the methods that exist', () => {
     const types = read('src/web/engine/petri.d.ts').match(/interface Session \{([^]*?)\n\}/)[1];
     const declared = [...types.matchAll(/^ {4}(?:readonly )?(\w+)[(:]/gm)].map(match => match[1]).sort();
     const session = engine.open();
-    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'imagePixels',
+    const inner = ['constructor', 'run', 'check', 'with', 'report', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'imagePixels',
         'openPainter', 'closePainter', 'forgetPicture', 'drawList', 'servePainter'];
     const real = Object.getOwnPropertyNames(Object.getPrototypeOf(session)).filter(name => !inner.includes(name)).sort();
     assert.deepEqual(declared, real);
@@ -122,12 +122,12 @@ test('an error has a position and leaves the running script unchanged', () => {
     assert.throws(() => session.load('!a\n!b x=(\n', 'bad.fl'), error => {
         assert.ok(error instanceof PetriError);
         assert.equal(error.status, 'invalid');
-        const [told] = error.diagnostics;
-        assert.deepEqual([told.level, told.file, told.line, told.code], ['error', 'bad.fl', 2, 'syntax']);
+        const [first] = error.diagnostics;
+        assert.deepEqual([first.level, first.file, first.line, first.code], ['error', 'bad.fl', 2, 'syntax']);
         return error.message.includes('bad.fl:2:');
     });
     assert.match(session.step().print('tree'), /!a x=2/);
-    assert.deepEqual(session.diagnose('!a x=coss(1)\n').map(told => [told.level, told.code, told.column, told.endColumn]),
+    assert.deepEqual(session.diagnose('!a x=coss(1)\n').map(one => [one.level, one.code, one.column, one.endColumn]),
         [['warning', 'unbound-name', 6, 10]]);
     assert.deepEqual(session.diagnose('!a x=1\n'), []);
     session.close();
@@ -135,11 +135,11 @@ test('an error has a position and leaves the running script unchanged', () => {
 
 test('a frame that exceeds a limit is aborted, and the session continues', () => {
     const session = opened('let n=N or 3\nlet k=(1 for i in ..n for j in ..1000 for k in ..1000)\n!a x=len(k)\n', { memory: 64 << 20 });
-    const told = status => error => error.status === status;
+    const failsWith = status => error => error.status === status;
     session.load('!a x=sum(i*j for i in ..100000 for j in ..100000)\n');
-    assert.throws(() => session.step(), told('limit'));
+    assert.throws(() => session.step(), failsWith('limit'));
     session.load('!a x=len((1 for i in ..10000000))\n');
-    assert.throws(() => session.step(), told('limit'));
+    assert.throws(() => session.step(), failsWith('limit'));
     assert.match(session.load('!a x=1\n').step().print('tree'), /!a x=1/);
     session.close();
 });
@@ -168,15 +168,15 @@ test('an interrupt does not affect the next call', () => {
     const whole = { state: session.state, parameters: session.parameters, systems: session.systems.length, table: session.table().text,
         picture: session.displayList().numbers, help: session.help(), tokens: session.tokens(script),
         evaluated: session.evaluate('sum(..99)'),
-        told: session.diagnose(`${script}!x a=`).length, hash: session.hash(), symbol: session.symbolName(session.symbol('q')),
+        diagnosed: session.diagnose(`${script}!x a=`).length, hash: session.hash(), symbol: session.symbolName(session.symbol('q')),
         drawable: true };
-    const acts = { state: () => session.state, parameters: () => session.parameters, systems: () => session.systems.length,
+    const calls = { state: () => session.state, parameters: () => session.parameters, systems: () => session.systems.length,
         table: () => session.table().text, picture: () => session.displayList()?.numbers, help: () => session.help(),
         tokens: () => session.tokens(script), evaluated: () => session.evaluate('sum(..99)'), hash: () => session.hash(),
-        told: () => session.diagnose(`${script}!x a=`).length, symbol: () => session.symbolName(session.symbol('q')),
+        diagnosed: () => session.diagnose(`${script}!x a=`).length, symbol: () => session.symbolName(session.symbol('q')),
         drawable: () => session.drawable };
     const ended = [];
-    for (const [name, act] of Object.entries(acts)) {
+    for (const [name, act] of Object.entries(calls)) {
         wanted = true;
         try {
             assert.deepEqual(act(), whole[name], name);
@@ -188,7 +188,7 @@ test('an interrupt does not affect the next call', () => {
         assert.doesNotThrow(() => session.print('hash'), name);
         assert.deepEqual(act(), whole[name], name);
     }
-    assert.deepEqual(ended, ['table', 'evaluated', 'hash', 'told']);
+    assert.deepEqual(ended, ['table', 'evaluated', 'hash', 'diagnosed']);
     assert.equal(session.step().frame.number, 2);
     session.close();
 });
@@ -197,10 +197,10 @@ test('deep recursion is reported, and the engine continues', () => {
     const names = Array.from({ length: 40 }, (_, i) => `f${i}`);
     const nested = '(1+' + '(2*'.repeat(150), end = ')'.repeat(151);
     const functions = names.map((name, i) => `func ${name}(fs, n)\n    ${nested}fs[${(i + 1) % 40}](fs, n-1)${end} if n>0 else 0\n`);
-    const told = [];
-    const session = engine.open({ onDiagnostic: diagnostic => told.push(diagnostic.code) });
+    const reported = [];
+    const session = engine.open({ onDiagnostic: diagnostic => reported.push(diagnostic.code) });
     session.load(`${functions.join('')}let fs=${names.join(';')}\n!a x=f0(fs, 9000)\n`).step();
-    assert.deepEqual(told, ['recursion-depth']);
+    assert.deepEqual(reported, ['recursion-depth']);
     session.load('func f(n)\n    1+f(n-1) if n>0 else 0\n!a x=f(499)\n');
     assert.match(session.step().print('tree'), /x=499/);
     session.close();

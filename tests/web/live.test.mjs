@@ -15,7 +15,7 @@ const colour = page => page.evaluate(() =>
 const hasColour = (page, wanted) => page.waitForFunction(text =>
     [...document.getElementById('picture').getContext('2d').getImageData(30, 10, 1, 1).data].slice(0, 3).join(';') === text, wanted);
 const isRunning = page => page.evaluate(() => document.getElementById('run').textContent === 'Pause');
-const passes = async (page, frame) => page.waitForFunction(least => Number(document.body.dataset.frame) > least, frame);
+const passes = async (page, frame) => page.waitForFunction(min => Number(document.body.dataset.frame) > min, frame);
 
 async function valueOf(page, expression) {
     await page.evaluate(() => { document.getElementById('printed').textContent = ''; });

@@ -392,7 +392,7 @@ test('the prompt, samples, keyboard, themes and offline use work', options, () =
         const offline = Number(await page.evaluate(() => document.body.dataset.frame));
         await page.focus('#run');
         await page.keyboard.press('Space');
-        await page.waitForFunction(least => Number(document.body.dataset.frame) > least, offline + 4);
+        await page.waitForFunction(min => Number(document.body.dataset.frame) > min, offline + 4);
         assert.ok((await pixels(page)).all > 3);
     },
 }));

@@ -207,8 +207,8 @@ test('on a phone, the picture is first, nothing is cut off, and buttons are larg
 test('everything can be done with the keyboard', options, () => opened('', {
     use: async page => {
         const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.className);
-        const tabTo = async (id, most = 40) => {
-            for (let i = 0; i < most && await focused() !== id; i++)
+        const tabTo = async (id, max = 40) => {
+            for (let i = 0; i < max && await focused() !== id; i++)
                 await page.keyboard.press('Tab');
             assert.equal(await focused(), id);
         };

@@ -59,14 +59,14 @@ async function install() {
                     const byte = a[4 * (y * width + x) + k];
                     if (Math.abs(byte - b[4 * (y * width + x) + k]) <= 2)
                         continue;
-                    let least = 255, most = 0;
+                    let min = 255, max = 0;
                     for (let v = Math.max(y - 1, 0); v <= Math.min(y + 1, height - 1); v++)
                         for (let u = Math.max(x - 1, 0); u <= Math.min(x + 1, width - 1); u++) {
                             const other = b[4 * (v * width + u) + k];
-                            least = Math.min(least, other);
-                            most = Math.max(most, other);
+                            min = Math.min(min, other);
+                            max = Math.max(max, other);
                         }
-                    if (byte < least - 2 || byte > most + 2) {
+                    if (byte < min - 2 || byte > max + 2) {
                         count++;
                         break;
                     }
@@ -89,7 +89,7 @@ async function install() {
     };
     // Returns the state after some frames.
     window.run = (text, frames) => {
-        const told = [], session = engine.open({ onDiagnostic: ({ rendered }) => told.push(rendered) });
+        const reported = [], session = engine.open({ onDiagnostic: ({ rendered }) => reported.push(rendered) });
         session.load(text);
         for (let i = 0; i < frames; i++) {
             session.step();
@@ -97,15 +97,15 @@ async function install() {
         }
         const state = Object.fromEntries(session.state);
         session.close();
-        return { told, state };
+        return { reported, state };
     };
     window.draw = async (text, frame, given, png) => {
-        const files = Object.fromEntries(Object.entries(given).map(([name, bytes]) => [name, bytesOf(bytes)])), told = [];
+        const files = Object.fromEntries(Object.entries(given).map(([name, bytes]) => [name, bytesOf(bytes)])), reported = [];
         const images = new Map();
         for (const name of Object.keys(files).filter(file => /\.(png|jpg)$/.test(file)))
             images.set(name, await createImageBitmap(new Blob([files[name]])));
         const image = name => images.get(name.replace('./', ''));
-        const session = engine.open({ files, image, onDiagnostic: ({ rendered }) => told.push(rendered) });
+        const session = engine.open({ files, image, onDiagnostic: ({ rendered }) => reported.push(rendered) });
         session.load(text);
         for (let i = 0; i <= frame; i++) {
             session.step();
@@ -117,7 +117,7 @@ async function install() {
         if (picture.image)
             canvas.drawImage(picture.image, 0, 0);
         session.close();
-        return { told, unsupported, ...await window.compare(canvas.canvas, png) };
+        return { reported, unsupported, ...await window.compare(canvas.canvas, png) };
     };
 }
 
@@ -127,8 +127,8 @@ function render(script, frame) {
     return readFileSync(png).toString('base64');
 }
 
-function judge({ told = [], unsupported = [], outside, colours, ...sizes }, share) {
-    assert.deepEqual([told, unsupported, sizes], [[], [], {}]);
+function judge({ reported = [], unsupported = [], outside, colours, ...sizes }, share) {
+    assert.deepEqual([reported, unsupported, sizes], [[], [], {}]);
     assert.ok(outside <= share, `${outside} of the pixels are otherwise`);
     assert.ok(colours > 2, `there are ${colours} bytes only`);
 }
@@ -176,7 +176,7 @@ test('in the page, scripts measure texts and sample pictures as with petri rende
     const native = Object.fromEntries([...readFileSync(file, 'utf8').matchAll(/^\$\((.*?)\) = (.*)$/gm)].map(([, key, value]) =>
         [key, value.split(';').map(Number)]));
     const shown = await page.evaluate(text => window.run(text, 3), SAMPLED);
-    assert.deepEqual(shown.told, []);
+    assert.deepEqual(shown.reported, []);
     for (const [key, value] of Object.entries(native).filter(([key]) => /^:(points|mono|bold|serif)/.test(key))) {
         const share = key.startsWith(':points') ? 1e-6 : 0.01, near = shown.state[key];
         assert.ok(near?.length === value.length && value.every((number, i) => Math.abs(number - near[i]) <= share * Math.abs(number)),

@@ -10,7 +10,7 @@ const SQUARE = '!window size=64;32\n    !canvas\n        !rect size=64;32 color=
 const lines = page => page.evaluate(() => [...document.querySelectorAll('.cm-line')].slice(0, 9).map(line => line.textContent).join('\n'));
 const names = page => page.locator('#own-scripts .name').allTextContents();
 const stored = page => page.evaluate(() => Object.keys(localStorage).filter(key => key.startsWith('petri.script.')).length);
-const passes = (page, frame) => page.waitForFunction(least => Number(document.body.dataset.frame) > least, frame);
+const passes = (page, frame) => page.waitForFunction(min => Number(document.body.dataset.frame) > min, frame);
 
 async function addTo(page, text) {
     await page.click('.cm-content');

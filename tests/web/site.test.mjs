@@ -89,10 +89,10 @@ test('the differences from Flitter are documented, and the example runs', ways, 
     const text = await page.textContent('main');
     for (const part of ['Language', 'Three dimensions', 'What differs'])
         assert.ok(text.includes(part), part);
-    const told = [];
-    assert.equal(await eachDish(page, ({ message, colours }) => told.push([message.split('\n')[0], colours > 1])), 1);
+    const reported = [];
+    assert.equal(await eachDish(page, ({ message, colours }) => reported.push([message.split('\n')[0], colours > 1])), 1);
     const [, warning] = read('flitter.html').replaceAll(/<[^>]*>/g, '').match(/^films\.(fl:2:5: warning: .*)$/m);
-    assert.deepEqual(told, [[`script.${warning}`, true]]);
+    assert.deepEqual(reported, [[`script.${warning}`, true]]);
 }));
 
 test('each physics node has its attributes with units, and a dish that runs', ways, () => visit('physics.html', async page => {
@@ -108,8 +108,8 @@ test('each physics node has its attributes with units, and a dish that runs', wa
         const here = read('physics.html').split(`<h2 id="${name}">`)[1].split('<h2 ')[0];
         const there = all.split(`<h3 id="physics-${name}">`)[1].split(/<h[23] /)[0];
         for (const attribute of attributes) {
-            const told = here.includes(`<code>${attribute.name}</code>`);
-            assert.ok(told || /^(min|max)(imum)?$|^fixed$/.test(attribute.name), `${name} ${attribute.name}`);
+            const reported = here.includes(`<code>${attribute.name}</code>`);
+            assert.ok(reported || /^(min|max)(imum)?$|^fixed$/.test(attribute.name), `${name} ${attribute.name}`);
             const row = there.split('<tr>').find(one => one.startsWith(`<td><code>${attribute.name}</code></td>`)) ?? '';
             const cells = row.split('<td>').slice(1).map(plain).map(cell => cell.trim());
             assert.deepEqual(cells.slice(0, 3), [attribute.name, attribute.type, attribute.unit], `${name} ${attribute.name}`);

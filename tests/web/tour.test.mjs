@@ -22,17 +22,17 @@ const frameOf = page => page.evaluate(() => Number(document.body.dataset.frame))
 const textOf = page => page.evaluate(() => [...document.querySelectorAll('.cm-line')].map(line => line.textContent).join('\n'));
 
 test('there are 14 lessons, which their solutions solve and their starts do not', async () => {
-    const engine = await loadEngine(readFileSync(join(folder, 'petri/engine.wasm'))), told = [];
+    const engine = await loadEngine(readFileSync(join(folder, 'petri/engine.wasm'))), reported = [];
     assert.equal(LESSONS.length, 14);
     assert.equal(new Set(LESSONS.map(({ name }) => name)).size, 14);
-    const way = { onDiagnostic: ({ rendered }) => told.push(rendered) };
+    const way = { onDiagnostic: ({ rendered }) => reported.push(rendered) };
     for (const lesson of LESSONS) {
         assert.equal(passes(engine, { ...lesson, text: lesson.start, name: 'start.fl' }, way), false, `${lesson.name}: start`);
         assert.equal(passes(engine, { ...lesson, text: lesson.solution, name: 'end.fl' }, way), true, `${lesson.name}: solution`);
         assert.ok(lesson.start.split('\n').length <= 26, `${lesson.name} fits on a screen`);
         assert.ok(lesson.prose.split(/\s+/).length < 130, `${lesson.name} has a short text`);
     }
-    assert.deepEqual(told.filter(text => !/unbound name|null/.test(text)), []);
+    assert.deepEqual(reported.filter(text => !/unbound name|null/.test(text)), []);
     assert.equal(passes(engine, { ...LESSONS[0], text: 'let x=(1;', name: 'bad.fl' }), false);
 });
 

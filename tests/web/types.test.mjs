@@ -88,7 +88,7 @@ test('a TypeScript program compiles, runs, and gets values of the declared types
     fits('Picture', [got.picture, got.shown]);
     fits('Token', got.tokens);
     fits('Help', got.help);
-    fits('Diagnostic', [...got.diagnostics, ...got.told]);
+    fits('Diagnostic', [...got.diagnostics, ...got.reported]);
     fits('Status', [got.status, ...got.statuses]);
     assert.equal(typeof got.snapshot.bytes, 'number');
     assert.equal(typeof got.snapshot.free, 'function');

@@ -5,9 +5,9 @@ import type {
 } from 'petri';
 import { pictureSize } from 'petri/drawing';
 
-const told: Diagnostic[] = [];
+const reported: Diagnostic[] = [];
 const options: Options = {
-    fps: 30, memory: 2 ** 28, work: 2 ** 26, onDiagnostic: one => { told.push(one); }, shouldInterrupt: () => false,
+    fps: 30, memory: 2 ** 28, work: 2 ** 26, onDiagnostic: one => { reported.push(one); }, shouldInterrupt: () => false,
     files: { 'parts.fl': 'let SPEED=3\n', 'rows.csv': new Uint8Array([49, 44, 50, 10]) },
 };
 const SCRIPT = `import SPEED from 'parts.fl'
@@ -68,7 +68,7 @@ export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string,
     status === 'fine';
 
     const result = {
-        frame, parameters, systems: structuredClone(systems), picture, shown, snapshot, tokens, help, diagnostics, told, place, state, size,
+        frame, parameters, systems: structuredClone(systems), picture, shown, snapshot, tokens, help, diagnostics, reported, place, state, size,
         same: hash === again && digest.length === 32 && forces === null && table.dimensions === 2, text, number, printed, status,
         statuses: STATUS, name, kinds, wrong, part, version: engine.version,
     };

@@ -206,7 +206,7 @@ const hasColour = (page, wanted) => page.waitForFunction(text => {
     return [...data].slice(0, 3).join(';') === text;
 }, wanted);
 const frameOf = page => page.evaluate(() => Number(document.body.dataset.frame));
-const passes = (page, frame) => page.waitForFunction(least => Number(document.body.dataset.frame) > least, frame);
+const passes = (page, frame) => page.waitForFunction(min => Number(document.body.dataset.frame) > min, frame);
 const isRunning = page => page.evaluate(() => document.getElementById('run').textContent === 'Pause');
 
 test('the preview loads only files of the extension, and only its own script', options, () => previewed(opened('a.fl', coloured('1;0;0')),

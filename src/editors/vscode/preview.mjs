@@ -34,7 +34,7 @@ async function update() {
         await dish.giveFiles();
     if (id === shownId && dish.loaded !== null) {
         live.changed();
-        await live.taken;
+        await live.applied;
         return;
     }
     Object.assign(page, { name });

@@ -87,10 +87,10 @@ def petri_python_diagnostic(user_data, diagnostic) -> None:
     ))
 
 
-def finish(status: int, told: list[Diagnostic], message: Optional[str] = None) -> None:
+def finish(status: int, reported: list[Diagnostic], message: Optional[str] = None) -> None:
     """Raises an exception if the status is not PETRI_OK; otherwise issues the diagnostics as warnings."""
-    diagnostics = tuple(told)
-    told.clear()
+    diagnostics = tuple(reported)
+    reported.clear()
     if status != lib.PETRI_OK:
         kind, default = _ERRORS[status]
         reasons = tuple(d for d in diagnostics if d.level != "warning")

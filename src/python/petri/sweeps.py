@@ -67,8 +67,8 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
     axes = {name: list(values) for name, values in defines.items()}
     if seeds > 0:
         axes["SEED"] = list(range(1, seeds + 1))
-    taken = [*axes, "frame", "error"]
-    double = [name for name in metrics if name in taken]
+    reserved = [*axes, "frame", "error"]
+    double = [name for name in metrics if name in reserved]
     if double:
         raise ValueError(f"the metric {double[0]!r} has the name of another column")
     runs = [dict(zip(axes, chosen)) for chosen in itertools.product(*axes.values())]

@@ -86,7 +86,7 @@ export class Archive {
             this.close();
             throw new Error(`cannot read the archive: ${reason}`);
         }
-        this.info = this.taken[0];
+        this.info = this.results[0];
     }
 
     run(act) {
@@ -105,7 +105,7 @@ export class Archive {
 
     get files() {
         this.run(wasm => wasm.web_archive_files(this.handle));
-        return this.taken;
+        return this.results;
     }
 
     check() {

@@ -8,7 +8,7 @@ export function callEngine(owner, act, mayInterrupt = false) {
         throw engine.broken;
     const outer = engine.session;
     engine.session = owner;
-    Object.assign(owner, { mayInterrupt, told: [], written: [], taken: [] });
+    Object.assign(owner, { mayInterrupt, reported: [], written: [], results: [] });
     try {
         return act(engine.memory.wasm);
     } catch (error) {

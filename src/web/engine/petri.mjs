@@ -22,7 +22,7 @@ const CALL_WORK = 2 ** 28; // one or two seconds
 // the script`.
 export class PetriError extends Error {
     constructor(status, diagnostics, what) {
-        const first = diagnostics.find(told => told.level === 'error') ?? diagnostics[0];
+        const first = diagnostics.find(one => one.level === 'error') ?? diagnostics[0];
         super(`cannot ${what}: ${first ? first.rendered.trimEnd() : REASONS[status]}`);
         this.name = 'PetriError';
         this.status = status;
@@ -48,47 +48,47 @@ class Engine {
             should_interrupt: () => (now().mayInterrupt && now().shouldInterrupt?.() ? 1 : 0),
             read: (name, length) => now().readFile(text(name), length),
             diagnostic: (level, file, message, code, hint, rendered, line, column, endLine, endColumn) =>
-                now().tell({
+                now().report({
                     level: LEVELS[level], file: text(file), text: text(message), code: text(code), hint: text(hint),
                     rendered: text(rendered), line, column, endLine, endColumn,
                 }),
             frame: (number, time, beat, fps, tempo, steps, evaluationSeconds, physicsSeconds) =>
-                now().taken.push({ number, time, beat, fps, tempo, steps, evaluationSeconds, physicsSeconds }),
+                now().results.push({ number, time, beat, fps, tempo, steps, evaluationSeconds, physicsSeconds }),
             parameter: (name, defaultValue, value, comment, number, defaultNumber, min, max, step, defined, settable,
                 line, column) =>
-                now().taken.push({
+                now().results.push({
                     name: text(name), defaultValue: text(defaultValue), value: text(value), comment: text(comment), number,
                     defaultNumber, min, max, step, defined: !!defined, settable: !!settable, line, column,
                 }),
             system: (name, dimensions, count, forces, steps) =>
-                now().taken.push({ name: text(name), dimensions, count, forces, steps }),
+                now().results.push({ name: text(name), dimensions, count, forces, steps }),
             column: (name, data, stride) => now().addColumn(text(name), data, stride),
             contribution: (kind, file, line, column, partner, vector, dimensions) =>
-                now().taken.push({
+                now().results.push({
                     kind: text(kind), file: text(file), line, column, partner: text(partner),
                     vector: Array.from(this.memory.numbers(vector, dimensions)),
                 }),
             entry: (key, numbers, length, mixed) =>
-                now().taken.push({
+                now().results.push({
                     key: text(key),
                     value: numbers ? Array.from(this.memory.numbers(numbers, length)) : text(mixed),
                 }),
             picture: (numbers, count, title, ready) =>
-                now().taken.push({ numbers: this.memory.numbers(numbers, count).slice(), title: text(title), ready: !!ready }),
+                now().results.push({ numbers: this.memory.numbers(numbers, count).slice(), title: text(title), ready: !!ready }),
             gl_ready: () => this.memory.screen.ready,
             gl_has: name => this.memory.screen.extensions.has(text(name)),
             screen: (width, height) => this.memory.screen.resize(width, height),
-            shown: (title, ready) => now().taken.push({ image: this.memory.screen.take(), title: text(title), ready: !!ready }),
+            shown: (title, ready) => now().results.push({ image: this.memory.screen.take(), title: text(title), ready: !!ready }),
             draw: (numbers, count, width, height, pixels) => now().drawCanvas(numbers, count, width, height, pixels),
             measure: (words, family, ...style) => measureText(text(words), text(family), ...style),
             image: (name, width, height) => now().imagePixels(text(name), width, height),
             paint: (commands, count, pixels) => this.paint(this.memory.numbers(commands, count).slice(), pixels),
             archive: (script, command, version, sha256, firstFrame, lastFrame) =>
-                now().taken.push({
+                now().results.push({
                     script: text(script), command: text(command), version: text(version), sha256: text(sha256), firstFrame, lastFrame,
                 }),
             archived_file: (name, frame, at, length) =>
-                now().taken.push({ name: text(name), frame, bytes: this.memory.bytes().slice(at, at + length) }),
+                now().results.push({ name: text(name), frame, bytes: this.memory.bytes().slice(at, at + length) }),
             sql_prepare: sql => statements.prepare(now().database, text(sql)),
             sql_finalize: number => statements.finalize(number),
             sql_bind: (number, parameter, value) => statements.bind(number, parameter, value),
@@ -103,9 +103,9 @@ class Engine {
                 this.memory.setWord(length, bytes.length);
                 return at;
             },
-            token: (kind, start, end) => now().taken.push({ kind: TOKENS[kind], start, end }),
+            token: (kind, start, end) => now().results.push({ kind: TOKENS[kind], start, end }),
             help: (kind, name, parameters, defaultValue, unit, help) =>
-                now().taken.push({
+                now().results.push({
                     kind: text(kind), name: text(name), parameters: text(parameters), defaultValue: text(defaultValue),
                     unit: text(unit), help: text(help),
                 }),
@@ -151,8 +151,8 @@ export class Session {
         this.files = new Map();
         this.kept = []; // addresses of file contents, freed when the session is closed
         this.written = [];
-        this.taken = [];
-        this.told = [];
+        this.results = [];
+        this.reported = [];
         for (const [name, content] of Object.entries(files))
             this.setFile(name, content);
         this.handle = this.run(wasm => wasm.web_open(fps, memory, work, STACK, keepForces ? 1 : 0, archive?.handle ?? 0));
@@ -186,8 +186,8 @@ export class Session {
     check(what, act) {
         const status = STATUS[this.run(act, true)];
         if (status !== 'ok') {
-            const { told } = this, problem = status === 'invalid' ? this.archive?.problem : null;
-            throw new PetriError(status, problem ? [{ level: 'error', rendered: problem }] : told, what);
+            const { reported } = this, problem = status === 'invalid' ? this.archive?.problem : null;
+            throw new PetriError(status, problem ? [{ level: 'error', rendered: problem }] : reported, what);
         }
         return this;
     }
@@ -216,8 +216,8 @@ export class Session {
         const status = STATUS[this.run(this.with(name, (wasm, called) =>
             this.memory.withText(text, (at, length) => wasm.petri_check_text(this.handle, called, at, length))), true)];
         if (status === 'interrupted')
-            throw new PetriError(status, this.told, 'check the script');
-        return this.told;
+            throw new PetriError(status, this.reported, 'check the script');
+        return this.reported;
     }
 
     // Defines a name, as in 'SIZE=20', for scripts loaded from now on.
@@ -239,7 +239,7 @@ export class Session {
 
     get frame() {
         this.run(wasm => wasm.web_frame(this.handle));
-        return this.taken[0];
+        return this.results[0];
     }
 
     // The units of work of all calls since the session was opened.
@@ -264,7 +264,7 @@ export class Session {
     table(dimensions = 0) {
         const has = this.run(wasm => wasm.web_particles(this.handle, dimensions), true);
         if (has <= 0)
-            throw new PetriError(has ? 'interrupted' : 'memory', this.told, 'write the particles');
+            throw new PetriError(has ? 'interrupted' : 'memory', this.reported, 'write the particles');
         return { text: this.written.join(''), dimensions: has };
     }
 
@@ -280,7 +280,7 @@ export class Session {
 
     get parameters() {
         this.run(wasm => wasm.web_parameters(this.handle));
-        return this.taken;
+        return this.results;
     }
 
     // Sets a parameter. `value` has the form that it has in a script; null means the default.
@@ -295,7 +295,7 @@ export class Session {
     // numbers of particle i begin at i * stride.
     get systems() {
         this.run(wasm => wasm.web_systems(this.handle));
-        return this.taken;
+        return this.results;
     }
 
     // Returns the id of a particle as it is printed, such as "7"; null if there is no such particle.
@@ -306,12 +306,12 @@ export class Session {
     // Returns the contributions to the force on a particle in the last step of the frame, and their sum.
     explain(system, particle) {
         this.check('explain the force', wasm => wasm.web_explain(this.handle, system, particle));
-        const contributions = this.taken.slice(0, -1);
-        return { contributions, sum: this.taken.at(-1).value };
+        const contributions = this.results.slice(0, -1);
+        return { contributions, sum: this.results.at(-1).value };
     }
 
     addColumn(name, data, stride) {
-        const system = this.taken.at(-1), width = name === 'position' || name === 'velocity' ? system.dimensions : 1;
+        const system = this.results.at(-1), width = name === 'position' || name === 'velocity' ? system.dimensions : 1;
         system[name] = data && system.count
             ? { data: this.memory.numbers(data, (system.count - 1) * stride + width), stride }
             : null;
@@ -320,7 +320,7 @@ export class Session {
     // The state: a map from printed keys to arrays of numbers, or to the printed value if not all elements are numbers.
     get state() {
         this.run(wasm => wasm.web_state(this.handle));
-        return new Map(this.taken.map(entry => [entry.key, entry.value]));
+        return new Map(this.results.map(entry => [entry.key, entry.value]));
     }
 
     // Sets a global, one or more numbers, for scripts that are loaded later. Its value can be changed at any time.
@@ -334,9 +334,9 @@ export class Session {
     // Evaluates an expression in the last frame.
     evaluate(expression) {
         this.check('evaluate the expression', this.with(expression, (wasm, at, length) => wasm.web_evaluate(this.handle, at, length)));
-        if (this.told.some(told => told.level === 'error'))
-            throw new PetriError('invalid', this.told, 'evaluate the expression');
-        return { text: this.written.join(''), number: this.taken[0].value[0] };
+        if (this.reported.some(one => one.level === 'error'))
+            throw new PetriError('invalid', this.reported, 'evaluate the expression');
+        return { text: this.written.join(''), number: this.results[0].value[0] };
     }
 
     // Evaluates a line typed at the prompt and returns its output.
@@ -353,7 +353,7 @@ export class Session {
     // The display list of the last frame, for drawing.mjs; null if there is nothing to draw.
     displayList({ automatic = false } = {}) {
         this.run(wasm => wasm.web_picture(this.handle, 0, 0, automatic ? 1 : 0));
-        return this.taken[0] ?? null;
+        return this.results[0] ?? null;
     }
 
     // True if the picture of the last frame depends on earlier pictures. `renderIfNeeded` must then be called after every step.
@@ -411,7 +411,7 @@ export class Session {
         this.unsupported.clear();
         const followed = this.renderIfNeeded() && !automatic ? this.followed?.at ?? 0 : 0;
         this.run(wasm => wasm.web_picture(this.handle, painter, followed, automatic ? 1 : 0));
-        const shown = this.taken[0] ?? null, { lost } = this.memory.screen;
+        const shown = this.results[0] ?? null, { lost } = this.memory.screen;
         if (painter && lost) // the context was lost while the picture was drawn
             return this.render({ automatic });
         if (shown?.numbers && needsEngine(shown.numbers) && typeof OffscreenCanvas !== 'undefined')
@@ -459,13 +459,13 @@ export class Session {
 
     tokens(text) {
         this.run(this.with(text, (wasm, at, length) => wasm.web_tokens(this.handle, at, length)));
-        return this.taken;
+        return this.results;
     }
 
     // Returns the rows of petri's tables: functions; nodes, each followed by its attributes; names bound in the script.
     help() {
         this.run(wasm => wasm.web_help(this.handle));
-        return this.taken;
+        return this.results;
     }
 
     symbol(name) {
@@ -489,7 +489,7 @@ export class Session {
     snapshot() {
         const at = this.run(wasm => wasm.petri_snapshot(this.handle));
         if (!at)
-            throw new PetriError('memory', this.told, 'take a snapshot');
+            throw new PetriError('memory', this.reported, 'take a snapshot');
         return new Snapshot(this, at);
     }
 
@@ -500,8 +500,8 @@ export class Session {
         return this.check('restore the snapshot', wasm => wasm.petri_rewind(this.handle, snapshot.at));
     }
 
-    tell(diagnostic) {
-        this.told.push(diagnostic);
+    report(diagnostic) {
+        this.reported.push(diagnostic);
         this.onDiagnostic?.(diagnostic);
     }
 

@@ -89,7 +89,7 @@ export function readArguments(args) {
         return null;
     }
     const { output = '', define = [], auto = false, quiet = false } = values, [script] = positionals;
-    const count = (text, least) => (text === undefined || (/^\d{1,9}$/.test(text) && Number(text) >= least));
+    const count = (text, min) => (text === undefined || (/^\d{1,9}$/.test(text) && Number(text) >= min));
     if (positionals.length !== 1 || !/\.png$/i.test(output) || output.includes('{window}') || !script.endsWith('.fl')
         || !fs.statSync(script, { throwIfNoEntry: false })?.isFile()
         || !count(values.frame, 0) || !count(values.frames, 1) || !count(values.every, 1) || !count(values.threads, 1)

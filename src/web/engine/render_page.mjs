@@ -9,11 +9,11 @@ const post = async (name, body) => {
 };
 const plain = name => name.replace(/^\.\//, '');
 
-let told = [];
+let reported = [];
 // Sends messages to the command, which prints them.
 const report = async text => {
-    const lines = [...told, ...(text ? [`petri: ${text}\n`] : [])];
-    told = [];
+    const lines = [...reported, ...(text ? [`petri: ${text}\n`] : [])];
+    reported = [];
     if (lines.length)
         await post('messages', lines.join(''));
 };
@@ -45,7 +45,7 @@ async function render({ text, name, files, imageNames, define, quiet, automatic,
         images.set(plain(file), await createImageBitmap(await (await fetch(`image/${index}`)).blob()).catch(() => null));
     const image = file => images.get(plain(file)) ?? null;
     const engine = await loadEngine(new URL('engine.wasm', import.meta.url));
-    const onDiagnostic = ({ level, rendered }) => (!quiet || level === 'error') && told.push(rendered);
+    const onDiagnostic = ({ level, rendered }) => (!quiet || level === 'error') && reported.push(rendered);
     const session = engine.open({ files, fps, work: 2 ** 30, image, onDiagnostic });
     const missing = new Set();
     let failed = false, drawn = 0, before = 0;

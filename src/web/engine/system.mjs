@@ -122,8 +122,8 @@ export class System {
         return file;
     }
 
-    add(file, least = 0) {
-        let number = least;
+    add(file, min = 0) {
+        let number = min;
         while (this.files.has(number))
             number++;
         this.files.set(number, file);
@@ -216,10 +216,10 @@ export class System {
             this.close(descriptor);
     }
 
-    duplicate(descriptor, least) {
+    duplicate(descriptor, min) {
         const file = this.find(descriptor);
         file.users++;
-        return this.add(file, least);
+        return this.add(file, min);
     }
 
     setStat(at, info) {
@@ -520,7 +520,7 @@ export class System {
                 set(to + 4, rows);
                 return columns ? 0 : -ERRORS.ENOTTY;
             },
-            duplicate: (descriptor, least) => this.duplicate(descriptor, least),
+            duplicate: (descriptor, min) => this.duplicate(descriptor, min),
             descriptor_flags: descriptor => (this.find(descriptor), 0),
             end_by_signal: number => {
                 throw new Exit(128 + number, number);

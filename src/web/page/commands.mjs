@@ -17,10 +17,10 @@ function columns(rows) {
 
 const frameLine = ({ session }) => `@${session.frame.number} time=${session.frame.time} beat=${session.frame.beat}\n`;
 
-function number(player, text, { least = -Infinity, whole = false } = {}) {
+function number(player, text, { min = -Infinity, whole = false } = {}) {
     const value = player.session.evaluate(text).number;
-    if (!Number.isFinite(value) || value < least || (whole && !Number.isInteger(value)))
-        throw problem(`not ${whole ? `an integer >= ${least}` : 'a number'}: '${text}'`);
+    if (!Number.isFinite(value) || value < min || (whole && !Number.isInteger(value)))
+        throw problem(`not ${whole ? `an integer >= ${min}` : 'a number'}: '${text}'`);
     return value;
 }
 
@@ -30,9 +30,9 @@ function withCount(text) {
     return [rest.trim(), count === 'all' ? Infinity : Number(count ?? MAX_LINES)];
 }
 
-function someLines(lines, most, command) {
-    const more = lines.length - most;
-    return lines.slice(0, most).join('') + (more > 0 ? `-- ${more} more lines; '${command} all' shows all lines\n` : '');
+function someLines(lines, max, command) {
+    const more = lines.length - max;
+    return lines.slice(0, max).join('') + (more > 0 ? `-- ${more} more lines; '${command} all' shows all lines\n` : '');
 }
 
 // Computes frames until `ends` returns true; at most `count`. Returns true if it did.
@@ -50,7 +50,7 @@ async function advance(player, context, count, ends = () => false) {
 }
 
 async function step(player, text, context) {
-    await advance(player, context, text ? number(player, text, { least: 1, whole: true }) : 1);
+    await advance(player, context, text ? number(player, text, { min: 1, whole: true }) : 1);
     return frameLine(player);
 }
 
@@ -70,10 +70,10 @@ async function until(player, text, context) {
     const [, expression, limit] = text.match(/^(.*?)(?:\s+--limit\s+(\S+))?$/s);
     const isTrue = () => !['false', 'null', '0'].includes(player.session.evaluate(`1 if (${expression}) else 0`).text);
     isTrue(); // reports errors in the expression before the first step
-    const most = limit ? number(player, limit, { least: 1, whole: true }) : MAX_FRAMES;
-    const reached = await advance(player, context, most, isTrue);
+    const max = limit ? number(player, limit, { min: 1, whole: true }) : MAX_FRAMES;
+    const reached = await advance(player, context, max, isTrue);
     return frameLine(player)
-        + (reached ? '' : `the condition was not true within ${plural(most, 'frame')}; --limit sets this maximum\n`);
+        + (reached ? '' : `the condition was not true within ${plural(max, 'frame')}; --limit sets this maximum\n`);
 }
 
 function goTo(player, frame, context) {
@@ -87,7 +87,7 @@ function goTo(player, frame, context) {
 }
 
 function back(player, text, context) {
-    const count = text ? number(player, text, { least: 1, whole: true }) : 1, ago = player.frame - player.first;
+    const count = text ? number(player, text, { min: 1, whole: true }) : 1, ago = player.frame - player.first;
     if (ago < 1)
         throw problem('cannot go back: this is the start');
     const note = count > ago ? `-- went back only ${plural(ago, 'frame')}: this is the start\n` : '';
@@ -97,18 +97,18 @@ function back(player, text, context) {
 // Selects the entries whose key is `wanted` or begins with it: `:cells` and `cells` select both `$:cells` and `$(:cells;0)`.
 function state({ session }, text) {
     const isKey = /^\d+$/.test(text); // a number alone is a key
-    const [asked, most] = isKey ? [text, MAX_LINES] : withCount(text), key = asked.replace(/^\$?\(?/, '').replace(/\)$/, '');
+    const [asked, max] = isKey ? [text, MAX_LINES] : withCount(text), key = asked.replace(/^\$?\(?/, '').replace(/\)$/, '');
     const lines = session.print('state').split(/(?<=\n)/).slice(1).filter(line => {
         const own = line.slice(line[1] === '(' ? 2 : 1), name = own.startsWith(':') && !key.startsWith(':') ? own.slice(1) : own;
         return !key || (name.startsWith(key) && ';) '.includes(name[key.length]));
     });
-    return lines.length ? someLines(lines, most, `.state ${asked}`.trim())
+    return lines.length ? someLines(lines, max, `.state ${asked}`.trim())
         : `-- the state ${key ? `has no entry under ${key}` : 'is empty'}\n`;
 }
 
 // Selects the nodes of a kind with their children.
 function tree({ session }, text) {
-    const [asked, most] = withCount(text), kind = asked.replace(/^!/, ''), lines = [];
+    const [asked, max] = withCount(text), kind = asked.replace(/^!/, ''), lines = [];
     let depth = Infinity;
     for (const line of session.print('tree').split(/(?<=\n)/).slice(1)) {
         const own = line.search(/\S/);
@@ -117,7 +117,7 @@ function tree({ session }, text) {
         if (own >= depth)
             lines.push(kind ? line.slice(depth) : line);
     }
-    return lines.length ? someLines(lines, most, `.tree ${asked}`.trim())
+    return lines.length ? someLines(lines, max, `.tree ${asked}`.trim())
         : `-- the frame has no ${kind ? `node !${kind}` : 'nodes'}\n`;
 }
 
@@ -132,11 +132,11 @@ function systemsOf({ session }, name) {
 const short = x => String(Number(x.toPrecision(6)));
 
 function particles(player, text) {
-    const [name, most] = withCount(text), found = systemsOf(player, name);
+    const [name, max] = withCount(text), found = systemsOf(player, name);
     return found.map(([system, number]) => {
         const vector = (column, i) => column ? Array.from({ length: system.dimensions },
             (_, k) => column.data[i * column.stride + k]) : null;
-        const rows = Array.from({ length: Math.min(system.count, most) }, (_, i) => {
+        const rows = Array.from({ length: Math.min(system.count, max) }, (_, i) => {
             const velocity = vector(system.velocity, i);
             return [player.session.particleId(number, i) ?? '', vector(system.position, i)?.map(short).join(';') ?? '-',
                 velocity?.map(short).join(';') ?? '-', velocity ? short(Math.hypot(...velocity)) : '-'];
@@ -148,7 +148,7 @@ function particles(player, text) {
 }
 
 function why(player, text) {
-    const [id, most] = /^\S+$/.test(text) ? [text, Infinity] : withCount(text), given = player.session.evaluate(id).text, answers = [];
+    const [id, max] = /^\S+$/.test(text) ? [text, Infinity] : withCount(text), given = player.session.evaluate(id).text, answers = [];
     for (const [system, number] of systemsOf(player, '')) {
         for (let i = 0; i < system.count; i++) {
             const own = player.session.particleId(number, i);
@@ -159,7 +159,7 @@ function why(player, text) {
                 continue;
             }
             const { contributions, sum } = player.session.explain(number, i);
-            const rows = contributions.slice(0, most).map(({ kind, partner, vector, file, line }) =>
+            const rows = contributions.slice(0, max).map(({ kind, partner, vector, file, line }) =>
                 [kind ?? 'own force', partner ?? '-', vector.join(';'), file ? `${file}:${line}` : '-']);
             answers.push(`${system.name};${own}: ${plural(contributions.length, 'contribution')}\n${
                 columns([['force', 'from', 'contribution', 'script'], ...rows, ['sum', '', sum.join(';'), '']])}`);
@@ -273,7 +273,7 @@ export const COMMANDS = [
     ['.until', 'EXPR [--limit N]', 'compute frames until EXPR is true, at most N', until, 'an expression'],
     ['.back', '[N]', 'go back N frames (default: 1), at most to the start', back],
     ['.goto', 'FRAME', 'go to a frame, back or forward; -1: before frame 0',
-        (player, text, context) => goTo(player, number(player, text, { least: 0, whole: true }), context), 'the number of a frame'],
+        (player, text, context) => goTo(player, number(player, text, { min: 0, whole: true }), context), 'the number of a frame'],
     ['.reset', '', 'go back to the start of the session', (player, text, context) => goTo(player, player.first, context)],
     ['.state', '[KEY] [N|all]', 'print the state, or its entries under KEY, such as :cells; at most N lines', state],
     ['.tree', '[KIND] [N|all]', "print the frame's nodes, or only those of KIND; at most N lines", tree],

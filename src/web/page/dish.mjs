@@ -54,8 +54,8 @@ export class Dish {
 
     async fail(error) {
         this.running = false;
-        const seen = new Set(), told = [...(error.diagnostics ?? []), ...(error.told ?? [])];
-        this.host.failed(error, told.filter(({ rendered }) => !seen.has(rendered) && seen.add(rendered)));
+        const seen = new Set(), reported = [...(error.diagnostics ?? []), ...(error.reported ?? [])];
+        this.host.failed(error, reported.filter(({ rendered }) => !seen.has(rendered) && seen.add(rendered)));
         if (error.type === 'broken')
             await this.restart();
         this.host.changed();

@@ -110,9 +110,9 @@ export class Editor {
         this.view.focus();
     }
 
-    show(told) {
+    show(reported) {
         const { state } = this.view;
-        const placed = told.filter(({ line, level }) => line > 0 && level !== 'note');
+        const placed = reported.filter(({ line, level }) => line > 0 && level !== 'note');
         const problems = placed.map(({ line, column, endLine, endColumn, ...rest }) => {
             const from = offset(state, line, column);
             return {

@@ -73,7 +73,7 @@ class PetriDish extends HTMLElement {
         this.get('message').classList.toggle('error', bad);
     }
 
-    tell(type, detail) {
+    emit(type, detail) {
         this.dispatchEvent(new CustomEvent(type, { detail, bubbles: true }));
     }
 
@@ -82,7 +82,7 @@ class PetriDish extends HTMLElement {
         if (this.dish || !this.isConnected)
             return;
         const dish = this.dish = new Dish(this.get('picture'), {
-            shown: (answer, left) => this.shown(answer, left), failed: (error, told) => this.failed(error, told),
+            shown: (answer, left) => this.shown(answer, left), failed: (error, reported) => this.failed(error, reported),
             changed: () => this.changed(), loaded: () => this.say(''),
             restored: () => this.say(''), ran: rate => this.controls.ran(rate),
         }, { source: engine() });
@@ -107,7 +107,7 @@ class PetriDish extends HTMLElement {
         const shown = await dish.open(this.text, this.name, { frame: Number.isInteger(frame) && frame > 0 ? frame : 0 });
         if (shown && this.hasAttribute('autoplay') && !matchMedia('(prefers-reduced-motion: reduce)').matches)
             dish.run();
-        this.tell('petri-ready', { frame: dish.frame });
+        this.emit('petri-ready', { frame: dish.frame });
     }
 
     // Reads the script from `src`, and the files named by `files` from the same folder. Without `src`, the script is the content of the
@@ -175,20 +175,20 @@ class PetriDish extends HTMLElement {
 
     // Warnings are only shown if the user can edit the script.
     shown(answer, left) {
-        const problems = this.hasAttribute('editor') ? answer.told.filter(({ level }) => level !== 'note') : [];
+        const problems = this.hasAttribute('editor') ? answer.reported.filter(({ level }) => level !== 'note') : [];
         if (problems.length)
             this.say(problems.slice(0, MAX_PROBLEMS).map(({ rendered }) => rendered.trimEnd()).join('\n'));
         else if (left.length)
             this.say(unsupportedText(answer, left), answer.picture.lost);
         this.controls.show(answer);
         this.get('picture').dataset.frame = answer.frame;
-        this.tell('petri-frame', { frame: answer.frame, time: answer.time });
+        this.emit('petri-frame', { frame: answer.frame, time: answer.time });
     }
 
-    failed(error, told) {
-        const [problem] = told.filter(({ level }) => level !== 'note');
+    failed(error, reported) {
+        const [problem] = reported.filter(({ level }) => level !== 'note');
         this.say(problem?.rendered ?? errorText(error), true);
-        this.tell('petri-error', { message: error.message, diagnostics: told });
+        this.emit('petri-error', { message: error.message, diagnostics: reported });
     }
 
     changed() {

@@ -61,7 +61,7 @@ export class Remote {
     fail(message, type) {
         const waiting = [...this.waiting.values()];
         this.waiting.clear();
-        waiting.forEach(({ reject }) => reject(Object.assign(new Error(message), { type, told: [], diagnostics: [] })));
+        waiting.forEach(({ reject }) => reject(Object.assign(new Error(message), { type, reported: [], diagnostics: [] })));
     }
 
     get busy() {

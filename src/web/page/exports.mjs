@@ -5,14 +5,14 @@ import { paint, sizeOf } from './paint.mjs';
 const REPORT_INTERVAL = 10; // frames between progress messages
 
 // Goes to each frame from `from` to `to` and calls `see`.
-async function each(player, { from, to, shouldInterrupt, tell }, see) {
+async function each(player, { from, to, shouldInterrupt, onProgress }, see) {
     for (let frame = from; frame <= to; frame++) {
         if (shouldInterrupt())
             throw Object.assign(new Error('stopped'), { status: 'interrupted' });
         player.seek(frame);
         await see();
         if ((frame - from) % REPORT_INTERVAL === 0)
-            tell(frame - from, to - from + 1);
+            onProgress(frame - from, to - from + 1);
     }
 }
 

@@ -7,7 +7,7 @@ const MAX_LENGTH = 100000; // characters; longer links are truncated by some bro
 const MAX_TEXT = 4 << 20; // maximum length of the uncompressed text
 const MAX_CHANGES = 10000;
 
-async function through(stream, bytes, most = Infinity) {
+async function through(stream, bytes, max = Infinity) {
     const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader(), parts = [];
     let length = 0;
     for (;;) {
@@ -15,7 +15,7 @@ async function through(stream, bytes, most = Infinity) {
         if (done)
             break;
         length += value.length;
-        if (length > most) {
+        if (length > max) {
             reader.cancel().catch(() => {});
             throw new Error('the link contains more than 4 MiB of data, so it is not opened');
         }
@@ -44,12 +44,12 @@ const isFileName = name => typeof name === 'string' && !/[\0-\x1f\x7f]/.test(nam
 const isChange = change => Array.isArray(change) && change.length === 3 && Number.isInteger(change[0])
     && typeof change[1] === 'string' && typeof change[2] === 'string';
 
-// The inverse of packLink. A link has at most `most` characters. Throws an error with a message for the user if the link is invalid.
-export async function readLink(link, most = MAX_LENGTH) {
+// The inverse of packLink. A link has at most `max` characters. Throws an error with a message for the user if the link is invalid.
+export async function readLink(link, max = MAX_LENGTH) {
     const packed = link.replace(/^#/, '').replaceAll('-', '+').replaceAll('_', '/');
     let json;
-    if (packed.length > most)
-        throw new Error(`the link is too long: ${packed.length} characters, at most ${most}`);
+    if (packed.length > max)
+        throw new Error(`the link is too long: ${packed.length} characters, at most ${max}`);
     try {
         const bytes = Uint8Array.from(atob(packed), character => character.charCodeAt(0));
         const text = await through(new DecompressionStream('deflate-raw'), bytes, MAX_TEXT);

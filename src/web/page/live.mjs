@@ -7,7 +7,7 @@ export class Live {
     constructor(page) {
         this.page = page;
         this.stale = false; // true if the text was edited since it was taken over
-        this.taken = Promise.resolve();
+        this.applied = Promise.resolve();
         this.pending = 0; // number of texts that are being taken over
         this.outdated = false; // true if the text has errors and the picture shows the last script without errors
     }
@@ -35,7 +35,7 @@ export class Live {
 
     queue(act) {
         this.pending++;
-        this.taken = this.taken.then(() => {
+        this.applied = this.applied.then(() => {
             this.stale = false;
             return act(this.page);
         }).finally(() => {
@@ -43,15 +43,15 @@ export class Live {
             if (this.stale)
                 this.changed();
         });
-        return this.taken;
+        return this.applied;
     }
 
     // Takes over the editor's text unless it is already used. Returns false if it has errors.
     async ready() {
-        const text = () => this.page.editor.text, wanted = text(), pending = this.pending > 0, taken = await this.taken;
+        const text = () => this.page.editor.text, wanted = text(), pending = this.pending > 0, applied = await this.applied;
         if (this.page.dish.loaded === wanted && !this.outdated)
             return true;
-        return pending && text() === wanted ? taken : this.apply();
+        return pending && text() === wanted ? applied : this.apply();
     }
 
     // Loads the text again and shows frame 0.

@@ -77,14 +77,14 @@ function particleOfPanel(systems, circles, hit) {
 function particleAt(systems, frame, { x, y, radius }) {
     const [xx, yx, xy, yy, x0, y0] = frame, determinant = xx * yy - xy * yx, scale = scaleOf(frame);
     const px = (yy * (x - x0) - xy * (y - y0)) / determinant, py = (xx * (y - y0) - yx * (x - x0)) / determinant;
-    let best = null, least = radius / scale;
+    let best = null, minDistance = radius / scale;
     systems.forEach(({ position, dimensions, count }, system) => {
         for (let particle = 0; particle < count && position; particle++) {
             const at = particle * position.stride;
             const distance = Math.hypot(position.data[at] - px, (dimensions > 1 ? position.data[at + 1] : 0) - py);
-            if (distance < least) {
+            if (distance < minDistance) {
                 best = { system, particle };
-                least = distance;
+                minDistance = distance;
             }
         }
     });
@@ -110,11 +110,11 @@ function nestedFrames(systems, circles) {
 // other transforms, because scripts also move a circle to a particle with a transform.
 function frameOf(systems, frames, circles) {
     const every = Math.max(Math.floor(circles.length / MAX_SAMPLES), 1), samples = circles.filter((circle, i) => i % every === 0);
-    let best = IDENTITY, most = 0;
+    let best = IDENTITY, maxCount = 0;
     for (const frame of [...frames, ...nestedFrames(systems, circles)]) {
         const count = scaleOf(frame) > 0 ? samples.filter(circle => particleAt(systems, frame, circle)).length : 0;
-        if (count > most)
-            [best, most] = [frame, count];
+        if (count > maxCount)
+            [best, maxCount] = [frame, count];
     }
     return best;
 }

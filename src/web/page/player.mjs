@@ -164,8 +164,8 @@ export class Player {
     }
 
     // Goes to a frame. To go back, restores the last keyframe before the frame and steps from there, so that the frame's tree is computed.
-    // Takes at most `most` steps, and ends after a step if `ends` returns true. Returns false if the frame is not reached yet.
-    seek(wanted, most = Infinity, ends = () => false) {
+    // Takes at most `max` steps, and ends after a step if `ends` returns true. Returns false if the frame is not reached yet.
+    seek(wanted, max = Infinity, ends = () => false) {
         const frame = Math.max(wanted, this.first);
         if (frame < this.frame || (frame === this.frame && (this.torn || this.lacksHistory))) {
             // If pictures depend on earlier pictures, all of them are rendered again from the first.
@@ -188,7 +188,7 @@ export class Player {
             }
             this.lastFrame = end;
         }
-        for (let i = 0; this.frame < frame && i < most && !ends(); i++)
+        for (let i = 0; this.frame < frame && i < max && !ends(); i++)
             this.step();
         return this.frame >= frame;
     }

@@ -54,11 +54,11 @@ export class Plot {
             return;
         this.series = answer.series;
         this.draw(answer.frame);
-        this.tell(answer.frame);
+        this.describe(answer.frame);
     }
 
     // Describes the values in a frame as text, for screen readers.
-    tell(frame) {
+    describe(frame) {
         const shown = line => frame in line && !Number.isNaN(line[frame]) ? short(line[frame]) : 'none';
         this.said.textContent = this.series.map(({ text, error, lines }) =>
             error ?? `${text} = ${lines.map(shown).join(';')} in frame ${frame}`).join(', ');
@@ -67,7 +67,7 @@ export class Plot {
     point(share) {
         const count = this.series?.[0]?.lines[0].length ?? 0, width = this.canvas.clientWidth;
         if (count > 0)
-            this.tell(Math.min(Math.max(Math.round((share * width - LEFT) / (width - LEFT - RIGHT) * (count - 1)), 0), count - 1));
+            this.describe(Math.min(Math.max(Math.round((share * width - LEFT) / (width - LEFT - RIGHT) * (count - 1)), 0), count - 1));
     }
 
     draw(frame) {
@@ -77,19 +77,19 @@ export class Plot {
         context.scale(dense, dense);
         const lines = this.series.flatMap(({ lines: all }, i) => all.map((line, k) =>
             ({ line, colour: COLOURS[i % COLOURS.length], dash: DASHES[k % DASHES.length] })));
-        let least = Infinity, most = -Infinity;
+        let min = Infinity, max = -Infinity;
         for (const { line } of lines)
             for (const value of line)
                 if (Number.isFinite(value))
-                    [least, most] = [Math.min(least, value), Math.max(most, value)];
-        if (least > most)
+                    [min, max] = [Math.min(min, value), Math.max(max, value)];
+        if (min > max)
             return;
-        if (least === most)
-            [least, most] = [least - 1, most + 1];
+        if (min === max)
+            [min, max] = [min - 1, max + 1];
         const end = Math.max(lines[0].line.length - 1, 1);
         const x = at => LEFT + at / end * (width - LEFT - RIGHT);
-        const y = value => TOP + (most - value) / (most - least) * (height - TOP - BOTTOM);
-        this.axes(context, { x, y, least, most, end, width, height, front });
+        const y = value => TOP + (max - value) / (max - min) * (height - TOP - BOTTOM);
+        this.axes(context, { x, y, min, max, end, width, height, front });
         for (const { line, colour, dash } of lines) {
             context.strokeStyle = colour;
             context.setLineDash(dash);
@@ -109,14 +109,14 @@ export class Plot {
         context.strokeRect(x(frame), TOP, 0, height - TOP - BOTTOM);
     }
 
-    axes(context, { x, y, least, most, end, width, height, front }) {
+    axes(context, { x, y, min, max, end, width, height, front }) {
         context.fillStyle = context.strokeStyle = front;
         context.font = '11px system-ui, sans-serif';
         context.lineWidth = 0.2;
         context.textAlign = 'right';
         context.textBaseline = 'middle';
-        const up = stepOf(most - least), along = Math.max(stepOf(end), 1);
-        for (let value = Math.ceil(least / up) * up; value <= most; value += up) {
+        const up = stepOf(max - min), along = Math.max(stepOf(end), 1);
+        for (let value = Math.ceil(min / up) * up; value <= max; value += up) {
             context.fillText(short(Math.round(value / up) * up), LEFT - 4, y(value));
             context.strokeRect(LEFT, y(value), width - LEFT - RIGHT, 0);
         }

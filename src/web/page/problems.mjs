@@ -8,20 +8,20 @@ export class Problems {
     constructor(place, editor) {
         this.place = place;
         this.editor = editor;
-        this.told = [];
+        this.reported = [];
     }
 
-    show(told, name = this.name) {
-        Object.assign(this, { told, name });
-        this.editor.show(told.filter(({ file }) => file === name || file === null));
-        this.place.replaceChildren(...told.filter(({ level }) => level !== 'note').slice(0, MAX_SHOWN).map(problem => this.item(problem)));
+    show(reported, name = this.name) {
+        Object.assign(this, { reported, name });
+        this.editor.show(reported.filter(({ file }) => file === name || file === null));
+        this.place.replaceChildren(...reported.filter(({ level }) => level !== 'note').slice(0, MAX_SHOWN).map(problem => this.item(problem)));
     }
 
     // Adds diagnostics that are not shown yet.
-    add(told) {
-        const added = told?.filter(problem => !this.told.some(other => isSame(problem, other)));
+    add(reported) {
+        const added = reported?.filter(problem => !this.reported.some(other => isSame(problem, other)));
         if (added?.length)
-            this.show([...this.told, ...added]);
+            this.show([...this.reported, ...added]);
     }
 
     item({ level, file, line, column, text, hint }) {

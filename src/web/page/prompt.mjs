@@ -4,8 +4,8 @@ const LINES = 200; // maximum number of output lines
 
 // Returns what is printed for an error: its diagnostics, each once, or else its message.
 function failed(error) {
-    const told = new Map([...(error.told ?? []), ...(error.diagnostics ?? [])].map(one => [one.rendered, one]));
-    return { text: told.size ? '' : `${error.message}\n`, told: [...told.values()] };
+    const reported = new Map([...(error.reported ?? []), ...(error.diagnostics ?? [])].map(one => [one.rendered, one]));
+    return { text: reported.size ? '' : `${error.message}\n`, reported: [...reported.values()] };
 }
 
 export class Prompt {
@@ -42,7 +42,7 @@ export class Prompt {
             this.dish.pause();
             this.dish.show(answer);
         }
-        this.print(answer.text + answer.told.map(({ rendered }) => rendered).join(''));
+        this.print(answer.text + answer.reported.map(({ rendered }) => rendered).join(''));
         if (answer.runs)
             this.dish.run();
         if (answer.plot)

@@ -19,7 +19,7 @@ export function reportTo(page) {
         checked: answer => page.live.checked(answer),
         shown(answer, left) {
             if (!page.live.outdated)
-                page.problems.add(answer.told);
+                page.problems.add(answer.reported);
             page.controls.show(answer);
             if (left.length)
                 say(unsupportedText(answer, left), answer.picture.lost);
@@ -28,8 +28,8 @@ export function reportTo(page) {
             document.body.dataset.frame = answer.frame;
         },
         ran: rate => page.controls.ran(rate),
-        failed(error, told) {
-            page.problems.add(told);
+        failed(error, reported) {
+            page.problems.add(reported);
             say(Live.describe(error) ?? errorText(error), true);
         },
         changed: () => page.controls.refresh(),

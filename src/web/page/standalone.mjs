@@ -27,11 +27,11 @@ const host = {
         say(left.length ? unsupportedText(answer, left) : '');
         controls.show(answer);
         document.body.dataset.frame = answer.frame;
-        const problem = answer.told.find(({ level }) => level === 'error');
+        const problem = answer.reported.find(({ level }) => level === 'error');
         if (problem)
             say(problem.rendered, true);
     },
-    failed: (error, told) => say(told.find(({ level }) => level === 'error')?.rendered ?? errorText(error), true),
+    failed: (error, reported) => say(reported.find(({ level }) => level === 'error')?.rendered ?? errorText(error), true),
     ran: rate => controls.ran(rate),
     changed() {
         controls?.refresh();

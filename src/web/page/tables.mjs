@@ -36,8 +36,8 @@ const order = new Intl.Collator('en', { numeric: true });
 
 // Expressions whose values are recorded in each frame.
 export class Watches {
-    constructor(told) {
-        this.told = told;
+    constructor(reported) {
+        this.reported = reported;
         this.all = [];
     }
 
@@ -52,7 +52,7 @@ export class Watches {
     // Records the values in the current frame.
     see({ session, frame }) {
         for (const watch of this.all) {
-            const before = this.told.length;
+            const before = this.reported.length;
             try {
                 const { text, number } = session.evaluate(watch.text);
                 watch.values[frame] = Number.isNaN(number) ? text.split(';').slice(0, COMPONENTS).map(Number) : [number];
@@ -60,7 +60,7 @@ export class Watches {
             } catch (error) {
                 watch.error = error.message.split('\n')[0];
             }
-            this.told.length = before;
+            this.reported.length = before;
         }
     }
 
@@ -73,10 +73,10 @@ export class Watches {
     }
 
     // Returns the values of each expression: for each component, an array with one number per frame, NaN if the value is unknown.
-    series(most) {
+    series(max) {
         return this.all.map(({ text, values, error }) => {
             const width = values.reduce((widest, value) => Math.max(widest, value?.length ?? 0), 1);
-            const lines = Array.from({ length: width }, (_, k) => Float64Array.from({ length: most + 1 }, (_, i) => values[i]?.[k] ?? NaN));
+            const lines = Array.from({ length: width }, (_, k) => Float64Array.from({ length: max + 1 }, (_, i) => values[i]?.[k] ?? NaN));
             return { text, error, lines };
         });
     }

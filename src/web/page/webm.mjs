@@ -13,10 +13,10 @@ const join = parts => {
     return all;
 };
 
-// Encodes an integer in as few bytes as possible, but in at least `least` bytes.
-function whole(value, least = 1) {
+// Encodes an integer in as few bytes as possible, but in at least `min` bytes.
+function whole(value, min = 1) {
     const bytes = [];
-    for (let left = value; left > 0 || bytes.length < least; left = Math.floor(left / 256))
+    for (let left = value; left > 0 || bytes.length < min; left = Math.floor(left / 256))
         bytes.unshift(left % 256);
     return Uint8Array.from(bytes);
 }

@@ -10,14 +10,14 @@ import { StateTable, Watches } from './tables.mjs';
 
 const STEP_TIME = 30; // ms that the frames of one picture may take
 const SEEK_STEPS = 50; // frames between checks for new requests
-let engine, player, checker, told = [], flag = null, current = 0;
+let engine, player, checker, reported = [], flag = null, current = 0;
 
 // The page sets the flag to the id of the last request to interrupt. All earlier requests are interrupted as well.
 const shouldInterrupt = () => flag !== null && Atomics.load(flag, 0) >= current;
 const images = new Map();
-const tell = diagnostic => told.push(diagnostic);
+const report = diagnostic => reported.push(diagnostic);
 
-const watches = new Watches(told), stateTable = new StateTable(), forces = new Forces();
+const watches = new Watches(reported), stateTable = new StateTable(), forces = new Forces();
 
 const picture = automatic => player.frame >= 0 ? player.session.render({ automatic }) : null;
 
@@ -27,11 +27,11 @@ function shown(extra = {}) {
     return {
         type: 'frame', frame: player.frame, lastFrame: player.lastFrame, time: session.frame.time, fps: session.frame.fps,
         picture: picture(player.automatic), drawable: session.drawable, log: player.frame >= 0 ? session.log() : '',
-        parameters: session.parameters, verification: player.verification, told: take(), ...extra,
+        parameters: session.parameters, verification: player.verification, reported: take(), ...extra,
     };
 }
 
-const take = () => told.splice(0);
+const take = () => reported.splice(0);
 
 // Returns the diagnostics of a script.
 function check(text, name) {
@@ -40,7 +40,7 @@ function check(text, name) {
     return checker.diagnose(text, name);
 }
 
-const acts = {
+const handlers = {
     async open({ source, flag: shared }) {
         flag = shared;
         engine = await loadEngine(source);
@@ -49,7 +49,7 @@ const acts = {
                 player.redraw();
             postMessage({ type: 'context', lost });
         };
-        const options = { keepForces: true, onDiagnostic: tell, shouldInterrupt, image: name => imageOf(images, name) };
+        const options = { keepForces: true, onDiagnostic: report, shouldInterrupt, image: name => imageOf(images, name) };
         player = new Player(engine, options, watches);
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
@@ -138,16 +138,16 @@ const acts = {
     },
     hash: () => ({ type: 'hash', hash: player.session.hash() }),
     prompt({ text }) {
-        return { type: 'printed', text: player.session.prompt(text), told: take() };
+        return { type: 'printed', text: player.session.prompt(text), reported: take() };
     },
     task: message => ({ type: 'task', passed: passes(engine, message, { files: player.files, shouldInterrupt }) }),
     async command({ text }) {
         const { moved, ...done } = await execute(player, text, shouldInterrupt);
-        return moved ? shown(done) : { type: 'printed', told: take(), ...done };
+        return moved ? shown(done) : { type: 'printed', reported: take(), ...done };
     },
     state: query => ({ type: 'state', ...stateTable.rows(player, query) }),
     choose: ({ x, y }) => ({ type: 'chosen', found: player.frame >= 0 && forces.choose(player, x, y) }),
-    forces: () => ({ type: 'forces', ...forces.describe(player), frame: player.frame, told: take() }),
+    forces: () => ({ type: 'forces', ...forces.describe(player), frame: player.frame, reported: take() }),
     watch({ texts }) {
         watches.set(texts);
         if (player.frame >= 0)
@@ -157,7 +157,7 @@ const acts = {
     series: () => ({ type: 'series', series: watches.series(player.lastFrame), frame: player.frame }),
     // Exports a range of frames to a file.
     async save({ id, kind, from, to }) {
-        const range = { from, to, shouldInterrupt, tell: (done, of) => postMessage({ type: 'progress', id, done, of }) };
+        const range = { from, to, shouldInterrupt, onProgress: (done, of) => postMessage({ type: 'progress', id, done, of }) };
         return {
             type: 'saved',
             blob: await (kind === 'film' ? makeFilm(player, images, picture, range)
@@ -183,10 +183,10 @@ onmessage = ({ data }) => {
         try {
             if (shouldInterrupt())
                 throw Object.assign(new Error('stopped'), { status: 'interrupted' });
-            const answer = await acts[data.act](data);
+            const answer = await handlers[data.act](data);
             postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.image ?? answer.picture.numbers.buffer] : []);
         } catch (error) {
-            postMessage({ type: failure(error), id: data.id, message: error.message, told: take(), diagnostics: error.diagnostics ?? [] });
+            postMessage({ type: failure(error), id: data.id, message: error.message, reported: take(), diagnostics: error.diagnostics ?? [] });
         }
     });
 };

@@ -34,7 +34,7 @@ export class Examples {
             for (let i = 0; i < 3; i++)
                 session.step();
             if (!session.drawable)
-                return session.told?.some(({ level }) => level === 'error') ? 'none' : 'text';
+                return session.reported?.some(({ level }) => level === 'error') ? 'none' : 'text';
             const picture = session.displayList();
             // Browsers draw unsupported nodes with WebGL, which is not available here. Other unsupported parts are never drawn.
             const left = picture ? drawPicture(nothing, picture.numbers, { image: name => name in files ? nothing : null }) : [' '];
@@ -100,11 +100,11 @@ export class Examples {
             return this.plain(content);
         if (name.endsWith('.png'))
             return this.code(content); // an excerpt of the script that draws the picture above
-        const told = next?.type === 'fence' ? next.info.trim().split(/\s+/) : [];
-        if (told[0] === 'tree' && next.content.trim() === 'error')
+        const expected = next?.type === 'fence' ? next.info.trim().split(/\s+/) : [];
+        if (expected[0] === 'tree' && next.content.trim() === 'error')
             return this.code(content);
-        if (told[0] === 'tree' || told[0] === 'state')
-            return this.try(told[0], Number(told[1] ?? 0), content, next.content, env);
+        if (expected[0] === 'tree' || expected[0] === 'state')
+            return this.try(expected[0], Number(expected[1] ?? 0), content, next.content, env);
         return this.kindOf(content) === 'dish' ? this.dish(content, label, env) : this.code(content);
     }
 

@@ -28,10 +28,10 @@ export const GENERATED = {
             env.sections.push({ level: 3, title: `${name}(${parameters})`, id: name, text: help });
             return [`<code id="${name}">${escape(`${name}(${parameters})`)}</code>`, escape(help)];
         });
-        const told = words.filter(({ form }, i) => i === 0 || form !== words[i - 1].form);
+        const unique = words.filter(({ form }, i) => i === 0 || form !== words[i - 1].form);
         return `${section(env, 2, 'all-functions', 'Functions')}${table(['function', ''], rows)}`
-            + section(env, 2, 'all-words', 'Values, keywords and operators', told.map(({ form, help }) => `${form} ${help}`).join(' '))
-            + table(['form', ''], told.map(({ form, help }) => [code(form), escape(help)]));
+            + section(env, 2, 'all-words', 'Values, keywords and operators', unique.map(({ form, help }) => `${form} ${help}`).join(' '))
+            + table(['form', ''], unique.map(({ form, help }) => [code(form), escape(help)]));
     },
 
     nodes({ tables: { nodes, letters } }, env) {
@@ -44,7 +44,7 @@ export const GENERATED = {
             return begin + section(env, 3, `${its}-${name}`, `!${name}`, about)
                 + `<p>${escape(help)}</p>\n` + (formula ? `<pre tabindex="0" class="formula"><code>${escape(formula)}</code></pre>\n` : '')
                 + (attributes.length ? table(['attribute', 'type', 'unit', 'default', ''], attributes.map(one =>
-                    [code(one.name), escape(one.type), escape(one.unit), code(one.fallback), escape(one.help)])) : '');
+                    [code(one.name), escape(one.type), escape(one.unit), code(one.defaultValue), escape(one.help)])) : '');
         }).join('');
     },
 

@@ -62,14 +62,14 @@ const host = {
     },
     checked: answer => page.live.checked(answer),
     shown(answer, left) {
-        page.problems.add(answer.told);
+        page.problems.add(answer.reported);
         page.controls.show(answer);
         if (left.length)
             say(unsupportedText(answer, left), answer.picture.lost);
         document.body.dataset.frame = answer.frame;
     },
-    failed(error, told) {
-        page.problems.add(told);
+    failed(error, reported) {
+        page.problems.add(reported);
         say(Live.describe(error) ?? errorText(error), true);
     },
     ran: rate => page.controls.ran(rate),

@@ -9,7 +9,7 @@ const anything = new Proxy(function () {}, {
     apply: () => anything,
     construct: () => ({ dispose() {} }),
 });
-const fallback = (known) => new Proxy(known, { get: (all, name) => (name in all ? all[name] : anything) });
+const orAnything = (known) => new Proxy(known, { get: (all, name) => (name in all ? all[name] : anything) });
 
 const none = { dispose() {} };
 
@@ -88,7 +88,7 @@ const said = (...words) => {
     return Promise.resolve(seen.answer);
 };
 
-module.exports = fallback({
+module.exports = orAnything({
     seen, CancellationTokenSource, EventEmitter: Event, Uri, Position, Range, Diagnostic,
     Selection: Range,
     ViewColumn: { One: 1, Beside: -2 },
@@ -104,25 +104,25 @@ module.exports = fallback({
             Object.assign(this, { name, execution });
         }
     },
-    tasks: fallback({ executeTask: async (task) => seen.tasks.push(task) }),
-    commands: fallback({
+    tasks: orAnything({ executeTask: async (task) => seen.tasks.push(task) }),
+    commands: orAnything({
         registerCommand: (name, act) => {
             seen.commands[name] = act;
             return none;
         },
         executeCommand: (name) => seen.commands[name](),
     }),
-    languages: fallback({
+    languages: orAnything({
         createLanguageStatusItem: () => {
             const item = {};
             seen.statuses.push(item);
             return item;
         },
-        createDiagnosticCollection: () => fallback({ set: (uri, list) => (seen.diagnostics[uri] = list), dispose() {} }),
+        createDiagnosticCollection: () => orAnything({ set: (uri, list) => (seen.diagnostics[uri] = list), dispose() {} }),
         match: (selector, document) => (document.languageId === "flitter" ? 10 : 0),
     }),
-    workspace: fallback({
-        getConfiguration: () => fallback({ get: (name) => seen.settings[name] }),
+    workspace: orAnything({
+        getConfiguration: () => orAnything({ get: (name) => seen.settings[name] }),
         textDocuments: [],
         openTextDocument: async ({ language, content }) => ({
             fileName: "Untitled-1", uri: Uri.parse("untitled:Untitled-1"), languageId: language, version: 1, isDirty: true, text: content,
@@ -134,7 +134,7 @@ module.exports = fallback({
         onDidOpenTextDocument: seen.opened.on,
         onDidChangeConfiguration: seen.configured.on,
     }),
-    window: fallback({
+    window: orAnything({
         activeTextEditor: undefined,
         showErrorMessage: said, showWarningMessage: said, setStatusBarMessage: said,
         showTextDocument: async (document) => {
@@ -160,6 +160,6 @@ module.exports = fallback({
             return panel;
         },
     }),
-    env: fallback({ language: "en" }),
+    env: orAnything({ language: "en" }),
     version: "1.90.0",
 });
