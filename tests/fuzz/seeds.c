@@ -175,8 +175,8 @@ static void write_systems(void) {
         uint8_t text[8 * 6];
         for (int i = 0; i < 48; i += 6) {
             int frame = i / 6;
-            text[i] = (uint8_t)(frame < 4 ? 1 + what % 2 : 128 + (what * 7 + frame * 11) % 128);      // dimensions
-            text[i + 1] = (uint8_t)(what % 4 == 3 ? 5 + 9 * frame : 200);                             // particles
+            text[i] = (uint8_t)(frame < 4 ? 1 + what % 2 : 224 + (what * 7 + frame * 11) % 32);       // dimensions
+            text[i + 1] = (uint8_t)(what % 4 == 3 ? 5 + 9 * frame : what < 2 ? 255 : 20);             // particles
             text[i + 2] = (uint8_t)(what % 8 < 6 ? 0 : 130 + frame);                                  // in a group
             text[i + 3] = (uint8_t)(frame % 4 < 3 || what % 4 < 2 ? 1 : 1 << (what + frame) % 8 | 1); // forces
             text[i + 4] = (uint8_t)(what < 8 ? 0 : what * 29 + frame * 3);                            // more forces
