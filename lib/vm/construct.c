@@ -1,11 +1,8 @@
-// construct.c: instructions that create vectors and nodes, or look up values; see machine.h.
-#include "base/heap.h"
+// construct.c: instructions that create vectors and nodes, or take their elements; see machine.h.
 #include "value/value_hash.h"
 #include "vm/machine.h"
 
 #include <string.h>
-
-enum { MAX_ON_STACK = 8 };
 
 static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
     if (part->len == 1) {
@@ -18,7 +15,7 @@ static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
 }
 
 // If all parts are numbers, composes them in one allocation. Otherwise adds the parts to a Vector.
-static Value compose(Vm *vm, const Frame *frame, const Instr *instr, const Origin *at) {
+Value vm_compose_at(Vm *vm, const Frame *frame, const Instr *instr, const Origin *at) {
     const Value *slots = frame->slots;
     const int32_t *list = frame->operands + instr->list;
     vm->at = at;
@@ -43,7 +40,7 @@ static Value compose(Vm *vm, const Frame *frame, const Instr *instr, const Origi
 }
 
 Value vm_compose(Vm *vm, const Frame *frame, const Instr *instr) {
-    return compose(vm, frame, instr, instr->at);
+    return vm_compose_at(vm, frame, instr, instr->at);
 }
 
 // --- nodes
@@ -216,83 +213,4 @@ Value vm_slice(Vm *vm, const Frame *frame, const Instr *instr) {
         vm_slice_numbers(vm, &vector, start.len ? start.as.number : 0, stop.as.number, &slice))
         return slice;
     return vm_index_value(vm, vector, make_range(vm, vm->at, start, stop, VALUE_NULL));
-}
-
-// --- the state
-
-void vm_inline_cache_reset(Vm *vm, uint32_t count) {
-    if (count > vm->inline_cache_count) {
-        InlineCache *caches = heap_resize(vm->inline_caches, count * sizeof *caches);
-        if (caches) {
-            memset(caches + vm->inline_cache_count, 0, (count - vm->inline_cache_count) * sizeof *caches);
-            vm->inline_caches = caches;
-            vm->inline_cache_count = count;
-        }
-    }
-    for (uint32_t i = 0; i < vm->inline_cache_count; i++)
-        vm->inline_caches[i].next = 0;
-}
-
-void vm_inline_cache_free(Vm *vm) {
-    for (uint32_t i = 0; i < vm->inline_cache_count; i++)
-        heap_free(vm->inline_caches[i].slots);
-    heap_free(vm->inline_caches);
-    vm->inline_caches = NULL;
-    vm->inline_cache_count = 0;
-}
-
-// Maximum number of entries in an inline cache. If a lookup is executed more often in a frame, the rest is not cached.
-enum { MAX_CACHED = 1 << 22 };
-
-// Returns the cache entry for the next execution of a lookup, or NULL if this execution is not cached.
-static StateSlot *next_guess(Vm *vm, uint32_t lookup) {
-    if (lookup >= vm->inline_cache_count)
-        return NULL;
-    InlineCache *cache = &vm->inline_caches[lookup];
-    if (cache->next == cache->count) {
-        if (cache->count == MAX_CACHED ||
-            !heap_reserve((void **)&cache->slots, &cache->capacity, cache->count, sizeof *cache->slots))
-            return NULL;
-        cache->slots[cache->count++] = STATE_NO_SLOT;
-    }
-    return &cache->slots[cache->next++];
-}
-
-// Returns a copy of a value of the state, because physics and other systems may overwrite it after the evaluation.
-static Value copy_of(Vm *vm, Value v) {
-    if (v.len >= BUDGET_NUMBERS)
-        arena_charge(vm->arena, v.len / BUDGET_NUMBERS);
-    return value_copy(vm->arena, v);
-}
-
-Value vm_lookup_numbers(Vm *vm, uint32_t lookup, const double *numbers, uint32_t len) {
-    StateSlot *guess = next_guess(vm, lookup), slot = guess ? *guess : STATE_NO_SLOT;
-    if (slot == STATE_NO_SLOT || !state_slot_has_key(vm->state, slot, value_numbers_view(numbers, len))) {
-        slot = state_find(vm->state, value_numbers_view(numbers, len));
-        if (guess)
-            *guess = slot;
-    }
-    return slot == STATE_NO_SLOT ? VALUE_NULL : copy_of(vm, state_slot_get(vm->state, slot));
-}
-
-// Most keys are a few numbers, for which no key vector needs to be built.
-Value vm_lookup(Vm *vm, const Frame *frame, const Instr *instr) {
-    const Value *slots = frame->slots;
-    const int32_t *list = frame->operands + instr->list;
-    vm->met_dynamic = true;
-    vm->at = instr->at;
-    double buffer[MAX_ON_STACK];
-    uint32_t count = 0;
-    while (count < instr->count && count < MAX_ON_STACK && is_number(&slots[list[count]])) {
-        buffer[count] = slots[list[count]].as.number;
-        count++;
-    }
-    if (count == instr->count && vm->state)
-        return vm_lookup_numbers(vm, instr->target, buffer, count);
-    Value key = instr->count == 1 ? slots[list[0]] : compose(vm, frame, instr, instr->as.inner_origin);
-    if (!vm->state)
-        return VALUE_NULL;
-    if (key.kind == VALUE_NUMBERS && key.len > 0)
-        return vm_lookup_numbers(vm, instr->target, value_numbers(&key), key.len);
-    return copy_of(vm, state_get(vm->state, key));
 }

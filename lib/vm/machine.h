@@ -66,13 +66,15 @@ Value vm_eval(Vm *vm, Frame *frame, const Code *code);
 // must be null.
 void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 
-// Each of these functions computes the value that an instruction writes (eval.c, construct.c, call.c). They do not
-// write to registers.
+// Each of these functions computes the value that an instruction writes (eval.c, construct.c, lookup.c, call.c). They
+// do not write to registers.
 typedef Value VmFunction(Vm *vm, const Frame *frame, const Instr *instr);
 #define OPCODE(id, name, operands, batch)
 #define FUNCTION(id, name, operands, batch, function) VmFunction vm_##function;
 #include "program/opcode_list.h"
 
+// Returns the vector of the operands of a COMPOSE or LOOKUP instruction. Errors are reported at `at`.
+Value vm_compose_at(Vm *vm, const Frame *frame, const Instr *instr, const Origin *at);
 // Returns vector[index].
 Value vm_index_value(Vm *vm, Value vector, Value index);
 // If from..to are whole numbers within a numeric vector, and at least two, sets *slice to these elements and returns
