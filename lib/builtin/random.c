@@ -1,5 +1,6 @@
 // random.c: pseudo-random streams and shuffling (spec builtins.md B9.1, B9.7).
 #include "builtin/family.h"
+#include "value/stream.h"
 #include "value/value_hash.h"
 
 #define STREAM(name, kind)                                                                                             \

@@ -160,23 +160,6 @@ Value node_get(const Node *node, const Symbol *name) {
     return at < node->attr_count ? node->attrs[at].value : VALUE_NULL;
 }
 
-const Node *node_copy(Arena *arena, const Node *node) {
-    if (node->is_batch)
-        return node_batch_copy(arena, node_batch(node));
-    Node *copy = node_clone(arena, node);
-    copy->program_lifetime_children = false;
-    copy->tags = arena_copy(arena, node->tags, node->tag_count * sizeof *node->tags);
-    Attr *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
-    for (uint32_t i = 0; i < node->attr_count; i++)
-        attrs[i] = (Attr){node->attrs[i].name, value_copy(arena, node->attrs[i].value)};
-    copy->attrs = attrs;
-    const Node **children = arena_alloc_array(arena, node->child_count, sizeof *children);
-    for (uint32_t i = 0; i < node->child_count; i++)
-        children[i] = node_copy(arena, node->children[i]);
-    copy->children = children;
-    return copy;
-}
-
 // Returns a copy of a mixed vector's items, in which the caller replaces nodes.
 static Item *items_clone(Arena *arena, Value v) {
     return arena_copy(arena, v.as.items, v.len * sizeof(Item));

@@ -69,18 +69,6 @@ bool node_batch_add(NodeBatch *batch, const Value *values) {
     return true;
 }
 
-const Node *node_batch_copy(Arena *arena, const NodeBatch *batch) {
-    uint32_t count = batch->node.attr_count;
-    Attr *attrs = arena_alloc_array(arena, count, sizeof *attrs);
-    for (uint32_t i = 0; i < count; i++)
-        attrs[i] = (Attr){batch->node.attrs[i].name, value_copy(arena, batch->node.attrs[i].value)};
-    NodeBatch *copy = node_batch_new(arena, &batch->node, attrs, batch->numbers, count, batch->count);
-    copy->node.tags = arena_copy(arena, batch->node.tags, batch->node.tag_count * sizeof *batch->node.tags);
-    memcpy(copy->rows, batch->rows, (size_t)batch->stride * batch->count * sizeof *batch->rows);
-    copy->count = batch->count;
-    return &copy->node;
-}
-
 void node_batch_open(const NodeBatch *batch, NodeRow *row) {
     row->node = batch->node;
     row->node.is_batch = row->node.has_batches = false;

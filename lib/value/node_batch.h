@@ -43,7 +43,6 @@ NodeBatch *node_batch_new(Arena *arena, const Node *first, const Attr *attrs, co
 // Adds a node whose attribute i is values[from[i]]. The batch must not be full. Returns false if a value does not fit
 // the layout of the batch.
 bool node_batch_add(NodeBatch *batch, const Value *values);
-const Node *node_batch_copy(Arena *arena, const NodeBatch *batch);
 
 // A node of a batch, for reading one row at a time. Its vectors point into the batch.
 typedef struct NodeRow {

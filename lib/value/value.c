@@ -1,27 +1,21 @@
-// value.c: construction and copying of vectors; see value.h.
+// value.c: construction of vectors, and access to their elements; see value.h.
 #include "value/value.h"
 
 #include "base/number.h"
 #include "value/node.h"
-#include "value/value_hash.h"
+#include "value/stream.h"
 
 #include <math.h>
 #include <string.h>
 
-Value value_item(Arena *arena, Item item) {
-    if (item.type == ITEM_NUMBER)
-        return value_number(item.as.number);
-    return (Value){.len = 1, .kind = VALUE_MIXED, .as.items = arena_copy(arena, &item, sizeof item)};
-}
-
-static const String *string_new(Arena *arena, Str text) {
+const String *value_new_string(Arena *arena, Str text) {
     String *string = arena_alloc(arena, sizeof *string);
     string->text = str_copy(arena, text);
     return string;
 }
 
 Value value_string(Arena *arena, Str text) {
-    return value_item(arena, (Item){ITEM_STRING, .as.string = string_new(arena, text)});
+    return value_item(arena, (Item){ITEM_STRING, .as.string = value_new_string(arena, text)});
 }
 
 Value value_function(Arena *arena, const Function *function) {
@@ -104,26 +98,6 @@ Value value_slice(Arena *arena, Value v, uint32_t start, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
         numbers[i] = v.as.items[start + i].as.number;
     return value_numbers_view(numbers, count);
-}
-
-static Item item_copy(Arena *arena, Item item) {
-    if (item.type == ITEM_STRING)
-        item.as.string = string_new(arena, item.as.string->text);
-    else if (item.type == ITEM_NODE)
-        item.as.node = node_copy(arena, item.as.node);
-    return item;
-}
-
-Value value_copy(Arena *arena, Value v) {
-    if (v.kind == VALUE_NUMBERS && v.len > 1)
-        v.as.numbers = arena_copy(arena, v.as.numbers, v.len * sizeof *v.as.numbers);
-    if (v.kind == VALUE_MIXED) {
-        Item *items = arena_alloc(arena, v.len * sizeof *items);
-        for (uint32_t i = 0; i < v.len; i++)
-            items[i] = item_copy(arena, v.as.items[i]);
-        v.as.items = items;
-    }
-    return v;
 }
 
 static void add_item_text(Text *out, const SymbolTable *symbols, Item item) {

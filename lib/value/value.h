@@ -87,10 +87,17 @@ static inline Value value_stream(StreamKind kind, uint64_t key) {
     return (Value){.kind = VALUE_STREAM, .stream = (uint8_t)kind, .as.key = key};
 }
 
+// Returns a string with a copy of the bytes.
+const String *value_new_string(Arena *arena, Str text);
+
 // These functions return a vector of one element. The bytes of a string are copied.
+static inline Value value_item(Arena *arena, Item item) {
+    if (item.type == ITEM_NUMBER)
+        return value_number(item.as.number);
+    return (Value){.len = 1, .kind = VALUE_MIXED, .as.items = arena_copy(arena, &item, sizeof item)};
+}
 Value value_string(Arena *arena, Str text);
 Value value_function(Arena *arena, const Function *function);
-Value value_item(Arena *arena, Item item);
 
 // Returns element i of a vector. i must be less than its length.
 static inline Item value_at(const Value *v, uint32_t i) {
@@ -128,7 +135,7 @@ Value value_slice(Arena *arena, Value v, uint32_t start, uint32_t count);
 // infinite or NaN counts as -2^31 (L5.7, D8).
 uint32_t value_wrap_index(double x, uint32_t n);
 
-// Returns a deep copy. Only functions and symbols are not copied.
+// Returns a deep copy (copy.c). Only functions and symbols are not copied.
 Value value_copy(Arena *arena, Value v);
 
 enum { VALUE_TEXT_WORK = 16 }; // work units per element converted to text

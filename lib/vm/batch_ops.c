@@ -1,6 +1,6 @@
 // batch_ops.c: execution of one instruction for a batch of iterations; see batch_columns.h.
 #include "builtin/noise.h"
-#include "value/value_hash.h"
+#include "value/stream.h"
 #include "vm/batch_columns.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 // construct.c: instructions that create vectors and nodes, or take their elements; see machine.h.
-#include "value/value_hash.h"
+#include "value/stream.h"
 #include "vm/machine.h"
 
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include "nodes.h"
 #include "value/ops.h"
-#include "value/value_hash.h"
+#include "value/stream.h"
 #include "world.h"
 
 #include <ctype.h>

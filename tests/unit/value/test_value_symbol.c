@@ -1,5 +1,6 @@
 // test_value_symbol.c: interned names, symbol numbers (language.md L4.3) and seed hashes (builtins.md B9.2).
 #include "value/node.h"
+#include "value/stream.h"
 #include "values.h"
 
 static void test_symbol_numbers_match_spec(void **state) {

@@ -1,5 +1,6 @@
 // test_value_vector.c: construction, truth, equality, order and indexing of vectors (language.md L4 to L6).
 #include "value/node.h"
+#include "value/stream.h"
 #include "values.h"
 
 static void test_composition_concatenates_parts(void **state) {
