@@ -162,7 +162,8 @@ static bool run_batch(LoopBatch *batch, const Instr *start, Loop *loop) {
     return true;
 }
 
-void vm_run_batches(Vm *vm, Frame *frame, const Code *code, const Instr *start, Loop *loop) {
+void vm_run_batches(Vm *vm, Frame *frame, const Code *code, const Instr *start, Loop *loop,
+                    VmFunction *const functions[OP_COUNT]) {
     const BatchPlan *plan = start->as.batch_plan;
     uint32_t iterations = loop->source.kind == VALUE_STREAM ? 0 : (loop->source.len - loop->at) / start->count;
     if (iterations < MIN_BATCH || vm->no_batches || vm->profile) // the profile counts each iteration
@@ -173,6 +174,7 @@ void vm_run_batches(Vm *vm, Frame *frame, const Code *code, const Instr *start, 
     batch->frame = frame;
     batch->code = code;
     batch->plan = plan;
+    batch->functions = functions;
     batch->columns = arena_alloc(&vm->slots, plan->column_count * sizeof(Column));
     batch->yields = arena_alloc(&vm->slots, (size_t)plan->yield_count * BATCH_SIZE * sizeof(Value));
     loop->retry_at = 0;

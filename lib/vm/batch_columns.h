@@ -31,6 +31,7 @@ typedef struct LoopBatch {
     Frame *frame;
     const Code *code;
     const BatchPlan *plan;
+    VmFunction *const *functions; // by opcode: computes the value for one iteration
     Column *columns;
     uint32_t count;                // number of iterations
     uint32_t selected_count;       // number of elements of `selection`

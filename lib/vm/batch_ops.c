@@ -249,17 +249,6 @@ static bool run_nodes(LoopBatch *batch, const Instr *instr) {
 
 // --- any instruction
 
-// The functions that compute an instruction's value for one iteration.
-static VmFunction *const functions[OP_COUNT] = {
-#define OPCODE(id, name, operands, batch)
-#define FUNCTION(id, name, operands, batch, function) [OP_##id] = vm_##function,
-#include "program/opcode_list.h"
-};
-
-#define OPCODE(id, name, operands, batch) _Static_assert(BATCH_##batch < BATCH_PURE, name " needs a function");
-#define FUNCTION(id, name, operands, batch, function)
-#include "program/opcode_list.h"
-
 // Faster versions of some functions, which compute the values of all selected iterations. They return false if that is
 // not possible for these operands.
 static bool (*const columnar[OP_COUNT])(LoopBatch *batch, const Instr *instr) = {
@@ -273,7 +262,7 @@ static bool (*const columnar[OP_COUNT])(LoopBatch *batch, const Instr *instr) = 
 void vm_batch_call(LoopBatch *batch, const Instr *instr) {
     if (columnar[instr->op] && columnar[instr->op](batch, instr))
         return;
-    VmFunction *function = functions[instr->op];
+    VmFunction *function = batch->functions[instr->op];
     int32_t reads[CODE_MAX_READ];
     Value *registers[CODE_MAX_READ], values[BATCH_SIZE];
     const Column *columns[CODE_MAX_READ];

@@ -60,14 +60,16 @@ struct ImportLink {
 
 // Allocates a frame in which `code` can be executed, and copies the constants to it. The slots are not initialised.
 Frame vm_frame(Vm *vm, const Code *code, Closure *closure);
+// Like vm_frame for code that is not in a closure, and sets the slots to null.
+Frame vm_null_frame(Vm *vm, const Code *code);
 // Executes a code and returns its result.
 Value vm_eval(Vm *vm, Frame *frame, const Code *code);
 // Executes the IMPORT instruction `instr`: stores values of the module at path `file` in registers of `frame`, which
 // must be null.
 void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 
-// Each of these functions computes the value that an instruction writes (eval.c, construct.c, lookup.c, call.c). They
-// do not write to registers.
+// Each of these functions computes the value that an instruction writes (operators.c, construct.c, lookup.c, call.c).
+// They do not write to registers.
 typedef Value VmFunction(Vm *vm, const Frame *frame, const Instr *instr);
 #define OPCODE(id, name, operands, batch)
 #define FUNCTION(id, name, operands, batch, function) VmFunction vm_##function;
@@ -86,8 +88,9 @@ Value vm_call_function(Vm *vm, const Function *function, const Value *args, uint
 Value vm_loop_element(const Loop *loop, uint32_t i);
 // batch.c: executes as many of the loop's remaining iterations as possible in batches. `start` is the FOR or FOR_RANGE
 // instruction of the loop, and must have a BatchPlan. Called when the loop starts, and again when loop->at reaches
-// loop->retry_at.
-void vm_run_batches(Vm *vm, Frame *frame, const Code *code, const Instr *start, Loop *loop);
+// loop->retry_at. functions[op] computes the value of an instruction for one iteration.
+void vm_run_batches(Vm *vm, Frame *frame, const Code *code, const Instr *start, Loop *loop,
+                    VmFunction *const functions[OP_COUNT]);
 // Prepares a loop over a range.
 void vm_range_init(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop, Value step);
 // batch_nodes.c: executes a YIELD_NODE. It adds the node to the loop's result, as a row of a node batch or as a single

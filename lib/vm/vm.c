@@ -1,4 +1,4 @@
-// vm.c: evaluation of programs and import of modules; see vm.h.
+// vm.c: evaluation of programs; see vm.h.
 #include "vm/machine.h"
 
 #include <math.h>
@@ -33,23 +33,6 @@ void vm_free(Vm *vm) {
     vm_inline_cache_free(vm);
 }
 
-Frame vm_frame(Vm *vm, const Code *code, Closure *closure) {
-    size_t constants = code->constant_count, registers = code->register_count;
-    Value *memory = arena_alloc(&vm->slots, (constants + registers) * sizeof *memory + code->loop_count * sizeof(Loop));
-    for (size_t i = 0; i < constants; i++)
-        memory[i] = code->constants[i];
-    Value *slots = memory + constants;
-    return (Frame){slots, code->operands, (Loop *)(void *)(slots + registers), closure};
-}
-
-// Allocates a frame whose slots are null.
-static Frame new_frame(Vm *vm, const Code *code) {
-    Frame frame = vm_frame(vm, code, NULL);
-    for (uint32_t i = 0; i < code->slot_count; i++)
-        frame.slots[i] = VALUE_NULL;
-    return frame;
-}
-
 // Prepares the VM for an evaluation. Discards the data that an earlier, aborted evaluation has left.
 static void reset_evaluation(Vm *vm, const char *stack_base) {
     arena_reset(&vm->slots);
@@ -73,7 +56,7 @@ Value vm_run(Vm *vm, const Program *program, const Value *arguments, Value *expo
     vm_inline_cache_reset(vm, program->lookup_count);
     if (vm->profile)
         vm_profile_begin(vm->profile, vm->arena->escape);
-    Frame frame = new_frame(vm, program->code);
+    Frame frame = vm_null_frame(vm, program->code);
     for (uint32_t i = 0; i < program->param_count; i++)
         frame.slots[i] = arguments[i];
     Value result = vm_eval(vm, &frame, program->code);
@@ -118,68 +101,10 @@ bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value) {
     reset_evaluation(vm, __builtin_frame_address(0));
     vm->met_dynamic = false;
     vm->builtins.directory = code->source->directory;
-    Frame frame = new_frame(vm, code);
+    Frame frame = vm_null_frame(vm, code);
     *value = vm_eval(vm, &frame, code);
     if (!vm->met_dynamic && vm->reported_count == 0)
         return true;
     *value = VALUE_NULL;
     return false;
-}
-
-static bool is_importing(const Vm *vm, const Source *source) {
-    for (const ImportLink *link = vm->imports; link; link = link->outer)
-        if (str_equal(link->source->path, source->path))
-            return true;
-    return false;
-}
-
-enum { IMPORT_WORK = 100 }; // work units of checking the file of a module
-
-// Evaluates a module in a separate frame and stores the imported values in registers of `frame`. The module sees only
-// built-ins and no state (L13.2).
-static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr *instr) {
-    ImportLink link = {vm->imports, module->source, vm->imports->depth + 1};
-    vm_charge(vm, instr->at, IMPORT_WORK + module->code->count / VM_INSTRS_A_UNIT + link.depth / 8);
-    const State *state = vm->state;
-    Str directory = vm->builtins.directory;
-    ArenaMark mark = arena_mark(&vm->slots);
-    vm->imports = &link;
-    vm->state = NULL;
-    vm->builtins.directory = module->source->directory;
-    Frame inner = new_frame(vm, module->code);
-    vm_eval(vm, &inner, module->code);
-    vm->imports = link.outer;
-    vm->state = state;
-    vm->builtins.directory = directory;
-    Text missing = text_new(vm->arena);
-    for (uint32_t i = 0; i < instr->count; i++) {
-        const Symbol *name = instr->as.names[i];
-        const Export *found = program_find_export(module, name);
-        if (found)
-            frame->slots[(uint32_t)instr->d + i] = inner.slots[found->slot];
-        else
-            text_add_format(&missing, " '%.*s'", STR_ARGS(name->name));
-    }
-    if (missing.len)
-        vm_fault(vm, instr->at, "unknown-import", "'%.*s' does not bind%.*s", STR_ARGS(module->source->name),
-                 STR_ARGS(missing));
-    arena_rewind(&vm->slots, mark);
-}
-
-void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
-    Str name = value_text(vm->arena, vm->symbols, file);
-    Str path = path_join(vm->arena, instr->at->source->directory, name);
-    Str reason = {0};
-    const Program *module = name.len ? vm->host.module(vm->host.user_data, path, &reason) : NULL;
-    if (!module) {
-        if (!name.len)
-            reason = STR("no file name");
-        vm_fault(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", STR_ARGS(path), STR_ARGS(reason));
-    } else if (is_importing(vm, module->source)) {
-        vm_fault(vm, instr->at, "circular-import", "circular import of '%.*s'", STR_ARGS(path));
-    } else if (vm->imports->depth >= VM_IMPORT_DEPTH || !vm_stack_left(vm)) {
-        vm_fault(vm, instr->at, "recursion-depth", "imports nested too deeply");
-    } else {
-        run_module(vm, frame, module, instr);
-    }
 }
