@@ -6,9 +6,21 @@
 #include <math.h>
 #include <string.h>
 
+// The flags of builtin_list.h.
+enum { PLAIN = 0, NAMED = 1, VARIADIC = 2, IMPURE = 4 };
+
 const Builtin builtin_table[] = {
-#define BUILTIN(name, parameters, required, fixed, variadic, named, pure, each, help)                                  \
-    {#name, builtin_##name, parameters, required, fixed, variadic, named, pure, each, help},
+#define BUILTIN(name, parameters, required, fixed, flags, each, help)                                                  \
+    {#name,                                                                                                            \
+     builtin_##name,                                                                                                   \
+     parameters,                                                                                                       \
+     required,                                                                                                         \
+     fixed,                                                                                                            \
+     ((flags)&VARIADIC) != 0,                                                                                          \
+     ((flags)&NAMED) != 0,                                                                                             \
+     ((flags)&IMPURE) == 0,                                                                                            \
+     each,                                                                                                             \
+     help},
 #include "builtin/builtin_list.h"
 #undef BUILTIN
 };
@@ -30,21 +42,6 @@ const Builtin *builtin_find(Str name) {
             high = middle;
     }
     return NULL;
-}
-
-Value builtin_error(BuiltinContext *context, const char *name, const char *format, ...) {
-    enum { ERROR_WORK = 50 }; // work units charged for each diagnostic, including repeated ones
-    if (!context->report_error)
-        return VALUE_NULL;
-    arena_charge(context->arena, ERROR_WORK);
-    Text text = text_new(context->arena);
-    text_add_format(&text, "%s: ", name);
-    va_list args;
-    va_start(args, format);
-    text_add_va(&text, format, args);
-    va_end(args);
-    context->report_error(context->user_data, text_str(&text));
-    return VALUE_NULL;
 }
 
 // Returns the name of parameter i, which must exist, from a string such as "xs, ys=0".

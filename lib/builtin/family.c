@@ -1,6 +1,21 @@
 // family.c: implementation of family.h.
 #include "builtin/family.h"
 
+Value builtin_error(BuiltinContext *context, const char *name, const char *format, ...) {
+    enum { ERROR_WORK = 50 }; // work units charged for each diagnostic, including repeated ones
+    if (!context->report_error)
+        return VALUE_NULL;
+    arena_charge(context->arena, ERROR_WORK);
+    Text text = text_new(context->arena);
+    text_add_format(&text, "%s: ", name);
+    va_list args;
+    va_start(args, format);
+    text_add_va(&text, format, args);
+    va_end(args);
+    context->report_error(context->user_data, text_str(&text));
+    return VALUE_NULL;
+}
+
 // Minimum length for which an array function is called; shorter vectors are computed element by element.
 enum { BUILTIN_MIN_ARRAY = 4 };
 
