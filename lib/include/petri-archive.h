@@ -37,10 +37,13 @@ static inline PetriArchiveOptions petri_archive_default_options(void) {
 }
 
 // Creates an archive and records the session in it from the next frame on. If a script is loaded, reads its files again
-// and compiles it. Replaces an existing archive, but no other file. Check petri_archive_problem
-// after the call, and when you want to know if recording has stopped, for example because the disk is full. The
-// session is not affected by such problems. Returns NULL if out of memory. Free it with petri_archive_close before
-// the session. Host functions (petri_add_function) cannot be recorded.
+// and compiles it. If the session is already recorded in another archive, completes that one; if it is a replay, ends
+// the replay. Check petri_archive_problem after the call, and when you want to know if recording has stopped, for
+// example because the disk is full. The session is not affected by such problems. Returns NULL if out of memory. Free
+// it with petri_archive_close, before or after the session. Host functions (petri_add_function) cannot be recorded.
+//
+// `file` must be the name of a new file or of an archive, which is replaced. Any other file has a problem as its
+// result, and so has an archive that another process or session is recording.
 PETRI_API PetriArchive *petri_archive_create(PetriSession *session, const char *file,
                                              const PetriArchiveOptions *options);
 
@@ -55,8 +58,8 @@ PETRI_API PetriArchive *petri_archive_open(const char *file, size_t memory_limit
 // the archive does not have all frames. petri_archive_close also completes an archive, but does not report problems.
 PETRI_API PetriStatus petri_archive_complete(PetriArchive *archive);
 
-// Closes an archive and sets the handle to NULL. NULL handles are ignored. A written archive is completed: its session
-// must still be open. An archive that was read must be closed after the sessions that replay it.
+// Closes an archive and sets the handle to NULL. NULL handles are ignored. A written archive is completed. If the
+// archive is replayed by a session, ends the replay: the session must not use its files (petri_archive_read) any more.
 PETRI_API void petri_archive_close(PetriArchive **archive);
 
 // Returns the first problem of an archive, or NULL if there is none: why it cannot be read or written any more, or

@@ -117,9 +117,6 @@ bool archive_column_integer(PetriArchive *archive, sqlite3_stmt *row, int column
 bool archive_column_text(PetriArchive *archive, sqlite3_stmt *row, int column, Str *text);
 bool archive_column_blob(PetriArchive *archive, sqlite3_stmt *row, int column, Str *bytes);
 
-// drawn_files.c: adds the files that nodes of the frame name.
-void archive_add_drawn_files(PetriArchive *archive);
-
 // files.c: the versions of files.
 
 // Adds a version to the list. Copies the name. Returns NULL after a problem.

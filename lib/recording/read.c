@@ -67,6 +67,7 @@ void petri_archive_close(PetriArchive **handle) {
         return;
     *handle = NULL;
     petri_archive_complete(archive);
+    petri_archive_end_replay(archive);
     archive_free(archive);
 }
 

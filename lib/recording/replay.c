@@ -152,6 +152,11 @@ static void after_jump(void *user_data) {
     ((PetriArchive *)user_data)->at_keyframe = false;
 }
 
+// The session is closed, or is recorded or replayed by another archive.
+static void on_end(void *user_data) {
+    ((PetriArchive *)user_data)->session = NULL;
+}
+
 PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int64_t frame) {
     if (!archive || !session || archive->writes || archive_fails(archive))
         return PETRI_INVALID;
@@ -160,13 +165,16 @@ PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int
         archive_fail(archive, "the archive has no frames");
         return PETRI_INVALID;
     }
+    petri_archive_end_replay(archive);
     recorder_set(session, NULL);
-    archive->session = session;
     PetriStatus status = restore_keyframe(archive, session, keyframe->frame);
+    archive->session = session;
     archive->at_keyframe = true;
-    recorder_set(
-        session,
-        &(Recorder){.user_data = archive, .before_frame = before_frame, .jump = after_jump, .ignores_input = true});
+    recorder_set(session, &(Recorder){.user_data = archive,
+                                      .before_frame = before_frame,
+                                      .jump = after_jump,
+                                      .end = on_end,
+                                      .ignores_input = true});
     return status;
 }
 
@@ -179,7 +187,7 @@ PetriStatus petri_archive_replay(PetriArchive *archive, PetriSession *session, i
 
 void petri_archive_end_replay(PetriArchive *archive) {
     if (archive && archive->session && !archive->writes)
-        recorder_set(archive->session, NULL);
+        recorder_set(archive->session, NULL); // calls on_end
 }
 
 bool petri_archive_keyframe_differs(PetriArchive *archive) {

@@ -252,6 +252,10 @@ static void commit_if_due(PetriArchive *archive) {
     archive->last_commit = clock_seconds();
 }
 
+static bool knows_file(void *user_data, Str name) {
+    return archive_find_file(user_data, name, INT64_MAX);
+}
+
 static void after_frame(void *user_data, const FrameClock *clock, bool complete) {
     PetriArchive *archive = user_data;
     int64_t frame = petri_frame_number(archive->session);
@@ -261,8 +265,11 @@ static void after_frame(void *user_data, const FrameClock *clock, bool complete)
         archive_fail(archive, "frame %" PRId64 " was aborted", frame);
         return;
     }
-    if (archive->mentions_files)
-        archive_add_drawn_files(archive);
+    // A signal that interrupts the search ends the run in the next frame.
+    PetriStatus drawn =
+        archive->mentions_files ? recorder_read_drawn_files(archive->session, knows_file, archive) : PETRI_OK;
+    if (drawn != PETRI_INTERRUPTED && !fail_status(archive, drawn))
+        return;
     archive->last_frame = frame;
     archive->in_frame = archive->state_modified = archive->has_new_notes = false;
     if (!clock->lockstep)
@@ -275,6 +282,33 @@ static void after_frame(void *user_data, const FrameClock *clock, bool complete)
 }
 
 // --- opening and closing
+
+// Removes inputs that no frame has used, and adds a keyframe if the last frame has none, so that the digest of the run
+// covers all frames. There is no keyframe if the host has modified the state since the last frame.
+static void complete(PetriArchive *archive) {
+    char sql[200];
+    if (archive_fails(archive))
+        return;
+    int64_t last = archive->last_frame;
+    if (last >= 0 && !archive->needs_keyframe) {
+        snprintf(sql, sizeof sql,
+                 "DELETE FROM file WHERE frame > %" PRId64 "; UPDATE note SET frame = %" PRId64
+                 " WHERE frame > %" PRId64,
+                 last, last, last);
+        archive_execute(archive, sql);
+        remove_rows_after(archive, last);
+        if ((archive->last_keyframe != last || archive->has_new_notes) && !archive->state_modified)
+            add_keyframe(archive, false);
+    }
+    archive_execute(archive, "COMMIT");
+}
+
+// Another recording or a replay begins, or the session is closed.
+static void on_end(void *user_data) {
+    PetriArchive *archive = user_data;
+    complete(archive);
+    archive->session = NULL;
+}
 
 PetriArchive *petri_archive_create(PetriSession *session, const char *file, const PetriArchiveOptions *options) {
     PetriArchive *archive = session && file ? archive_new() : NULL;
@@ -300,7 +334,8 @@ PetriArchive *petri_archive_create(PetriSession *session, const char *file, cons
                                       .after_frame = after_frame,
                                       .jump = on_jump,
                                       .input = on_input,
-                                      .file = on_file});
+                                      .file = on_file,
+                                      .end = on_end});
     if (!archive_fails(archive) && recorder_has_script(session))
         fail_status(archive, recorder_read_again(session));
     return archive;
@@ -317,33 +352,10 @@ PetriStatus petri_archive_add_note(PetriArchive *archive, const char *text) {
     return archive_run(archive, row) ? PETRI_OK : PETRI_INVALID;
 }
 
-// Removes inputs that no frame has used, and adds a keyframe if the last frame has none, so that the digest of the run
-// covers all frames. There is no keyframe if the host has modified the state since the last frame.
-static void complete(PetriArchive *archive) {
-    char sql[200];
-    if (archive_fails(archive))
-        return;
-    int64_t last = archive->last_frame;
-    if (last >= 0 && !archive->needs_keyframe) {
-        snprintf(sql, sizeof sql,
-                 "DELETE FROM file WHERE frame > %" PRId64 "; UPDATE note SET frame = %" PRId64
-                 " WHERE frame > %" PRId64,
-                 last, last, last);
-        archive_execute(archive, sql);
-        remove_rows_after(archive, last);
-        if ((archive->last_keyframe != last || archive->has_new_notes) && !archive->state_modified)
-            add_keyframe(archive, false);
-    }
-    archive_execute(archive, "COMMIT");
-}
-
 PetriStatus petri_archive_complete(PetriArchive *archive) {
     if (!archive || !archive->writes)
         return PETRI_INVALID;
-    if (archive->session) {
-        recorder_set(archive->session, NULL);
-        complete(archive);
-        archive->session = NULL;
-    }
+    if (archive->session)
+        recorder_set(archive->session, NULL); // calls on_end
     return archive_fails(archive) ? PETRI_INVALID : PETRI_OK;
 }

@@ -257,10 +257,10 @@ Unit *unit_load_text(PetriSession *session, Str name, Str text) {
     return unit;
 }
 
-// Caches the syntax tree of a script. Called only when the script is compiled a second time.
-static void make_parse_cache(PetriSession *session, Unit *unit) {
-    unit->parse_cache = unit_new(session);
-    Unit *cache = unit->parse_cache;
+// Caches the syntax tree of a script in `owner`. Called only when the script is compiled a second time.
+static void make_parse_cache(PetriSession *session, Unit *owner, const Unit *unit) {
+    owner->parse_cache = unit_new(session);
+    Unit *cache = owner->parse_cache;
     Arena *arena = unit_arena(session, cache);
     cache->source = source_new(arena, unit->source->name, unit->path, unit->source->text);
     uint64_t before = session->budget.work;
@@ -268,19 +268,23 @@ static void make_parse_cache(PetriSession *session, Unit *unit) {
     cache->work = session->budget.work - before;
 }
 
-Unit *unit_reload(PetriSession *session, Unit *unit) {
+Unit *unit_reload(PetriSession *session, Unit *unit, bool read_again) {
     Unit *reloaded = session->loader.pending = unit_new(session);
     set_script_folder(session, reloaded, unit->source->name);
     reloaded->path = str_copy(&reloaded->arena, unit->path);
     reloaded->version = str_copy(&reloaded->arena, unit->version);
-    bool parsed = unit->parse_cache && unit->parse_cache->ast;
+    // The old cache contains included files, and stays valid because the text of `unit` can be in it.
+    Unit *owner = read_again ? reloaded : unit;
+    bool parsed = owner->parse_cache && owner->parse_cache->ast;
     if (!parsed) {
-        unit_free(unit->parse_cache); // it has no tree if its parsing was aborted
-        unit->parse_cache = NULL;
-        make_parse_cache(session, unit);
+        unit_free(owner->parse_cache); // it has no tree if its parsing was aborted
+        owner->parse_cache = NULL;
+        make_parse_cache(session, owner, unit);
     }
-    reloaded->parse_cache = unit->parse_cache;
-    reloaded->parse_cache->references++;
+    if (!read_again) {
+        reloaded->parse_cache = unit->parse_cache;
+        reloaded->parse_cache->references++;
+    }
     reloaded->source = reloaded->parse_cache->source;
     compile_unit(session, reloaded,
                  parsed ? charge_cached_parse(session, reloaded->parse_cache->ast, reloaded->parse_cache->work)

@@ -14,6 +14,10 @@ static void on_read(void *user_data, const char *path, Str bytes) {
 }
 
 void recorder_set(PetriSession *session, const Recorder *recorder) {
+    Recorder before = session->recorder;
+    session->recorder = (Recorder){0};
+    if (before.end)
+        before.end(before.user_data);
     session->recorder = recorder ? *recorder : (Recorder){0};
     session->reach.on_read = session->recorder.file || session->options.on_file_read ? on_read : NULL;
     session->reach.on_read_user_data = session;
@@ -158,33 +162,7 @@ bool recorder_has_script(const PetriSession *session) {
 }
 
 PetriStatus recorder_read_again(PetriSession *session) {
-    Unit *program = session->config.program;
-    session_clear_files(session);
-    unit_free(program->parse_cache); // it contains included files
-    program->parse_cache = NULL;
-    return petri_reload(session, NULL);
-}
-
-typedef struct FileRequest {
-    Str name;
-    Arena arena;
-} FileRequest;
-
-static PetriStatus read_file(PetriSession *session, void *context) {
-    enum { MAX_BYTES = 256 << 20 };
-    FileRequest *request = context;
-    Str bytes, path = path_join(&request->arena, session->reach.directory, request->name);
-    const char *problem;
-    file_read(&request->arena, &session->reach, str_to_c(&request->arena, path), true, MAX_BYTES, &bytes, NULL,
-              &problem);
-    return PETRI_OK;
-}
-
-void recorder_read_file(PetriSession *session, Str name) {
-    FileRequest request = {.name = name};
-    session_arena(session, &request.arena, "file", SIZE_MAX);
-    session_protect(session, &request.arena, read_file, &request);
-    arena_free(&request.arena);
+    return session_read_again(session);
 }
 
 const char *recorder_script_name(const PetriSession *session) {

@@ -26,6 +26,8 @@ typedef struct Recorder {
     // `name` is relative to the script's folder; that of a folder ends in a slash. If `bytes.bytes` is NULL, there is
     // no such file.
     void (*file)(void *user_data, const char *name, Str bytes);
+    // Called before the session is closed or gets other callbacks. The session then has no callbacks.
+    void (*end)(void *user_data);
     bool ignores_input; // true: the pointer and keys that the host reports have no effect
 } Recorder;
 
@@ -49,8 +51,12 @@ bool recorder_has_script(const PetriSession *session) PRIVATE_API(recorder_has_s
 // Reads all files of the loaded script again and compiles it, so that they are reported. Returns the statuses of
 // petri_reload.
 PetriStatus recorder_read_again(PetriSession *session) PRIVATE_API(recorder_read_again);
-// Reads a file that a script names, so that it is reported. If it cannot be read, that is reported.
-void recorder_read_file(PetriSession *session, Str name) PRIVATE_API(recorder_read_file);
+typedef bool RecorderKnowsFile(void *user_data, Str name);
+// Reads each file that a node of the last frame names for drawing, so that it is reported, except those that `knows`
+// returns true for. If a file cannot be read, that is reported. If the search exceeds a limit of the session, reports
+// it and returns PETRI_LIMIT_EXCEEDED; if it is interrupted, the next frame is too.
+PetriStatus recorder_read_drawn_files(PetriSession *session, RecorderKnowsFile *knows, void *user_data)
+    PRIVATE_API(recorder_read_drawn_files);
 // Returns the file name of the loaded script, without its folder. Valid until the next load.
 const char *recorder_script_name(const PetriSession *session) PRIVATE_API(recorder_script_name);
 

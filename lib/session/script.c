@@ -87,6 +87,7 @@ typedef struct Load {
     Str name;         // name for messages
     Str text;
     Unit *reload_of; // script whose text is compiled again, or NULL
+    bool read_again; // included files are read again, too
     // Results
     Unit *unit;
     ClockRates rates;
@@ -96,7 +97,7 @@ typedef struct Load {
 static PetriStatus make_unit(PetriSession *session, void *context) {
     Load *load = context;
     session_set_globals(session, &session->static_vm);
-    Unit *unit = load->reload_of ? unit_reload(session, load->reload_of)
+    Unit *unit = load->reload_of ? unit_reload(session, load->reload_of, load->read_again)
                  : load->file    ? unit_load_file(session, load->file, false, load->regular)
                                  : unit_load_text(session, load->name, load->text);
     if (!unit->source)
@@ -162,20 +163,26 @@ PetriStatus petri_load_text(PetriSession *session, const char *name, const char 
 }
 
 // Compiles the loaded script again. The text is the same, so diagnostics about it are not repeated.
-static PetriStatus recompile_script(PetriSession *session) {
+static PetriStatus recompile_script(PetriSession *session, bool read_again) {
     Unit *unit = session->config.program;
     if (!unit)
         return PETRI_INVALID;
+    Load load = {.name = unit->source->name, .reload_of = unit, .read_again = read_again};
     session->recompiling = true;
-    PetriStatus status = load_script(session, &(Load){.name = unit->source->name, .reload_of = unit}, LOAD_CONTINUE);
+    PetriStatus status = load_script(session, &load, LOAD_CONTINUE);
     session->recompiling = false;
     return status;
+}
+
+PetriStatus session_read_again(PetriSession *session) {
+    session_clear_files(session);
+    return recompile_script(session, true);
 }
 
 PetriStatus petri_reload(PetriSession *session, const char *file) {
     if (!session)
         return PETRI_INVALID;
     if (!file)
-        return recompile_script(session);
+        return recompile_script(session, false);
     return load_script(session, &(Load){.file = file, .regular = true, .name = str_from(file)}, LOAD_CONTINUE);
 }

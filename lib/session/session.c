@@ -164,6 +164,7 @@ void petri_close(PetriSession **handle) {
     *handle = NULL;
     if (!session)
         return;
+    recorder_set(session, NULL);
     petri_config_free(session->shared_config);
     session_free_host_globals(session);
     prompt_list_free(session->config.prompts);

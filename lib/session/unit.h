@@ -71,8 +71,8 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
 // Like unit_load_file, for a script in memory.
 Unit *unit_load_text(PetriSession *session, Str name, Str text);
 // Compiles the text of a unit again with the current definitions. Returns the new unit. Only the first reload of a text
-// parses it; later reloads use the parse cache.
-Unit *unit_reload(PetriSession *session, Unit *unit);
+// parses it; later reloads use the parse cache, unless `read_again` is set: then included files are read again.
+Unit *unit_reload(PetriSession *session, Unit *unit, bool read_again);
 // Returns a unit with parsed but uncompiled text of the prompt. Its `ast` is NULL if the text has syntax errors.
 Unit *unit_parse(PetriSession *session, Str text);
 // Compiles a syntax tree of the unit into a program with the given parameters.
@@ -88,5 +88,8 @@ Unit *session_use_unit(PetriSession *session, Unit *unit);
 const Program *session_module(void *host, Str path, Str *reason);
 // Clears all cached files and modules, because the next script may not be allowed to read them.
 void session_clear_files(PetriSession *session);
+// Reads all files of the loaded script again and compiles it, so that they are reported to the recorder. Returns the
+// statuses of petri_reload.
+PetriStatus session_read_again(PetriSession *session);
 // Frees retired modules.
 void session_free_retired(PetriSession *session);

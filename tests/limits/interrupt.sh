@@ -63,6 +63,10 @@ for threads in 1 2; do
     interrupted "random forces" '!physics state=:c dimensions=2\n    for i in ..1e6\n        !random\n    for i in ..1000\n        !particle id=i'
     interrupted "a tree of groups" "$groups"'!physics state=:c dimensions=2\n    g(60, !group)'
     interrupted "many steps" '!physics state=:c dimensions=2 resolution=1e-9\n    for i in ..10000\n        !particle id=i position=i;0 velocity=1'
+    if "$petri" run --frames 1 --quiet --archive first.petri small.fl 2>err; then
+        interrupted "files for an archive" "let a=((!group id=i) for i in ..9000) b=(((!group id=i) << a) for i in ..9000)\n!a x=filename << (((!group id=i) << b) for i in ..9000)" \
+            run --frames 3 --archive long.petri
+    fi
     interrupted "glob" "!a x=len(glob('$many'))"
     if "$petri" render --frame 0 --quiet small.fl -o small.png 2>err; then
         interrupted "a drawing" "$window        for i in ..1e6\n            !rect size=3000 point=i;0\n            !fill color=1;0;0;0.1" \

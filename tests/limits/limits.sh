@@ -58,6 +58,14 @@ refused sdf_function work-limit render --frame 0 sdf_function.fl -o picture.png
 refused sdf_memory memory-limit render --frame 0 sdf_memory.fl -o picture.png
 check "an aborted drawing writes no file" [ ! -e picture.png ]
 refused print_dag memory-limit run --frames 1 --print tree print_dag.fl
+if [ "$("$petri" help run | grep -c -- --archive)" -gt 0 ] && "$petri" run --frames 1 --archive first.petri eq_dag.fl 2>err; then
+    # The search for the files that drawing reads.
+    fits $limit archive_dag run --frames 1 --archive dag.petri archive_dag.fl
+    "$petri" info dag.petri >out
+    check "the archive has the file of a shared node" grep -q 'archive_dag.fl: .* bytes' out
+    refused archive_wide work-limit run --frames 1 --archive wide.petri archive_wide.fl
+    check "the archive ends with the search" grep -q "the archive 'wide.petri' ends here: limit exceeded" err
+fi
 fits $limit eq_dag run --frames 1 eq_dag.fl
 fits $limit seed_dag run --frames 1 seed_dag.fl
 fits 1000000 system_leak run --frames 20000 system_leak.fl

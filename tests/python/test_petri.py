@@ -778,6 +778,24 @@ class Archives(unittest.TestCase):
         with self.assertRaisesRegex(petri.ArchiveError, "not an archive"):
             petri.Archive(__file__)
 
+    def test_session_is_recorded_again(self):
+        self.record(1)
+        folder = Path(self.folder.name)
+        for reloads in range(3):
+            (folder / "script.fl").write_text("!counter state=:a rate=1\n")
+            session = petri.Session(folder / "script.fl")
+            for _ in range(reloads):
+                session.reload()
+            with session.archive(folder / "1.petri"):
+                session.step(5)
+            second = session.archive(folder / "2.petri")
+            session.step(4)
+            with session.archive(folder / "3.petri"):  # completes the second
+                session.step(3)
+            second.close()
+            for name, frames in ("1.petri", range(0, 5)), ("2.petri", range(5, 9)), ("3.petri", range(9, 12)):
+                self.assertEqual(list(petri.Archive(folder / name).verify()), list(frames))
+
     def test_functions_of_python_cannot_be_recorded(self):
         session = petri.Session("let a=f(1)\n", functions={"f": lambda x: x})
         try:

@@ -251,6 +251,103 @@ static void test_reset_begins_again(void **state) {
     petri_archive_close(&archive);
 }
 
+// Checks that an archive has the frames `first` to `last`, and that a replay computes them.
+static void check_recording(const char *file, int first, int last) {
+    PetriArchiveInfo info;
+    uint8_t wanted[RUN_DIGEST], digest[RUN_DIGEST];
+    PetriArchive *archive = open_archive(file);
+    PetriSession *session = run_open_replay(archive);
+    assert_int_equal(petri_archive_check(archive), PETRI_OK);
+    assert_true(petri_archive_info(archive, &info, sizeof info));
+    assert_int_equal(info.first_frame, first);
+    assert_int_equal(info.last_frame, last);
+    assert_int_equal(info.sealed_frame, last);
+    assert_int_equal(petri_archive_load(archive, session, first - 1), PETRI_OK);
+    for (int i = first; i <= last; i++) {
+        assert_int_equal(petri_step(session), PETRI_OK);
+        assert_true(petri_archive_digest(archive, i, wanted));
+        assert_int_equal(petri_digest(session, digest), PETRI_OK);
+        assert_memory_equal(digest, wanted, RUN_DIGEST);
+    }
+    assert_false(petri_archive_keyframe_differs(archive));
+    petri_archive_close(&archive);
+    petri_close(&session);
+}
+
+static PetriArchive *start(PetriSession *session, const char *file, int frames) {
+    PetriArchive *archive = petri_archive_create(session, file, NULL);
+    if (petri_archive_problem(archive))
+        fail_msg("%s: %s", file, petri_archive_problem(archive));
+    for (int i = 0; i < frames; i++)
+        assert_int_equal(petri_step(session), PETRI_OK);
+    return archive;
+}
+
+// After a reload, the text of a script is in its parse cache.
+static void test_session_is_recorded_again(void **state) {
+    (void)state;
+    for (int reloads = 0; reloads < 3; reloads++) {
+        write_file("again.fl", "%include 'added.fl'\n!counter state=:a rate=1\n");
+        write_file("added.fl", "!counter state=:b rate=2\n");
+        PetriSession *session = run_open_session();
+        assert_int_equal(petri_load(session, "again.fl"), PETRI_OK);
+        for (int i = 0; i < reloads; i++)
+            assert_int_equal(petri_reload(session, NULL), PETRI_OK);
+        PetriConfig *config = petri_config_get(session); // keeps the compiled script
+        PetriArchive *first = start(session, "first.petri", 3);
+        petri_archive_close(&first);
+        write_file("added.fl", "!counter state=:b rate=5\n");
+        PetriArchive *second = start(session, "second.petri", 4);
+        petri_archive_close(&second);
+        petri_config_apply(session, config);
+        assert_int_equal(petri_step(session), PETRI_OK);
+        petri_config_free(config);
+        petri_close(&session);
+        check_recording("first.petri", 0, 2);
+        check_recording("second.petri", 3, 6);
+    }
+}
+
+static void test_second_recording_completes_the_first(void **state) {
+    (void)state;
+    for (int order = 0; order < 4; order++) {
+        write_file("again.fl", "!counter state=:a rate=1\n");
+        PetriSession *session = run_open_session();
+        assert_int_equal(petri_load(session, "again.fl"), PETRI_OK);
+        PetriArchive *first = start(session, "first.petri", 3), *second = start(session, "second.petri", 4);
+        assert_int_equal(petri_archive_add_note(first, "late"), PETRI_INVALID);
+        if (order == 0)
+            petri_archive_close(&first);
+        assert_int_equal(petri_step(session), PETRI_OK);
+        if (order == 2)
+            petri_close(&session);
+        petri_archive_close(order == 1 ? &second : &first);
+        petri_archive_close(order == 1 ? &first : &second);
+        petri_close(&session);
+        check_recording("first.petri", 0, 2);
+        check_recording("second.petri", 3, 7);
+    }
+}
+
+static void test_replay_ends_with_its_archive_or_session(void **state) {
+    (void)state;
+    PetriArchive *archive = open_archive("run.petri");
+    PetriSession *session = run_open_replay(archive), *other = run_open_replay(archive);
+    assert_int_equal(petri_archive_replay(archive, session, 5), PETRI_OK);
+    assert_int_equal(petri_archive_replay(archive, other, 9), PETRI_OK); // ends the replay of the first session
+    assert_int_equal(petri_step(session), PETRI_OK);
+    assert_int_equal(petri_step(other), PETRI_OK);
+    check_frame(other, 10);
+    petri_close(&other);
+    assert_false(petri_archive_keyframe_differs(archive));
+    PetriArchive *recording = start(session, "copy.petri", 2);
+    assert_int_equal(petri_archive_load(archive, session, 0), PETRI_OK); // ends the recording
+    assert_int_equal(petri_archive_complete(recording), PETRI_OK);
+    petri_archive_close(&archive);
+    petri_archive_close(&recording);
+    petri_close(&session);
+}
+
 static void test_create_keeps_other_files(void **state) {
     (void)state;
     write_file("notes.txt", "important\n");
@@ -325,6 +422,7 @@ TEST_GROUP(recording_replay) {
         cmocka_unit_test(test_replay_goes_to_other_frames),
         cmocka_unit_test(test_replay_continues_after_rewinds),
         cmocka_unit_test(test_session_continues_after_the_end_of_a_replay),
+        cmocka_unit_test(test_replay_ends_with_its_archive_or_session),
         cmocka_unit_test(test_replay_computes_the_requested_frame),
         cmocka_unit_test(test_archive_is_intact),
         cmocka_unit_test(test_archive_has_versions_of_files),
@@ -332,6 +430,8 @@ TEST_GROUP(recording_replay) {
         cmocka_unit_test(test_memory_limit_holds_for_files),
         cmocka_unit_test(test_recording_in_real_time_is_replayed),
         cmocka_unit_test(test_reset_begins_again),
+        cmocka_unit_test(test_session_is_recorded_again),
+        cmocka_unit_test(test_second_recording_completes_the_first),
         cmocka_unit_test(test_create_keeps_other_files),
         cmocka_unit_test(test_host_functions_end_recording),
         cmocka_unit_test(test_functions_reject_missing_arguments),
