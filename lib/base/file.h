@@ -14,7 +14,7 @@
 bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
                Str *version, const char **problem) PRIVATE_API(file_read);
 // Calls read, and repeats it if interrupted by a signal.
-ssize_t file_read_some(int file, void *bytes, size_t len);
+ssize_t file_read_some(int file, void *bytes, size_t len) PRIVATE_API(file_read_some);
 // Reads exactly `len` bytes. Returns false if the file ends earlier, or with errno set on failure.
 bool file_read_bytes(int file, void *bytes, size_t len);
 // Reads `file` to its end and adds the bytes to `text`. Stops early once text->len exceeds max_len. On failure returns

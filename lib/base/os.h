@@ -4,6 +4,8 @@
 // POSIX.1-2008 alone. It has a substitute for each function, or fails with the error ENOTSUP.
 #pragma once
 
+#include "base/private_api.h"
+
 #include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -32,7 +34,7 @@ extern const int OS_SEARCH;
 int os_open_below(int folder, const char *path, int flags);
 // Takes an exclusive lock on an open file, which lasts until the file is closed. Fails with EWOULDBLOCK if another open
 // file holds the lock, with other errors if there are no such locks.
-bool os_lock(int file);
+bool os_lock(int file) PRIVATE_API(os_lock);
 // Writes a file or folder to disk.
 bool os_sync(int file);
 // Opens a new file without a name in a folder. On failure returns -1.

@@ -69,6 +69,7 @@ struct PetriArchive {
     // Writing
     PetriArchiveOptions options;
     bool writes;
+    int claim;             // descriptor that holds the lock of the file; -1: none
     bool needs_keyframe;   // the next frame does not follow from the last one
     bool in_frame;         // the frame after last_frame is being computed
     bool has_new_notes;    // there are notes since the last frame
@@ -102,7 +103,10 @@ bool archive_fails(const PetriArchive *archive);
 bool archive_fail_sqlite(PetriArchive *archive, int result);
 PetriArchive *archive_new(void);
 void archive_free(PetriArchive *archive);
+// Creates the database in the file that archive_claim_file has made.
 bool archive_create_database(PetriArchive *archive, const char *file);
+// Closes the database and releases the lock of the file.
+void archive_close_database(PetriArchive *archive);
 bool archive_open_database(PetriArchive *archive, const char *file);
 bool archive_execute(PetriArchive *archive, const char *sql);
 // Returns a statement, ready for binding. Returns NULL after a problem.
@@ -116,6 +120,10 @@ bool archive_bind_text(sqlite3_stmt *statement, int column, Str text);
 bool archive_column_integer(PetriArchive *archive, sqlite3_stmt *row, int column, int64_t min, int64_t max, int64_t *x);
 bool archive_column_text(PetriArchive *archive, sqlite3_stmt *row, int column, Str *text);
 bool archive_column_blob(PetriArchive *archive, sqlite3_stmt *row, int column, Str *bytes);
+
+// claim.c: creates the file of an archive that is written, or empties an existing archive, and locks it. The file is
+// archive->claim, which must stay open. Returns false after a problem.
+bool archive_claim_file(PetriArchive *archive, const char *name);
 
 // files.c: the versions of files.
 

@@ -2,6 +2,7 @@
 #include "base/heap.h"
 #include "recording/archive.h"
 
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -77,15 +78,27 @@ bool archive_fail_sqlite(PetriArchive *archive, int result) {
 
 PetriArchive *archive_new(void) {
     PetriArchive *archive = heap_calloc(1, sizeof *archive);
-    if (archive)
-        pthread_mutex_init(&archive->mutex, NULL);
+    if (!archive)
+        return NULL;
+    pthread_mutex_init(&archive->mutex, NULL);
+    archive->claim = -1;
     return archive;
 }
 
-void archive_free(PetriArchive *archive) {
-    for (int i = 0; i < SQL_COUNT; i++)
+void archive_close_database(PetriArchive *archive) {
+    for (int i = 0; i < SQL_COUNT; i++) {
         sqlite3_finalize(archive->statements[i]);
+        archive->statements[i] = NULL;
+    }
     sqlite3_close_v2(archive->database);
+    archive->database = NULL;
+    if (archive->claim >= 0)
+        close(archive->claim);
+    archive->claim = -1;
+}
+
+void archive_free(PetriArchive *archive) {
+    archive_close_database(archive);
     for (uint32_t i = 0; i < archive->file_count; i++) {
         heap_free(archive->files[i].name);
         heap_free(archive->files[i].bytes);
@@ -117,21 +130,9 @@ static void protect_connection(sqlite3 *database) {
 }
 
 bool archive_create_database(PetriArchive *archive, const char *file) {
-    // An existing file is kept unless it is an archive or empty.
-    if (access(file, F_OK) == 0) {
-        FILE *stream = fopen(file, "rb");
-        bool empty = stream && fgetc(stream) == EOF;
-        if (stream)
-            fclose(stream);
-        if (!empty && !petri_archive_is(file))
-            return archive_fail(archive, "the file exists and is not an archive");
-        unlink(file);
-    }
-    char journal[4096];
-    if (snprintf(journal, sizeof journal, "%s-journal", file) < (int)sizeof journal)
-        unlink(journal);
-    int result = sqlite3_open_v2(file, &archive->database,
-                                 SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX, NULL);
+    char path[PATH_MAX]; // with a folder, so that SQLite does not take a name such as 'file:x' for a URI
+    snprintf(path, sizeof path, "%s%s", file[0] == '/' ? "" : "./", file);
+    int result = sqlite3_open_v2(path, &archive->database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX, NULL);
     if (result != SQLITE_OK)
         return archive_fail_sqlite(archive, result);
     protect_connection(archive->database);

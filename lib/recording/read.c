@@ -179,7 +179,7 @@ bool petri_archive_keyframe(PetriArchive *archive, size_t number, PetriArchiveKe
 
 bool petri_archive_digest(PetriArchive *archive, int64_t frame, uint8_t digest[16]) {
     Str bytes;
-    if (!archive || !digest)
+    if (!archive || !digest || (archive->writes && !archive->session))
         return false;
     sqlite3_stmt *row = archive_statement(archive, SQL_DIGEST);
     if (row)

@@ -28,15 +28,19 @@ static int open_regular(const char *path) {
     return file;
 }
 
-bool petri_archive_is(const char *file) {
+bool archive_has_header(int file) {
     static const char magic[] = "SQLite format 3";
     enum { ID_AT = 68 }; // position of the application id in the header of a database
     unsigned char header[ID_AT + 4];
+    const unsigned char *id = header + ID_AT;
+    return pread(file, header, sizeof header, 0) == sizeof header && memcmp(header, magic, sizeof magic) == 0 &&
+           ((uint32_t)id[0] << 24 | (uint32_t)id[1] << 16 | (uint32_t)id[2] << 8 | id[3]) == ARCHIVE_APPLICATION_ID;
+}
+
+bool petri_archive_is(const char *file) {
     int opened = open_regular(file);
-    ssize_t length = opened < 0 ? 0 : read(opened, header, sizeof header);
+    bool known = opened >= 0 && archive_has_header(opened);
     if (opened >= 0)
         close(opened);
-    const unsigned char *id = header + ID_AT;
-    return length == sizeof header && memcmp(header, magic, sizeof magic) == 0 &&
-           ((uint32_t)id[0] << 24 | (uint32_t)id[1] << 16 | (uint32_t)id[2] << 8 | id[3]) == ARCHIVE_APPLICATION_ID;
+    return known;
 }

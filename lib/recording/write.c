@@ -308,6 +308,7 @@ static void on_end(void *user_data) {
     PetriArchive *archive = user_data;
     complete(archive);
     archive->session = NULL;
+    archive_close_database(archive); // the file can be recorded again
 }
 
 PetriArchive *petri_archive_create(PetriSession *session, const char *file, const PetriArchiveOptions *options) {
@@ -325,7 +326,7 @@ PetriArchive *petri_archive_create(PetriSession *session, const char *file, cons
     const char *command = archive->options.command;
     archive->strings[0] = command ? heap_strndup(command, strlen(command)) : NULL;
     archive->options.command = archive->strings[0];
-    if (!archive_fails(archive))
+    if (!archive_fails(archive) && archive_claim_file(archive, file))
         archive_create_database(archive, file);
     archive->last_frame_end = archive->last_commit = clock_seconds();
     archive->revision = UINT64_MAX;

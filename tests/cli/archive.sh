@@ -212,6 +212,62 @@ END
         done
     fi
 
+    # Names that are not those of new files or of archives
+    mkdir names
+    mkfifo names/pipe
+    ln -s ../film.petri names/link
+    ln -s missing.petri names/dangling
+    echo text >names/mine.petri-journal
+    echo text >names/other.petri-wal
+    find names | sort >before
+    for name in '' - : :memory: names/ names names/pipe names/link names/dangling names/mine.petri names/other.petri; do
+        cp film.petri kept
+        timeout -s KILL 60 "$petri" run film.fl --frames 3 --archive "$name" >out 2>err
+        status=$?
+        check "no archive is written to '$name'" eval 'status_is 1 && has err "cannot write the archive" && empty out'
+    done
+    find names | sort >after
+    check "refused archives write no files" eval 'cmp -s before after && cmp -s film.petri kept && [ ! -e - ] && [ ! -e :memory: ]'
+    # shellcheck disable=SC2016
+    device='mount -t tmpfs none names && mknod names/null c 1 3 && "$1" run film.fl --frames 3 --archive names/null; [ -c names/null ]'
+    if unshare -m true 2>/dev/null; then
+        unshare -m sh -c "$device" - "$petri" >out 2>err
+        status=$?
+        check "devices are not removed" eval 'status_is 0 && has err "not a regular file"'
+    fi
+    : >empty.petri
+    chmod 600 empty.petri
+    petri run film.fl --frames 3 --archive empty.petri
+    check "an empty file becomes an archive with its permissions" eval 'status_is 0 && ls -l empty.petri | grep -q ^-rw-------'
+    ln film.petri hard.petri
+    petri run film.fl --frames 3 --archive file:hard.petri
+    check "a name with a colon is that of a file" eval 'status_is 0 && [ -e file:hard.petri ]'
+    petri run film.fl --frames 3 --archive hard.petri
+    check "another name of a replaced archive keeps its contents" eval 'status_is 0 && cmp -s film.petri kept'
+
+    # Two recordings of one file
+    "$petri" run film.fl --realtime --frames 60 --archive busy.petri >first 2>&1 &
+    pid=$!
+    while [ ! -s busy.petri ] && kill -0 $pid; do
+        sleep 0.05
+    done
+    petri run film.fl --frames 3 --archive busy.petri
+    check "a second recording says who holds the archive" eval \
+        'status_is 1 && has err "in use by another petri process" && { [ "$(uname)" != Linux ] || has err "($pid)"; }'
+    wait $pid
+    check "the first recording succeeds" [ $? -eq 0 ]
+    petri verify busy.petri
+    check "the first recording is complete" eval 'status_is 0 && has out "verified: 60 of 60 frames"'
+    for round in new old; do
+        for i in 1 2 3 4 5 6; do
+            ("$petri" run film.fl --frames "$((100 * i))" --archive race.petri >/dev/null 2>&1 && echo "$((100 * i))" >>won) &
+        done
+        wait
+        petri verify race.petri
+        check "of six recordings of a $round archive, the last that is not refused is complete" eval \
+            'status_is 0 && [ -s won ] && has out "verified: $(tail -n 1 won) of"'
+    done
+
     # Killed runs: at most one second of frames is lost.
     for delay in 0.3 0.9 1.4 2.1; do
         rm -f killed.petri

@@ -796,6 +796,18 @@ class Archives(unittest.TestCase):
             for name, frames in ("1.petri", range(0, 5)), ("2.petri", range(5, 9)), ("3.petri", range(9, 12)):
                 self.assertEqual(list(petri.Archive(folder / name).verify()), list(frames))
 
+    def test_names_are_those_of_files(self):
+        self.record(1)
+        session = petri.Session(DISH, given={"pushed": 0})
+        for name in "\0", f"{self.path}\0x":
+            with self.assertRaisesRegex(ValueError, "null character"):
+                session.archive(name)
+            with self.assertRaisesRegex(ValueError, "null character"):
+                petri.Archive(name)
+        for name in "", ":memory:", "-", "x/":
+            with self.assertRaises(petri.ArchiveError):
+                session.archive(name)
+
     def test_functions_of_python_cannot_be_recorded(self):
         session = petri.Session("let a=f(1)\n", functions={"f": lambda x: x})
         try:

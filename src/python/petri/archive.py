@@ -37,6 +37,14 @@ def _text(pointer: Any) -> str:
     return ffi.string(pointer).decode("utf-8", "replace")
 
 
+def _file_name(path: Union[str, os.PathLike]) -> bytes:
+    """Returns the name of a file for C, where a NUL character would end it."""
+    name = os.fsencode(path)
+    if b"\0" in name:
+        raise ValueError("embedded null character in the name of a file")
+    return name
+
+
 def _take(pointer: Any, session: Any = None) -> Any:
     """Returns the handle of an archive, which is closed before `session`."""
     if not pointer:
@@ -59,7 +67,7 @@ class Recording:
         lib.petri_archive_options_init(options, ffi.sizeof(options[0]))
         options.keyframe_every = keyframe_every
         options.digest_every = digest_every
-        self._c = _take(create(session, os.fsencode(path), options), session)
+        self._c = _take(create(session, _file_name(path), options), session)
         _check(self._c)
 
     def note(self, text: str) -> None:
@@ -84,7 +92,7 @@ class Archive:
     """An archive of a run: `petri.Archive("run.petri").session(100)` is a session in frame 100 of it."""
 
     def __init__(self, path: Union[str, os.PathLike], memory_limit: int = 0):
-        self._c = _take(lib.petri_archive_open(os.fsencode(path), memory_limit))
+        self._c = _take(lib.petri_archive_open(_file_name(path), memory_limit))
         _check(self._c)
 
     @property

@@ -11,7 +11,7 @@ from typing import Any, Callable, Iterator, List, Mapping, NamedTuple, Optional,
 
 from . import films, trajectories, values
 from ._petri import ffi, lib
-from .archive import Recording, _check
+from .archive import Recording, _check, _file_name
 from .errors import Diagnostic, ScriptError, finish
 from .functions import Functions
 from .parameters import Parameters
@@ -108,7 +108,7 @@ class Session:
             data = source.encode()
             self._call(lib.petri_load_text, b"<string>", data, len(data))
         else:
-            self._call(lib.petri_load, os.fsencode(source))
+            self._call(lib.petri_load, _file_name(source))
 
     def _prepare(self, options: Optional[Options], archive: Any = None) -> None:
         """Opens a session without a script, for the files of an archive if there is one."""
@@ -278,20 +278,20 @@ class Session:
 
     def save(self, file: Union[str, os.PathLike]) -> None:
         """Writes the state to a file, for restore."""
-        self._call(lib.petri_save, os.fsencode(file))
+        self._call(lib.petri_save, _file_name(file))
 
     def restore(self, file: Union[str, os.PathLike]) -> None:
         """Resumes from a saved state. The following frames are bit-identical to those of an uninterrupted run."""
         if not os.path.exists(file):
             raise FileNotFoundError(file)
-        self._call(lib.petri_restore, os.fsencode(file))
+        self._call(lib.petri_restore, _file_name(file))
 
     def reload(self) -> None:
         """Loads the script again after a change of its file. State, frame number and clocks continue."""
         source = self._made_of.get("source", "\n")
         if isinstance(source, str) and "\n" in source:
             raise ValueError("the script is not a file")
-        self._call(lib.petri_reload, os.fsencode(source))
+        self._call(lib.petri_reload, _file_name(source))
 
     def reset(self) -> None:
         """Clears the state. The next frame is frame 0."""

@@ -355,15 +355,40 @@ static void test_create_keeps_other_files(void **state) {
     PetriArchive *archive = petri_archive_create(session, "notes.txt", NULL);
     assert_non_null(strstr(petri_archive_problem(archive), "not an archive"));
     petri_archive_close(&archive);
-    archive = petri_archive_create(session, "missing/run.petri", NULL);
-    assert_non_null(petri_archive_problem(archive));
-    petri_archive_close(&archive);
+    static const char *const names[] = {"missing/run.petri", "", ".", "-", ":memory:", "new/", "/dev/null"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (i == 6 && geteuid() == 0)
+            continue; // a fault would remove the device
+        archive = petri_archive_create(session, names[i], NULL);
+        if (!petri_archive_problem(archive))
+            fail_msg("'%s' was accepted", names[i]);
+        petri_archive_close(&archive);
+    }
     petri_close(&session);
     char text[16] = "";
     FILE *stream = fopen("notes.txt", "r");
     assert_non_null(fgets(text, sizeof text, stream));
     fclose(stream);
     assert_string_equal(text, "important\n");
+}
+
+static void test_two_recordings_of_one_file(void **state) {
+    (void)state;
+    PetriSession *session = run_open_session(), *other = run_open_session();
+    assert_int_equal(petri_load_text(session, "a.fl", "!counter state=:a rate=1\n", PETRI_NUL_TERMINATED), PETRI_OK);
+    PetriArchive *archive = start(session, "shared.petri", 3);
+    PetriArchive *second = petri_archive_create(other, "./shared.petri", NULL);
+    assert_non_null(strstr(petri_archive_problem(second), "in use by another recording"));
+    petri_archive_close(&second);
+    assert_int_equal(petri_step(session), PETRI_OK);
+    assert_int_equal(petri_archive_complete(archive), PETRI_OK);
+    petri_archive_close(&archive);
+    check_recording("shared.petri", 0, 3);
+    archive = start(session, "shared.petri", 1); // replaces it
+    petri_archive_close(&archive);
+    check_recording("shared.petri", 4, 4);
+    petri_close(&other);
+    petri_close(&session);
 }
 
 static PetriValue call_nothing(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count) {
@@ -433,6 +458,7 @@ TEST_GROUP(recording_replay) {
         cmocka_unit_test(test_session_is_recorded_again),
         cmocka_unit_test(test_second_recording_completes_the_first),
         cmocka_unit_test(test_create_keeps_other_files),
+        cmocka_unit_test(test_two_recordings_of_one_file),
         cmocka_unit_test(test_host_functions_end_recording),
         cmocka_unit_test(test_functions_reject_missing_arguments),
     };
