@@ -369,8 +369,10 @@ PETRI_API PetriValue petri_state_get(PetriSession *session, PetriValue key);
 // number in the value is not finite, if the key contains NaN, or if called within a callback.
 PETRI_API PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value);
 
-// Iterates over the state dictionary in the order in which the keys were added. Set *cursor to 0 before the first call.
-// Returns false after the last entry. Keys and values are valid as long as the results of petri_state_get.
+// Iterates over the state dictionary. Keys are ordered element by element: numbers, including symbols, come before
+// strings; -0 comes before 0; strings are compared by their bytes; a prefix comes first. Set *cursor to 0 before the
+// first call. Returns false after the last entry, or if out of memory. Keys and values are valid as long as the results
+// of petri_state_get.
 PETRI_API bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
 
 // Sets the value of a global name, which scripts read like any other name. The first call with a name adds the name for

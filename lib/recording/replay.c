@@ -202,7 +202,7 @@ bool petri_archive_keyframe_differs(PetriArchive *archive) {
     bool last = keyframe == &archive->keyframes[archive->keyframe_count - 1];
     bool same = recorder_write_setup(session, &setup) == PETRI_OK &&
                 recorder_write_state(session, &state) == PETRI_OK && (last || str_equal(setup, texts.setup_text)) &&
-                str_equal(state, texts.state_text);
+                recorder_states_equal(state, texts.state_text);
     free_keyframe(&texts);
     return !same;
 }

@@ -19,33 +19,43 @@ static double scene_number(const State *state, StateSlot slot, double default_va
     return value_is_number(v) && isfinite(v.as.number) ? v.as.number : default_value;
 }
 
-// Returns a system with this prefix that has not been updated in this frame, or NULL. Sets *occurrence to the number of
-// systems with this prefix that have already been updated.
-static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence, Arena *arena) {
-    PhysicsSystem *expected = scene->next_expected; // the next system in the order of the last frame
+// Returns the link to the first system with this prefix that has not been updated in this frame, or NULL. Sets
+// *occurrence to the number of systems with this prefix that have already been updated.
+static PhysicsSystem **known_system(Scene *scene, StateSlot start, uint32_t *occurrence, Arena *arena) {
+    PhysicsSystem *expected = *scene->next_place; // the next system in the order of the last frame
     *occurrence = 0;
-    if (expected && expected->start == start && expected->occurrence == 0 &&
-        expected->last_frame != scene->frame_number)
-        return expected;
-    for (PhysicsSystem *system = scene->systems; system; system = system->next) {
+    if (expected && expected->start == start && expected->occurrence == 0)
+        return scene->next_place;
+    for (PhysicsSystem **link = &scene->systems; *link; link = &(*link)->next) {
         arena_charge(arena, 4); // more than 1 unit, because systems are not contiguous in memory
-        if (system->start != start)
+        if ((*link)->start != start)
             continue;
-        if (system->last_frame != scene->frame_number)
-            return system;
+        if ((*link)->last_frame != scene->frame_number)
+            return link;
         ++*occurrence;
     }
     return NULL;
+}
+
+// Moves the system at a link, which known_system has returned, to its place in the order of the tree.
+static PhysicsSystem *place_system(Scene *scene, PhysicsSystem **link) {
+    PhysicsSystem *system = *link;
+    if (link != scene->next_place) {
+        *link = system->next;
+        system->next = *scene->next_place;
+        *scene->next_place = system;
+    }
+    scene->next_place = &system->next;
+    return system;
 }
 
 static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurrence, const SceneFrame *frame) {
     PhysicsSystem *system = budget_reserve(scene->budget, PHYSICS_SYSTEM_BYTES) ? heap_calloc(1, sizeof *system) : NULL;
     if (!system)
         return NULL;
-    *scene->systems_end = system;
-    scene->systems_end = &system->next;
     Value prefix = state_slot_key(frame->state, start);
     *system = (PhysicsSystem){
+        .next = *scene->next_place,
         .start = start,
         .occurrence = occurrence,
         .last_frame = scene->frame_number - 1,
@@ -56,6 +66,8 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
         .engine = phys_new(),
         .budget = scene->budget,
     };
+    *scene->next_place = system;
+    scene->next_place = &system->next;
     if (system->engine)
         phys_set_options(system->engine, &scene->physics);
     return system;
@@ -75,22 +87,20 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
     if (start == STATE_NO_SLOT)
         return NULL;
     uint32_t occurrence;
-    PhysicsSystem *system = known_system(scene, start, &occurrence, frame->arena);
-    if (!system)
+    PhysicsSystem **known = known_system(scene, start, &occurrence, frame->arena);
+    if (!known)
         return new_system(scene, start, occurrence, frame);
-    scene->next_expected = system->next;
+    PhysicsSystem *system = place_system(scene, known);
     detach_if_absent(scene, system, frame->state);
     return system;
 }
 
 bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *saved) {
     const PhysicsSystem *system = *cursor ? ((const PhysicsSystem *)*cursor)->next : scene->systems;
-    if (!system)
-        return false;
+    if (!system || system->last_frame != scene->frame_number)
+        return false; // the others are absent from the last tree
     *cursor = system;
-    bool absent = system->last_frame != scene->frame_number; // an absent system has no last tree
-    *saved =
-        (SceneSystem){system->start, system->occurrence, system->mirror.slots, absent ? 0 : system->mirror.slot_count};
+    *saved = (SceneSystem){system->start, system->occurrence, system->mirror.slots, system->mirror.slot_count};
     return true;
 }
 
@@ -245,15 +255,13 @@ static uint64_t update_system(Scene *scene, PhysicsSystem *system, const Reader 
     return steps;
 }
 
-// Marks a skipped system as present, so that its list of particles is retained.
+// Marks a skipped system as present, so that its list of particles is retained. A system that was absent has none.
 static void retain_skipped(Scene *scene, Value prefix, const SceneFrame *frame) {
     uint32_t occurrence;
     StateSlot start = state_find(frame->state, prefix);
-    PhysicsSystem *system = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence, frame->arena);
-    if (!system)
-        return;
-    detach_if_absent(scene, system, frame->state);
-    system->last_frame = scene->frame_number;
+    PhysicsSystem **known = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence, frame->arena);
+    if (known && (*known)->last_frame + 1 == scene->frame_number)
+        place_system(scene, known)->last_frame = scene->frame_number;
 }
 
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame) {

@@ -14,7 +14,7 @@ Scene *scene_new(Arena *arena, Schema *schema) {
     physics_read_defaults(scene);
     input_init(&scene->input, symbols);
     scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detected.level, .budget = scene->budget};
-    scene->systems_end = &scene->systems;
+    scene->next_place = &scene->systems;
     scene->key_run = symbol_register(symbols, STR("run"));
     scene->key_iteration = symbol_register(symbols, STR("iteration"));
     scene->key_clock = symbol_register(symbols, STR("clock"));
@@ -64,15 +64,10 @@ void scene_free_systems(PhysicsSystem *systems) {
     }
 }
 
-static void find_end(Scene *scene) {
-    for (scene->systems_end = &scene->systems; *scene->systems_end;)
-        scene->systems_end = &(*scene->systems_end)->next;
-}
-
 PhysicsSystem *scene_detach_systems(Scene *scene) {
     PhysicsSystem *systems = scene->systems;
-    scene->systems = scene->next_expected = scene->viewed = NULL;
-    scene->systems_end = &scene->systems;
+    scene->systems = scene->viewed = NULL;
+    scene->next_place = &scene->systems;
     scene->marked_system = NULL;
     return systems;
 }
@@ -80,7 +75,6 @@ PhysicsSystem *scene_detach_systems(Scene *scene) {
 void scene_attach_systems(Scene *scene, PhysicsSystem *systems) {
     scene_reset(scene);
     scene->systems = systems;
-    find_end(scene);
 }
 
 void scene_reset(Scene *scene) {
@@ -170,8 +164,7 @@ static void free_absent(Scene *scene, const SceneFrame *frame) {
         free_system(system);
         scene->marked_system = NULL;
     }
-    scene->systems_end = link;
-    scene->next_expected = scene->systems;
+    scene->next_place = &scene->systems;
     scene->viewed = NULL;
 }
 

@@ -45,7 +45,8 @@ typedef struct SceneSystem {
     const StateSlot *slots;
     uint32_t slot_count;
 } SceneSystem;
-// Iterates over the systems. *cursor starts as NULL. Returns false at the end.
+// Iterates over the systems of the last update, in the order of its tree. *cursor starts as NULL. Returns false at the
+// end. Absent systems have nothing to save: if they reappear, they start with the values in the state.
 bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *system);
 // Restores a system from scene_next_system. Returns false if out of memory.
 bool scene_restore_system(Scene *scene, const SceneSystem *system, const SceneFrame *frame);

@@ -64,10 +64,11 @@ struct Scene {
     BudgetOutcome stopped; // why the last update was stopped; BUDGET_OK: it was not
     Budget *budget;
     Input input;
+    // All systems: first those that were updated in this frame, in the order of the tree, then the others. So the order
+    // of the systems of the last frame depends only on its tree.
     PhysicsSystem *systems;
-    PhysicsSystem **systems_end;  // link where the next system is added
-    PhysicsSystem *next_expected; // system that the next node probably drives, or NULL
-    PhysicsSystem *viewed;        // system that scene_view found last, or NULL
+    PhysicsSystem **next_place; // link after the systems that were updated in this frame
+    PhysicsSystem *viewed;      // system that scene_view found last, or NULL
     size_t viewed_number;
     uint64_t frame_number;
     bool origins_valid; // false: the nodes of the last update may have been freed

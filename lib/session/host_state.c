@@ -74,15 +74,15 @@ PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue va
 bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value) {
     if (!session || !cursor || !key || !value || (session->rollback_pending && !session_rollback(session)))
         return false;
-    const State *state = session->state;
-    while (*cursor < state_slot_count(state) && state_slot_get(state, *cursor).len == 0)
-        ++*cursor;
-    if (*cursor >= state_slot_count(state))
+    State *state = session->state;
+    StateSlot slot = state_next_slot(state, cursor);
+    if (slot == STATE_NO_SLOT) {
+        state_clear_exhausted(state); // must not abort the next frame
         return false;
+    }
     Value buffer;
-    *key = session_export_value(state_slot_key_at(state, *cursor, &buffer));
-    *value = session_export_value(state_slot_at(state, *cursor, &buffer));
-    ++*cursor;
+    *key = session_export_value(state_slot_key_at(state, slot, &buffer));
+    *value = session_export_value(state_slot_at(state, slot, &buffer));
     return true;
 }
 

@@ -21,12 +21,13 @@ static void print_tree(TextSink *out, PetriSession *session) {
 
 static void print_state(TextSink *out, PetriSession *session) {
     const State *state = session->state;
-    uint32_t count = 0, capacity = state_count(state), cursor = 0;
+    uint32_t count = 0, capacity = state_count(state);
     StateSlot *slots = arena_alloc_array(&session->text_arena, capacity, sizeof *slots);
     StateSlot *scratch = arena_alloc_array(&session->text_arena, capacity, sizeof *scratch);
     double numbers[STATE_KEY_BUFFER];
-    for (Value key, value; count < capacity && state_next(state, &cursor, &key, &value, numbers); count++)
-        slots[count] = cursor - 1;
+    for (StateSlot slot = 0; count < capacity && slot < state_slot_count(state); slot++)
+        if (state_slot_get(state, slot).len > 0)
+            slots[count++] = slot;
     state_sort_slots(state, &session->symbols, slots, scratch, count);
     for (uint32_t i = 0; i < count && !out->stopped; i++) {
         Value key = state_slot_key_in(state, slots[i], numbers);

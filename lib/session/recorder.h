@@ -65,6 +65,9 @@ const char *recorder_script_name(const PetriSession *session) PRIVATE_API(record
 // Loads a keyframe into a session that has no script yet, or that has replayed earlier frames of the same recording.
 // Returns PETRI_INVALID if the texts are not valid, or after a diagnostic.
 PetriStatus recorder_restore(PetriSession *session, Str setup, Str state) PRIVATE_API(recorder_restore);
+// Returns true if two texts of states contain the same entries and systems with particles, in any order: the order can
+// differ if other versions of petri wrote them. Returns false if out of memory.
+bool recorder_states_equal(Str one, Str other) PRIVATE_API(recorder_states_equal);
 // Gives an input to the session. Kinds are "configuration", "pointer", "key", "state" and "global". Returns
 // PETRI_INVALID for the same reasons as recorder_restore.
 PetriStatus recorder_apply_input(PetriSession *session, Str kind, Str payload) PRIVATE_API(recorder_apply_input);

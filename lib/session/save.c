@@ -33,15 +33,20 @@ static void add_key(Text *out, const PetriSession *session, Value key) {
     text_add_char(out, ')');
 }
 
+// Adds the entries in canonical order (spec digest.md 2), so that equal states have equal files.
 static void add_entries(Text *out, const PetriSession *session) {
     uint32_t cursor = 0;
     double buffer[STATE_KEY_BUFFER];
+    if (state_digest_is_stale(session->state))
+        arena_charge(out->arena, state_slot_count(session->state));
     for (Value key, value; state_next(session->state, &cursor, &key, &value, buffer);) {
         add_key(out, session, key);
         text_add_c(out, " = ");
         format_value(out, &session->symbols, value);
         text_add_char(out, '\n');
     }
+    if (state_clear_exhausted(session->state))
+        arena_exhausted(out->arena);
 }
 
 static void add_systems(Text *out, const PetriSession *session) {

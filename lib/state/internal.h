@@ -44,9 +44,11 @@ typedef struct DigestChunk {
 
 // Cached data of digests (digest.c).
 typedef struct Digest {
-    SlotRuns order;   // slots 0 to ordered - 1, with or without values, in canonical order of keys (order.c)
-    uint32_t ordered; // number of slots in `order`
-    bool current;     // true if the following fields, except the digests of the chunks, are valid
+    SlotRuns order;         // slots 0 to ordered - 1, with or without values, in canonical order of keys (order.c)
+    uint32_t ordered;       // number of slots in `order`
+    uint32_t last_run;      // index of the run in which state_next_slot found its last slot
+    uint32_t last_position; // number of slots in the runs before it
+    bool current;           // true if the following fields, except the digests of the chunks, are valid
     uint8_t shape[STATE_DIGEST_SIZE];
     uint64_t numbers; // number of numbers in all values
     DigestChunk *chunks;

@@ -1,4 +1,4 @@
-// order.c: sorting of slots, and the canonical order of all slots (spec digest.md 2) as a list of runs.
+// order.c: sorting of slots, the canonical order of all slots (spec digest.md 2) as a list of runs, and iteration.
 //
 // A key range is one run, because its keys count up. Other slots are sorted and joined to runs. Lists are merged run by
 // run. So ordering consecutive particle ids takes little time and memory, however many there are.
@@ -167,6 +167,7 @@ bool state_update_order(State *state) {
         budget_release(state->budget, bytes);
     heap_free(slots);
     digest->ordered = state->count;
+    digest->last_run = digest->last_position = 0;
     digest->current = false;
     if (!done) {
         state->exhausted = true;
@@ -177,5 +178,37 @@ bool state_update_order(State *state) {
 
 void state_forget_order(State *state) {
     state->digest.order.count = state->digest.ordered = 0;
+    state->digest.last_run = state->digest.last_position = 0;
     state->digest.current = false;
+}
+
+// Returns the slot at a position of the canonical order. Starts at the run of the last call, because callers iterate.
+static StateSlot slot_at(Digest *digest, uint32_t position) {
+    const SlotRun *run = &digest->order.items[digest->last_run];
+    while (position < digest->last_position)
+        digest->last_position -= (--run)->count;
+    while (position - digest->last_position >= run->count)
+        digest->last_position += (run++)->count;
+    digest->last_run = (uint32_t)(run - digest->order.items);
+    return run->first + (position - digest->last_position);
+}
+
+StateSlot state_next_slot(State *state, uint32_t *cursor) {
+    if (!state_update_order(state))
+        return STATE_NO_SLOT;
+    while (*cursor < state->count) {
+        StateSlot slot = slot_at(&state->digest, (*cursor)++);
+        if (state_slot_get(state, slot).len > 0)
+            return slot;
+    }
+    return STATE_NO_SLOT;
+}
+
+bool state_next(State *state, uint32_t *cursor, Value *key, Value *value, double buffer[STATE_KEY_BUFFER]) {
+    StateSlot slot = state_next_slot(state, cursor);
+    if (slot == STATE_NO_SLOT)
+        return false;
+    *key = state_slot_key_in(state, slot, buffer);
+    *value = state_slot_get(state, slot);
+    return true;
 }

@@ -496,18 +496,6 @@ uint32_t state_slot_count(const State *state) {
     return state->count;
 }
 
-bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double buffer[STATE_KEY_BUFFER]) {
-    while (*cursor < state->count) {
-        StateSlot slot = (*cursor)++;
-        *value = state_slot_get(state, slot);
-        if (value->len > 0) {
-            *key = state_slot_key_in(state, slot, buffer);
-            return true;
-        }
-    }
-    return false;
-}
-
 uint32_t state_count(const State *state) {
     return state->live;
 }

@@ -1,8 +1,9 @@
 // state.h: the state dictionary (spec language.md L11).
 //
 // Maps key vectors to non-null vectors for the lifetime of the session. Scripts only read it; physics systems and other
-// parts of the engine write it between evaluations. Entries keep the order in which their slots were created. A slot is
-// a stable number, so a system looks up a key once and then accesses the slot without hashing.
+// parts of the engine write it between evaluations. A slot is a stable number, so a system looks up a key once and then
+// accesses the slot without hashing. Slots are numbered as they are created, which depends on the history of the
+// session. So nothing that a user sees or stores may depend on slot numbers: entries are listed in canonical order.
 #pragma once
 
 #include "value/value.h"
@@ -74,9 +75,12 @@ uint32_t state_slot_count(const State *state);
 // it is removed. Returns false, with nothing changed, if out of memory.
 bool state_compact(State *state, const uint8_t *used, StateSlot *moved);
 
-// Iterates over the entries with a value in slot order. *cursor starts at 0. Returns false at the end. The key is valid
-// as long as `buffer`.
-bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double buffer[STATE_KEY_BUFFER]);
+// Iterates over the entries with a value in canonical order of keys (spec digest.md 2), which depends only on the keys.
+// *cursor starts at 0, and is valid until a slot is created or until state_clear or state_compact. Returns
+// STATE_NO_SLOT at the end, or if out of memory (state_clear_exhausted).
+StateSlot state_next_slot(State *state, uint32_t *cursor);
+// Like state_next_slot, but returns the key and the value, and false at the end. The key is valid as long as `buffer`.
+bool state_next(State *state, uint32_t *cursor, Value *key, Value *value, double buffer[STATE_KEY_BUFFER]);
 // Returns the number of entries with a value.
 uint32_t state_count(const State *state);
 

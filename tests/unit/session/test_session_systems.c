@@ -38,6 +38,25 @@ static void test_systems(void **state) {
     assert_false(petri_system(player->session, 0, &system, sizeof system));
 }
 
+// Systems are in the order of the script, also if they appear later, change their places or return.
+static void test_systems_are_in_the_order_of_the_script(void **state) {
+    static const char *const script = "for name in (:a;:b;:c) if frame == 0 else (:c;:a) if frame == 1 else "
+                                      "(:d;:b;:a) if frame == 2 else (:b;:c;:b;:d;:a)\n"
+                                      "    !physics state=name dimensions=1\n"
+                                      "        !particle id=1\n";
+    static const char *const expected[] = {":a:b:c", ":c:a", ":d:b:a", ":b:c:b:d:a", ":b:c:b:d:a"};
+    Player *player = *state;
+    assert_int_equal(player_load(player, script), PETRI_OK);
+    for (size_t frame = 0; frame < COUNT_OF(expected); frame++) {
+        char names[100] = "";
+        PetriSystem system;
+        player_step(player, 1);
+        for (size_t i = 0; petri_system(player->session, i, &system, sizeof system); i++)
+            strcat(names, system.name);
+        assert_text(expected[frame], names, expected[frame]);
+    }
+}
+
 static PetriSystem system_of(Player *player, size_t number) {
     PetriSystem system;
     assert_true(petri_system(player->session, number, &system, sizeof system));
@@ -341,6 +360,7 @@ static void test_aborted_explanation(void **state) {
 TEST_GROUP(session_systems) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_systems),
+        PLAYER_TEST(test_systems_are_in_the_order_of_the_script),
         PLAYER_TEST(test_particles),
         PLAYER_TEST(test_forces_of_vector_kernels),
         PLAYER_TEST(test_forces_only_after_a_step),

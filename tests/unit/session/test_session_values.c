@@ -74,7 +74,7 @@ static void test_iteration(void **state) {
         strcat(strcat(all, text(player, key)), "=");
         strcat(strcat(all, text(player, value)), " ");
     }
-    assert_string_equal(all, ":p=0 :p;:run=0 :p;:iteration=1 :p;:clock=1 :p;:last=1 :p;1=3;4 :p;1;:velocity=0;0 ");
+    assert_string_equal(all, ":p=0 :p;:iteration=1 :p;:clock=1 :p;:run=0 :p;:last=1 :p;1=3;4 :p;1;:velocity=0;0 ");
 }
 
 // A particle continues from a position that the host has set.
