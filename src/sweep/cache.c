@@ -2,16 +2,19 @@
 #include "sweep/cache.h"
 
 #include "base/file.h"
+#include "base/replace.h"
 #include "base/source.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-enum { KEY_PREFIX = 2, MAX_ENTRY_BYTES = 1 << 30 };
+enum { KEY_PREFIX = 2, MAX_ENTRY_BYTES = 256 << 20 };
 
 static bool make_folder(const char *path) {
     return mkdir(path, 0777) == 0 || errno == EEXIST;
@@ -40,13 +43,20 @@ void cache_key(const Sweep *sweep, size_t run, char key[SHA256_DIGITS + 1]) {
     key[SHA256_DIGITS] = '\0';
 }
 
-static void add_folder(const Sweep *sweep, const char *key, Text *path) {
-    text_add_format(path, "%s/%.*s", sweep->options->cache, KEY_PREFIX, key);
-}
-
-static void add_path(const Sweep *sweep, const char *key, Text *path) {
-    add_folder(sweep, key, path);
-    text_add_format(path, "/%s", key);
+// Opens the folder of an entry. `create`: if it does not exist, it is created. Does not follow a symbolic link, because
+// the cache can be from someone else. Returns -1 with errno set on failure.
+static int open_folder(const Sweep *sweep, const char *key, bool create) {
+    char name[KEY_PREFIX + 1] = "";
+    memcpy(name, key, KEY_PREFIX);
+    int cache = file_open_at(AT_FDCWD, sweep->options->cache, O_RDONLY | O_DIRECTORY, 0), folder = -1;
+    if (cache < 0)
+        return -1;
+    if (!create || mkdirat(cache, name, 0777) == 0 || errno == EEXIST)
+        folder = file_open_at(cache, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW, 0);
+    int error = errno;
+    close(cache);
+    errno = error;
+    return folder;
 }
 
 static void add_head(const char *key, Text *text) {
@@ -105,12 +115,17 @@ static CacheAnswer read_entry(const Sweep *sweep, const char *key, KnownHashes *
 }
 
 CacheAnswer cache_find(const Sweep *sweep, const char *key, KnownHashes *known, CacheEntry *entry) {
-    SCOPED_TEXT path = {0}, text = {0};
-    add_path(sweep, key, &path);
+    SCOPED_TEXT text = {0};
     *entry = (CacheEntry){0};
-    if (!file_exists(path.bytes))
+    int folder = open_folder(sweep, key, false);
+    int file = folder < 0 ? -1 : file_open_at(folder, key, O_RDONLY | O_NOFOLLOW | O_NONBLOCK, 0);
+    bool missing = file < 0 && errno == ENOENT;
+    if (folder >= 0)
+        close(folder);
+    if (missing)
         return CACHE_MISSING;
-    CacheAnswer answer = text_read_file(&text, path.bytes, MAX_ENTRY_BYTES) || !remove_checksum(&text)
+    known->hashed = 0;
+    CacheAnswer answer = text_read_regular(&text, file, MAX_ENTRY_BYTES) || !remove_checksum(&text)
                              ? CACHE_DAMAGED
                              : read_entry(sweep, key, known, &text, entry);
     if (answer != CACHE_FOUND)
@@ -118,19 +133,31 @@ CacheAnswer cache_find(const Sweep *sweep, const char *key, KnownHashes *known, 
     return answer;
 }
 
+// Returns why an entry cannot be written, from errno. The folder of the entry is open or, if `folder` < 0, is not.
+static const char *write_problem(int folder) {
+    if (folder < 0 && (errno == ELOOP || errno == ENOTDIR))
+        return "one of its folders is a file or a symbolic link";
+    if (folder >= 0 && errno == ELOOP)
+        return "one of its entries is a symbolic link";
+    return folder >= 0 && (errno == ENXIO || errno == EISDIR) ? "one of its entries is not a regular file"
+                                                              : strerror(errno);
+}
+
 const char *cache_store(const Sweep *sweep, const char *key, const ReadFiles *files, const CacheEntry *entry) {
-    SCOPED_TEXT folder = {0}, path = {0}, text = {0};
+    SCOPED_TEXT text = {0};
+    Replacement replacement;
     add_head(key, &text);
     if (files->changed || !read_files_write(files, &text))
         return NULL;
     text_add_format(&text, "frames %" PRId64 "\ndigest %s\nrows %zu\n", entry->frames, entry->digest, entry->rows.len);
     text_add(&text, (Str){entry->rows.bytes, entry->rows.len});
     add_checksum(&text);
-    add_folder(sweep, key, &folder);
-    add_path(sweep, key, &path);
-    if (!make_folder(folder.bytes))
-        return strerror(errno);
-    return file_replace(path.bytes, (Str){text.bytes, text.len}, 0);
+    if (text.len > MAX_ENTRY_BYTES)
+        return "a result has more than 256 MiB";
+    int folder = open_folder(sweep, key, true);
+    if (folder < 0 || !replace_begin_in(&replacement, folder, key, 0))
+        return write_problem(folder);
+    return file_finish(&replacement, (Str){text.bytes, text.len});
 }
 
 void cache_entry_free(CacheEntry *entry) {

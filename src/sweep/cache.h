@@ -4,7 +4,8 @@
 // petri, the sources, the options, the metrics and the values. The entry of the key is the file KK/KEY in the folder,
 // where KK are the first two digits. It lists the other files that the run has read, with their SHA-256, and applies
 // only if they have not changed. Entries are replaced atomically, and a checksum detects damage, so several processes
-// and machines can share a folder. Failed runs are not stored.
+// and machines can share a folder. Failed runs are not stored. Symbolic links below the folder are not followed, and
+// entries are bounded, because a folder can be from someone else.
 //
 // An entry is a text with these lines:
 //

@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static void add_head(const Sweep *sweep, Text *text) {
@@ -23,36 +24,72 @@ static uint64_t checksum(size_t run, int64_t frames, const char *rows, size_t le
     return hash_bytes((uint64_t)run * 31 + (uint64_t)frames, rows, length);
 }
 
-// Reads the result at *at and advances *at. Returns false if it is incomplete or damaged.
-static bool read_run(Sweep *sweep, const Text *text, size_t *at) {
-    Str line;
-    size_t next = *at, run = 0, length = 0;
-    int64_t frames = 0;
-    uint64_t sum = 0;
-    if (!text_next_line(text, &next, &line) || next > text->len || text->bytes[next - 1] != '\n' ||
-        sscanf(text->bytes + *at, "run %zu %" SCNd64 " %zu %" SCNx64 "\n", &run, &frames, &length, &sum) != 4 ||
-        run >= sweep->design.run_count || length > text->len - next ||
-        checksum(run, frames, text->bytes + next, length) != sum)
-        return false;
-    sweep_store_result(sweep, run, frames, text->bytes + next, length);
-    *at = next + length;
+// A journal that is read in pieces, because another file beside the table can be endless.
+typedef struct JournalReader {
+    int file;
+    Text text;   // the bytes that were read from the file, except those before `start`
+    size_t at;   // position in `text`
+    off_t start; // position of `text` in the file
+    int error;   // errno of a failed read; 0: none failed
+} JournalReader;
+
+// Reads until `needed` bytes follow the position. Returns false if the file ends earlier or cannot be read.
+static bool fill(JournalReader *in, size_t needed) {
+    enum { BLOCK = 1 << 16 };
+    Text *text = &in->text;
+    if (text->len - in->at >= needed)
+        return true;
+    if (in->at > 0)
+        memmove(text->bytes, text->bytes + in->at, text->len - in->at);
+    in->start += (off_t)in->at;
+    text->len -= in->at;
+    in->at = 0;
+    while (text->len < needed) {
+        text_reserve(text, BLOCK);
+        ssize_t got = file_read_some(in->file, text->bytes + text->len, BLOCK - 1);
+        if (got < 0)
+            in->error = errno;
+        if (got <= 0)
+            return false;
+        text->len += (size_t)got;
+    }
     return true;
 }
 
-// Reads the results of a journal. Returns the length of its valid part, or 0 if the journal belongs to another sweep.
-static size_t read_runs(Sweep *sweep, const Text *text) {
-    SCOPED_TEXT head = {0};
-    add_head(sweep, &head);
-    size_t at = head.len;
-    if (text->len < at || memcmp(text->bytes, head.bytes, at) != 0)
-        return 0;
-    while (at < text->len && read_run(sweep, text, &at)) {
-    }
-    return at;
+// Reads the result at the position and advances. Returns false if it is incomplete or damaged.
+static bool read_run(Sweep *sweep, JournalReader *in) {
+    enum { MAX_LINE = 100, MAX_ROWS = 1 << 30 };
+    char line[MAX_LINE + 1];
+    size_t run = 0, length = 0;
+    int64_t frames = 0;
+    uint64_t sum = 0;
+    fill(in, MAX_LINE); // shorter at the end of the file
+    size_t rest = in->text.len - in->at;
+    const char *end = rest ? memchr(in->text.bytes + in->at, '\n', rest < MAX_LINE ? rest : MAX_LINE) : NULL;
+    size_t used = end ? (size_t)(end + 1 - in->text.bytes) - in->at : 0;
+    memcpy(line, in->text.bytes + in->at, used);
+    line[used] = '\0';
+    if (!end || sscanf(line, "run %zu %" SCNd64 " %zu %" SCNx64 "\n", &run, &frames, &length, &sum) != 4 ||
+        run >= sweep->design.run_count || length > MAX_ROWS || !fill(in, used + length) ||
+        checksum(run, frames, in->text.bytes + in->at + used, length) != sum)
+        return false;
+    sweep_store_result(sweep, run, frames, in->text.bytes + in->at + used, length);
+    in->at += used + length;
+    return true;
 }
 
-static bool is_prefix(const Text *text, const Text *of) {
-    return text->len < of->len && memcmp(text->bytes, of->bytes, text->len) == 0;
+typedef enum JournalKind { JOURNAL_OTHER, JOURNAL_NEW, JOURNAL_OURS } JournalKind;
+
+// Reads the first line of a file: does it belong to a journal of this sweep, or is it a part of that line?
+static JournalKind read_head(const Sweep *sweep, JournalReader *in) {
+    SCOPED_TEXT head = {0};
+    add_head(sweep, &head);
+    bool complete = fill(in, head.len);
+    size_t length = complete ? head.len : in->text.len;
+    if (length > 0 && memcmp(in->text.bytes, head.bytes, length) != 0)
+        return JOURNAL_OTHER;
+    in->at = complete ? length : 0;
+    return complete ? JOURNAL_OURS : JOURNAL_NEW;
 }
 
 static int lock_journal(const Journal *journal) {
@@ -63,25 +100,37 @@ static int lock_journal(const Journal *journal) {
 // Reads the existing results and removes an incomplete result at the end of the file. Returns STATUS_DONE or the exit
 // status.
 static int resume_journal(Journal *journal, Sweep *sweep) {
-    SCOPED_TEXT text = {0}, head = {0};
+    SCOPED_TEXT head = {0};
     add_head(sweep, &head);
-    if (!text_read(&text, journal->file, SIZE_MAX)) {
-        message("cannot read %s: %s", journal->path, strerror(errno));
+    JournalReader in = {.file = journal->file};
+    JournalKind kind = read_head(sweep, &in);
+    while (kind == JOURNAL_OURS && read_run(sweep, &in)) {
+    }
+    off_t good = in.start + (off_t)in.at;
+    text_free(&in.text);
+    if (in.error) {
+        message("cannot read %s: %s", journal->path, strerror(in.error));
         return STATUS_FAILED;
     }
-    size_t good = read_runs(sweep, &text);
-    bool fresh = good == 0 && is_prefix(&text, &head);
-    if (good == 0 && !fresh) {
+    if (kind == JOURNAL_OTHER) {
         message("%s belongs to another sweep: script, values or options have changed; to start over, remove that file",
                 journal->path);
         return STATUS_USAGE;
     }
-    if (!file_truncate(journal->file, good) || lseek(journal->file, (off_t)good, SEEK_SET) < 0 ||
-        (fresh && !file_write(journal->file, head.bytes, head.len))) {
+    if (!file_truncate(journal->file, (size_t)good) || lseek(journal->file, good, SEEK_SET) < 0 ||
+        (kind == JOURNAL_NEW && !file_write(journal->file, head.bytes, head.len))) {
         message("cannot write %s: %s", journal->path, strerror(errno));
         return STATUS_FAILED;
     }
     return STATUS_DONE;
+}
+
+// Returns why an opened file cannot be a journal, or NULL.
+static const char *open_problem(int file) {
+    struct stat info;
+    if (file < 0)
+        return errno == ELOOP ? "it is a symbolic link" : strerror(errno);
+    return fstat(file, &info) == 0 && S_ISREG(info.st_mode) ? NULL : "it is not a regular file";
 }
 
 int journal_open(Journal *journal, Sweep *sweep, const char *output) {
@@ -91,9 +140,10 @@ int journal_open(Journal *journal, Sweep *sweep, const char *output) {
         text_add_format(&path, "-%zu-of-%zu", sweep->shard + 1, sweep->shards);
     journal->output = output;
     journal->path = memory_strdup(path.bytes);
-    journal->file = open(journal->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (journal->file < 0) {
-        message("cannot write %s: %s", journal->path, errno == ELOOP ? "it is a symbolic link" : strerror(errno));
+    journal->file = file_open_at(AT_FDCWD, journal->path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK, 0666);
+    const char *problem = open_problem(journal->file);
+    if (problem) {
+        message("cannot write %s: %s", journal->path, problem);
         return STATUS_FAILED;
     }
     if (lock_journal(journal) != 0) {
@@ -120,18 +170,30 @@ bool journal_add(Journal *journal, size_t run, const Result *result) {
     return true;
 }
 
-typedef void Visit(Sweep *sweep, const char *path, const Text *text);
+typedef void Visit(Sweep *sweep, const char *path, JournalReader *in);
 
-static void read_journal(Sweep *sweep, const char *path, const Text *text) {
+static void read_journal(Sweep *sweep, const char *path, JournalReader *in) {
     (void)path;
-    read_runs(sweep, text);
+    while (read_run(sweep, in)) {
+    }
 }
 
-static void remove_journal(Sweep *sweep, const char *path, const Text *text) {
-    SCOPED_TEXT head = {0};
-    add_head(sweep, &head);
-    if (text->len >= head.len && memcmp(text->bytes, head.bytes, head.len) == 0)
-        unlink(path);
+static void remove_journal(Sweep *sweep, const char *path, JournalReader *in) {
+    (void)sweep;
+    (void)in;
+    unlink(path);
+}
+
+// Calls `call` if a file is a journal of this sweep. Other files are not read beyond their first bytes.
+static void visit_journal(Sweep *sweep, const char *path, Visit *call) {
+    struct stat info;
+    JournalReader in = {.file = file_open_at(AT_FDCWD, path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK, 0)};
+    if (in.file < 0)
+        return;
+    if (fstat(in.file, &info) == 0 && S_ISREG(info.st_mode) && read_head(sweep, &in) == JOURNAL_OURS)
+        call(sweep, path, &in);
+    text_free(&in.text);
+    close(in.file);
 }
 
 // Calls `call` for the journals of other shards. Skips this shard's journal, because this process holds a lock on it,
@@ -143,12 +205,10 @@ static void visit_journals(const Journal *journal, Sweep *sweep, Visit *call) {
     text_add_format(&prefix, "%s.part", journal->output + name);
     DIR *entries = opendir(folder);
     for (struct dirent *entry; entries && (entry = readdir(entries));) {
-        SCOPED_TEXT path = {0}, text = {0};
+        SCOPED_TEXT path = {0};
         text_add_format(&path, "%.*s%s", (int)name, journal->output, entry->d_name);
-        if (strncmp(entry->d_name, prefix.bytes, prefix.len) == 0 && strcmp(path.bytes, journal->path) != 0) {
-            text_read_file(&text, path.bytes, SIZE_MAX);
-            call(sweep, path.bytes, &text);
-        }
+        if (strncmp(entry->d_name, prefix.bytes, prefix.len) == 0 && strcmp(path.bytes, journal->path) != 0)
+            visit_journal(sweep, path.bytes, call);
     }
     if (entries)
         closedir(entries);

@@ -4,9 +4,11 @@
 #include "base/file.h"
 #include "base/os.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 struct KnownHash {
     char *path;
@@ -57,10 +59,33 @@ static bool is_same_version(const struct stat *a, const struct stat *b) {
            same_time(os_time_modified(a), os_time_modified(b)) && same_time(os_time_changed(a), os_time_changed(b));
 }
 
+// Hashes a regular file. Returns false if it cannot be read or is too large.
+static bool hash_contents(KnownHashes *known, const char *path, char hash[SHA256_DIGITS + 1]) {
+    enum { BLOCK = 1 << 16, MAX_FILE_BYTES = 1 << 30 }; // the limit of `read` and `csv`
+    const uint64_t max_entry_bytes = UINT64_C(4) << 30;
+    char block[BLOCK];
+    struct stat info;
+    Sha256 sum = sha256_new();
+    int file = file_open_at(AT_FDCWD, path, O_RDONLY | O_NONBLOCK, 0);
+    if (file < 0)
+        return false;
+    ssize_t got = fstat(file, &info) == 0 && S_ISREG(info.st_mode) && info.st_size <= MAX_FILE_BYTES ? 1 : -1;
+    for (size_t length = 0; got > 0; length += (size_t)got) {
+        got = length > MAX_FILE_BYTES || known->hashed > max_entry_bytes ? -1 : file_read_some(file, block, BLOCK);
+        if (got > 0)
+            sha256_add(&sum, block, (size_t)got);
+        known->hashed += got > 0 ? (size_t)got : 0;
+    }
+    close(file);
+    sha256_end(&sum, hash);
+    hash[SHA256_DIGITS] = '\0';
+    return got == 0;
+}
+
 // Returns the hash of a file, or "-" if it cannot be read.
 static const char *hash_file(KnownHashes *known, const char *path) {
     struct stat info;
-    SCOPED_TEXT text = {0};
+    char hash[SHA256_DIGITS + 1];
     KnownHash *found = NULL;
     if (stat(path, &info) != 0)
         return "-";
@@ -68,7 +93,7 @@ static const char *hash_file(KnownHashes *known, const char *path) {
         found = strcmp(known->items[i].path, path) == 0 ? &known->items[i] : NULL;
     if (found && is_same_version(&found->info, &info))
         return found->hash;
-    if (text_read_file(&text, path, SIZE_MAX))
+    if (!hash_contents(known, path, hash))
         return "-";
     if (!found) {
         known->items = memory_realloc(known->items, (known->count + 1) * sizeof *found);
@@ -76,8 +101,7 @@ static const char *hash_file(KnownHashes *known, const char *path) {
         *found = (KnownHash){.path = memory_strdup(path)};
     }
     found->info = info;
-    sha256_of(text.bytes, text.len, found->hash);
-    found->hash[SHA256_DIGITS] = '\0';
+    memcpy(found->hash, hash, sizeof hash);
     return found->hash;
 }
 

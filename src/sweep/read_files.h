@@ -27,9 +27,11 @@ typedef struct KnownHash KnownHash;
 typedef struct KnownHashes {
     KnownHash *items;
     size_t count;
+    size_t hashed; // number of bytes hashed for the current entry
 } KnownHashes;
 
 // Checks a line of read_files_write. Returns true if the file still has the same contents. `folder` is the folder of
-// the script, with a slash at the end, or empty.
+// the script, with a slash at the end, or empty. Returns false if the file has more than 1 GiB, which scripts cannot
+// read, or if more than 4 GiB were hashed for one entry.
 bool read_file_is_unchanged(KnownHashes *known, Str folder, Str line);
 void known_hashes_free(KnownHashes *known);

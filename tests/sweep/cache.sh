@@ -143,3 +143,82 @@ check "a cache that is a file fails" status_is 1
 check "a cache that is a file is reported" has err "cannot use the cache 'file': it is not a folder"
 refused "--verify-cache needs a cache" "needs a cache; add --cache DIR" sum.fl -D A=1 --metric a=A --verify-cache 1%
 refused "an invalid percentage is rejected" "expects a percentage such as 1%" sum.fl -D A=1 --metric a=A --cache store --verify-cache 101%
+
+# A cache from someone else. Entries and folders can be links, pipes or endless files; entries can name such files. Nothing
+# outside the cache is written, and no sweep waits or reads without bound: a file of 4 TiB cannot be read in the time that
+# a test may take.
+endless() { truncate -s 4T "$1" 2>/dev/null; }
+small() { sweep small.fl -D 'N=1;2' --frames 3 --metric x='$:n' --cache foreign "$@"; }
+entries() { find foreign -mindepth 2 "$@"; }
+echo 'let N=N or 1 FILE=read("part.txt")
+!counter state=:n rate=N' >small.fl
+echo whole >part.txt
+mkdir elsewhere
+small
+cp out expected
+cp -R foreign original
+# foreign NAME MESSAGE [COMPUTED]: runs the sweep, whose results are correct.
+foreign() {
+    small
+    check "$1: the sweep ends" status_is 0
+    check "$1: the table is correct" same out expected
+    check "$1: the runs are computed" counts "${3:-2}" 0 0
+    check "$1: the message gives the reason" has err "$2"
+    rm -r foreign
+    cp -R original foreign
+}
+echo 'my thesis' >victim.txt
+cp victim.txt thesis.txt
+for entry in $(entries -type f); do ln -sf "$PWD/victim.txt" "$entry"; done
+foreign "entries that are links" "cannot write to the cache 'foreign': one of its entries is a symbolic link"
+check "the target of a link is not written" same victim.txt thesis.txt
+for entry in $(entries -type f); do ln -sf "$PWD/elsewhere/new.txt" "$entry"; done
+foreign "entries that are dangling links" "one of its entries is a symbolic link"
+check "the target of a dangling link is not made" [ -z "$(ls elsewhere)" ]
+for folder in foreign/*; do rm -r "$folder" && ln -s "$PWD/elsewhere" "$folder"; done
+foreign "folders that are links" "one of its folders is a file or a symbolic link"
+for folder in foreign/*; do rm -r "$folder" && ln -s ../elsewhere/new "$folder"; done
+foreign "folders that are dangling links" "one of its folders is a file or a symbolic link"
+for folder in foreign/*; do rm -r "$folder" && : >"$folder"; done
+foreign "folders that are files" "one of its folders is a file or a symbolic link"
+check "nothing is written through a linked folder" [ -z "$(ls elsewhere)" ]
+for entry in $(entries -type f); do rm "$entry" && mkfifo "$entry"; done
+foreign "entries that are pipes" "one of its entries is not a regular file"
+for entry in $(entries -type f); do rm "$entry" && mkdir "$entry"; done
+foreign "entries that are folders" "one of its entries is not a regular file"
+ln -s foreign linked-cache
+small --cache linked-cache
+check "the folder of the cache itself can be a link" counts 0 2 0
+mkfifo pipe.txt
+for entry in $(entries -type f); do
+    sed -i 's/^file \([0-9a-f]*\) part.txt/file \1 pipe.txt/' "$entry"
+    seal "$entry"
+done
+foreign "entries that name a pipe" "2 runs computed"
+if endless huge.txt; then
+    for entry in $(entries -type f); do truncate -s 4T "$entry"; done
+    foreign "endless entries" "the cache has a damaged result"
+    for entry in $(entries -type f); do
+        sed -i 's/^file \([0-9a-f]*\) part.txt/file \1 huge.txt/' "$entry"
+        seal "$entry"
+    done
+    foreign "entries that name an endless file" "2 runs computed"
+    endless table.csv.part-x && mkfifo table.csv.part-y && ln -s huge.txt table.csv.part-z
+    sweep small.fl -D 'N=1;2' --frames 3 --metric x='$:n' -o table.csv
+    check "endless files and pipes beside the table are not read" status_is 0
+    check "other files beside the table are kept" [ -e table.csv.part-x ]
+    # Journals of this sweep that end in an endless file: its own, and that of another shard.
+    shard() { sweep small.fl -D 'N=1;2;3' --frames 3 --metric x='$:n' -o cut.csv --shard "$1"; }
+    shard 1/2
+    endless cut.csv.part-1-of-2
+    shard 1/2
+    check "a journal with an endless end is resumed" [ "$(wc -c <cut.csv.part-1-of-2)" -lt 1000 ]
+    endless cut.csv.part-1-of-2
+    shard 2/2
+    sweep small.fl -D 'N=1;2;3' --frames 3 --metric x='$:n' -o uncut.csv
+    check "results before an endless end are used" same cut.csv uncut.csv
+fi
+mkfifo blocked.csv.part
+sweep small.fl -D 'N=1;2' --frames 3 --metric x='$:n' -o blocked.csv
+check "a pipe in the place of the journal fails" status_is 1
+check "a pipe in the place of the journal is reported" has err "cannot write blocked.csv.part: it is not a regular file"
