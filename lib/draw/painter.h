@@ -54,8 +54,8 @@ void draw_report_args(DiagSink *faults, const Origin *place, DiagLevel level, co
                       va_list args);
 // Called after a failed allocation. If the memory limit was the cause, reports that the node is left out and returns
 // true. Returns false if the machine is out of memory.
-bool draw_report_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
-                         DiagSink *faults);
+bool draw_report_refused(PetriPainter *painter, DiagLevel level, const Origin *place, const char *node, int width,
+                         int height, DiagSink *faults);
 // Passes the painter's test of shaders to its Gl.
 void draw_test_shaders(PetriPainter *painter);
 // Sets the painter's limits for memory and work to those of the picture.

@@ -26,7 +26,8 @@ int render_graph_bits(const DrawNode *node, int bits) {
 static Texture *report_no_memory(Walk *walk, const DrawNode *node, int width, int height) {
     char name[40];
     snprintf(name, sizeof name, "!%s", schema_kinds[node->kind].name);
-    if (!draw_report_refused(walk->painter, &node->origin, name, width, height, walk->faults))
+    DiagLevel level = node->kind == KIND_CANVAS3D || node->kind == KIND_CAMERA ? DIAG_ERROR : DIAG_WARNING;
+    if (!draw_report_refused(walk->painter, level, &node->origin, name, width, height, walk->faults))
         arena_exhausted(&walk->frame->arena);
     return NULL;
 }

@@ -92,13 +92,13 @@ void draw_report(DiagSink *faults, const Origin *place, DiagLevel level, const c
     va_end(args);
 }
 
-bool draw_report_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
-                         DiagSink *faults) {
+bool draw_report_refused(PetriPainter *painter, DiagLevel level, const Origin *place, const char *node, int width,
+                         int height, DiagSink *faults) {
     if (!painter->budget.memory_refused)
         return false;
     painter->budget.memory_refused = false;
     painter->lacks_memory = true;
-    draw_report(faults, place, DIAG_WARNING, "memory-limit",
+    draw_report(faults, place, level, "memory-limit",
                 "%s: a picture of %d x %d pixels exceeds the memory limit (--memory); it is left out", node, width,
                 height);
     return true;
@@ -208,8 +208,8 @@ static void download_shown(void *context) {
     if (good)
         return;
     painter->shown = NULL;
-    if (!draw_report_refused(painter, &fetching->picture->window->origin, "!window", shown->width, shown->height,
-                             fetching->faults))
+    if (!draw_report_refused(painter, DIAG_ERROR, &fetching->picture->window->origin, "!window", shown->width,
+                             shown->height, fetching->faults))
         arena_exhausted(fetching->faults->arena);
 }
 
@@ -247,7 +247,7 @@ Texture *draw_sized_image(PetriPainter *painter, const DrawNode *node, const uin
     }
     Texture *texture =
         resize_pixels(&painter->budget, pixels, width, height, stride, alpha, wide, high, draw_word(node, ATTR_FLIP));
-    if (!texture && !draw_report_refused(painter, &node->origin, "!image", wide, high, faults))
+    if (!texture && !draw_report_refused(painter, DIAG_WARNING, &node->origin, "!image", wide, high, faults))
         arena_exhausted(&painter->arena);
     return texture;
 }

@@ -10,6 +10,8 @@ typedef struct SceneBox {
     float low[3];
     float high[3];
     uint32_t triangles; // number of triangles; 0: nothing to draw
+    float layers[3];    // how many triangles a line along each axis through the box meets from one side, on average
+    float lengths[3];   // sum of the lengths of all triangles along each axis, in lengths of the box
 } SceneBox;
 
 // Instances that are drawn with one call.

@@ -134,8 +134,10 @@ static void store_mesh(const Gl *gl, CachedModel *model_entry, const Mesh *mesh)
         return;
     model_entry->charged = bytes;
     upload_mesh(&model_entry->shape, mesh);
-    mesh_bounds(mesh, model_entry->shape.box.low, model_entry->shape.box.high);
-    model_entry->shape.box.triangles = mesh->index_count / 3;
+    SceneBox *box = &model_entry->shape.box;
+    mesh_bounds(mesh, box->low, box->high);
+    mesh_measure(mesh, box->low, box->high, box->layers, box->lengths);
+    box->triangles = mesh->index_count / 3;
 }
 
 // Builds the mesh of an entry. If that exceeds a limit, marks the entry as refused.

@@ -149,6 +149,9 @@ uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max)
 
 // Reports a problem of a node, unless the scene has no sink.
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem);
+// Reports, as an error, that a camera's view is left out because drawing it would exceed the work limit. The scene must
+// have a sink.
+void scene_report_missing(const Scene *scene, const DrawNode *node);
 
 // The source of texture maps. `find` returns the current picture with this id. If there is none, the `texture` of the
 // result is 0.

@@ -461,8 +461,7 @@ static bool charge_view(const Drawing *drawing, const SceneBox *boxes, int width
     double cost = scene_cost(&view, left / NEGLIGIBLE);
     if (budget_charge_time(budget, cost))
         return true;
-    scene_report(drawing->scene, "drawing-limit", drawing->camera->node,
-                 "drawing exceeded the work limit (--work): the scene is left out");
+    scene_report_missing(drawing->scene, drawing->camera->node);
     return false;
 }
 

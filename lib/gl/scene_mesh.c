@@ -3,6 +3,7 @@
 
 #include "maths/maths.h"
 
+#include <math.h>
 #include <string.h>
 
 static const double TURN = 6.283185307179586;
@@ -173,4 +174,24 @@ void mesh_bounds(const Mesh *mesh, float low[3], float high[3]) {
             low[k] = x < low[k] ? x : low[k];
             high[k] = x > high[k] ? x : high[k];
         }
+}
+
+void mesh_measure(const Mesh *mesh, const float low[3], const float high[3], float layers[3], float lengths[3]) {
+    double sides[2][3] = {{0}}; // area of the triangles, projected along each axis and seen from either side
+    double extents[3] = {0};
+    for (uint32_t i = 0; i + 2 < mesh->index_count; i += 3) {
+        const float *a = mesh->vertices[mesh->indices[i]].position, *b = mesh->vertices[mesh->indices[i + 1]].position,
+                    *c = mesh->vertices[mesh->indices[i + 2]].position;
+        for (int k = 0; k < 3; k++) {
+            int m = (k + 1) % 3, n = (k + 2) % 3;
+            double area = ((double)(b[m] - a[m]) * (c[n] - a[n]) - (double)(b[n] - a[n]) * (c[m] - a[m])) / 2;
+            sides[area < 0][k] += fabs(area);
+            extents[k] += (double)(fmaxf(a[k], fmaxf(b[k], c[k])) - fminf(a[k], fminf(b[k], c[k])));
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        double face = (double)(high[(k + 1) % 3] - low[(k + 1) % 3]) * (high[(k + 2) % 3] - low[(k + 2) % 3]);
+        layers[k] = face > 0 ? (float)(fmax(sides[0][k], sides[1][k]) / face) : 0;
+        lengths[k] = high[k] > low[k] ? (float)(extents[k] / (double)(high[k] - low[k])) : 0;
+    }
 }

@@ -29,6 +29,9 @@ Mesh mesh_disc(Arena *arena, uint32_t segments);     // radius 1, facing z; `seg
 Mesh mesh_cylinder(Arena *arena, uint32_t segments); // `segments` below 2 is treated as 2
 Mesh mesh_cone(Arena *arena, uint32_t segments);     // `segments` below 2 is treated as 2
 void mesh_bounds(const Mesh *mesh, float low[3], float high[3]); // the mesh must not be empty
+// Computes how many triangles a line along each axis meets from one side, on average over the box low..high, and the
+// sum of the lengths of all triangles along each axis, in lengths of the box.
+void mesh_measure(const Mesh *mesh, const float low[3], const float high[3], float layers[3], float lengths[3]);
 
 // Modify the surface of a mesh. mesh_flat gives each corner the normal of its triangle. mesh_invert turns the surface
 // inside out.

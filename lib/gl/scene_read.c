@@ -24,6 +24,12 @@ void scene_report(const Scene *scene, const char *code, const DrawNode *node, co
     diag_report(scene->faults, &(Diag){DIAG_WARNING, node->origin, text, .code = code});
 }
 
+void scene_report_missing(const Scene *scene, const DrawNode *node) {
+    Str text = str_format(scene->faults->arena, "!%s: drawing exceeded the work limit (--work): the scene is left out",
+                          schema_kinds[node->kind].name);
+    diag_report(scene->faults, &(Diag){DIAG_ERROR, node->origin, text, .code = "drawing-limit"});
+}
+
 static double clamp(double x, double low, double high) {
     return x > low ? x < high ? x : high : low;
 }

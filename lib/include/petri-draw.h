@@ -408,7 +408,8 @@ PETRI_API PetriStatus petri_picture_encode(PetriPicture *picture, PetriPainter *
 // PETRI_LIMIT_EXCEEDED, with a diagnostic, if the script's limits do not suffice.
 PETRI_API PetriStatus petri_print_meshes(PetriSession *session, PetriWriteCallback *write, void *user_data);
 
-// Returns true if a shader was left out of the picture because it is invalid, crashed the driver or exceeded a limit.
+// Returns true if a shader was left out of the picture because it is invalid, crashed the driver or exceeded a limit,
+// or if a whole 3-D scene was left out because it exceeded the work limit.
 PETRI_API bool petri_picture_lacks_shader(const PetriPicture *picture);
 
 // Reports the diagnostics of drawing and saving a picture to the session's on_diagnostic, each once per load. Must be

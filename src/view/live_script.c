@@ -186,7 +186,7 @@ PetriPicture *live_script_draw(LiveScript *live) {
     size_t before = live->error_text.len;
     petri_picture_report(live->session, live->picture);
     if (!complete && live->last_complete && before == 0 && live->error_text.len > 0)
-        prefix_error_text(live, "a shader failed, showing the last complete picture");
+        prefix_error_text(live, "a shader or scene failed, showing the last complete picture");
     return complete || !live->last_complete ? live->picture : live->last_complete;
 }
 

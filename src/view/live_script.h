@@ -88,7 +88,7 @@ void live_script_begin(LiveScript *live);
 // always use 1.
 void live_script_set_detail(LiveScript *live, double detail);
 // Draws the picture of the last frame and returns the one to show. That is the last complete picture if a shader
-// crashed the driver or exceeded a limit. NULL: nothing to show.
+// crashed the driver, or if a shader or scene exceeded a limit. NULL: nothing to show.
 PetriPicture *live_script_draw(LiveScript *live);
 // Computes one frame and its picture, and writes the files that the script records. Returns false if the frame failed.
 bool live_script_step(LiveScript *live);

@@ -412,8 +412,13 @@ END
             'for i in ..900\n            !light color=1 start=i;0;0 end=0;i;10\n        for i in ..20000\n            !group\n                !box size=20 translucency=0.5\n'; do
             printf "!window size=600;400\n    !canvas3d max_lights=4000 viewpoint=0;0;100\n        !light color=1\n        $scene" >scene.fl
             petri render scene.fl -o scene.png --frames 1
-            check "a scene above the work limit is left out" has err "$left_out"
+            check "a scene above the work limit is left out" has err "error: $left_out"
+            check "a picture without its scene ends with status 1" status_is 1
         done
+        # balls that hide each other, which take about a second
+        printf '!window size=540\n    !canvas3d\n        !light color=1 direction=0;0;-1\n        for i in ..2000\n            !transform rotate_z=i/100 scale=2 translate=0;0;i/20-50\n                !sphere position=0;50;0 size=25\n' >balls.fl
+        petri render balls.fl -o scene.png --frames 1 --work 200M
+        check "2000 balls do not exceed a limit of 2 s" empty err
         printf '!window size=600;400\n    !canvas3d viewpoint=0;0;100 samples=SAMPLES\n        !light color=1\n        for i in ..600\n            !cylinder segments=512 position=i/2000 size=1\n' >scene.fl
         sed 's/SAMPLES/0/' scene.fl >plain.fl
         sed -i 's/SAMPLES/4/' scene.fl

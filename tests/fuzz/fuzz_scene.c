@@ -44,6 +44,7 @@ static void read_scene(void *context) {
             continue;
         mesh_check(&mesh);
         mesh_bounds(&mesh, boxes[i].low, boxes[i].high);
+        mesh_measure(&mesh, boxes[i].low, boxes[i].high, boxes[i].layers, boxes[i].lengths);
         boxes[i].triangles = mesh.index_count / 3;
     }
     for (uint32_t i = 0; i < scene->group_count; i++)

@@ -58,7 +58,7 @@ static void set_stage(Stage *stage) {
 
 // Returns the number of the stage's balls that are drawn as discs.
 static uint32_t count_discs(Stage *stage) {
-    const SceneBox box = {{-1, -1, -1}, {1, 1, 1}, 2048};
+    const SceneBox box = {.low = {-1, -1, -1}, .high = {1, 1, 1}, .triangles = 2048};
     Matrix view = matrix_view(&stage->eye), projection = matrix_projection(&stage->eye);
     DrawOrder order = draw_order(&stage->scene, &stage->eye, &view, &projection, WIDTH, &box);
     uint32_t count = 0;
@@ -139,7 +139,8 @@ static void test_transparent_instances_are_sorted(void **state) {
     static const uint32_t wanted[] = {7, 5, 4, 6, 3, 0, 2, 1}; // order required by the specification
     enum { ROWS = sizeof rows / sizeof *rows };
     SceneModel models[2] = {{.kind = KIND_BOX}, {.kind = KIND_CONE}};
-    const SceneBox boxes[2] = {{{-1, -1, -1}, {1, 1, 1}, 12}, {{-1, -1, -1}, {1, 1, 1}, 128}};
+    const SceneBox boxes[2] = {{.low = {-1, -1, -1}, .high = {1, 1, 1}, .triangles = 12},
+                               {.low = {-1, -1, -1}, .high = {1, 1, 1}, .triangles = 128}};
     Stage stage;
     set_stage(&stage);
     stage.scene.models = models;
@@ -266,7 +267,7 @@ static void test_limits_are_reported_once(void **state) {
         assert_int_equal(faults.count, 1);
         assert_string_equal(faults.items[0].code, rows[i].code);
         if (rows[i].kind == KIND_SPHERE) { // the limit of triangles would be exceeded if all spheres were near
-            const SceneBox box = {{-1, -1, -1}, {1, 1, 1}, 2048};
+            const SceneBox box = {.low = {-1, -1, -1}, .high = {1, 1, 1}, .triangles = 2048};
             Eye eye = scene_eye(scene, &scene->cameras[0]);
             Matrix view = matrix_view(&eye), projection = matrix_projection(&eye);
             projection.m[0] *= 1e6, view.m[12] = view.m[13] = 0;
