@@ -68,6 +68,7 @@ static const Expr *compile_arith(Compiler *compiler, const Ast *ast) {
 // so even NaN equals itself (L5.5).
 static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
     const Ast *left = ast->children[0], *right = ast->children[1];
+    lint_streams(compiler, ast);
     Expr *expr = compile_same(compiler, ast, false);
     expr->slot = left->kind == AST_NAME && right->kind == AST_NAME && left->name == right->name;
     return expr;
@@ -87,12 +88,29 @@ static const Expr *compile_node(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
+static const Expr *compile_if(Compiler *compiler, const Ast *ast, bool in_children) {
+    bool varies = false;
+    for (uint32_t i = 0; i + 1 < ast->count; i += 2) {
+        varies = varies || !lint_is_fixed(compiler, ast->children[i]);
+        compile_note_test(compiler, ast->children[i]);
+    }
+    compiler->varies += varies;
+    const Expr *expr = compile_same(compiler, ast, in_children);
+    compiler->varies -= varies;
+    lint_branches(compiler, expr);
+    return expr;
+}
+
 // Compiles `then if test else other` to an IF with one test.
 static const Expr *compile_cond(Compiler *compiler, const Ast *ast, bool in_children) {
+    bool varies = !lint_is_fixed(compiler, ast->children[1]);
+    compile_note_test(compiler, ast->children[1]);
+    compiler->varies += varies;
     const Expr *test = compile_expr(compiler, ast->children[1]);
     const Expr *parts[3] = {test, compile_part(compiler, ast->children[0], in_children)};
     if (ast->children[2])
         parts[2] = compile_part(compiler, ast->children[2], in_children);
+    compiler->varies -= varies;
     const Expr *expr = compile_expr_new(compiler, EXPR_IF, ast, parts, ast->children[2] ? 3 : 2);
     lint_branches(compiler, expr);
     return expr;
@@ -135,9 +153,12 @@ static const Expr *compile_for(Compiler *compiler, const Ast *ast, bool in_child
     const Expr *parts[2] = {source->kind == AST_RANGE ? compile_range(compiler, source)
                                                       : compile_expr(compiler, source)};
     ScopeMark mark = compile_scope_open(compiler);
-    uint32_t slot = compile_bind_names(compiler, BINDING_LOOP, ast->children[0], NULL);
+    uint32_t slot = compile_bind_names(compiler, BINDING_LOOP, ast->children[0], source);
+    bool varies = !compiler->function->scope->traits.is_fixed;
     compiler->repeats++;
+    compiler->varies += varies;
     parts[1] = compile_part(compiler, ast->children[2], in_children);
+    compiler->varies -= varies;
     compiler->repeats--;
     compile_scope_close(compiler, mark);
     Expr *expr = compile_expr_new(compiler, EXPR_FOR, ast, parts, 2);
@@ -169,6 +190,7 @@ static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
             tags[code->code.tag_count++] = decoration->name;
         } else {
             lint_negation(compiler, decoration->children[0]);
+            lint_stream(compiler, decoration->children[0]);
             if (str_equal(decoration->name->name, STR("state")))
                 compiler->state_attr = decoration->children[0];
             spans[code->attr_count] = decoration->span;
@@ -176,6 +198,7 @@ static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
             children[code->attr_count] = compile_expr(compiler, decoration->children[0]);
         }
     }
+    lint_node(compiler, ast);
     Expr *expr = compile_expr_new(compiler, EXPR_DECORATE, ast, children, code->attr_count + 1);
     expr->as.decorate = code;
     return expr;
@@ -199,6 +222,7 @@ static const Expr *compile_call(Compiler *compiler, const Ast *ast, const Ast *c
     Expr *expr = compile_expr_new(compiler, EXPR_CALL, ast, children, count + 1);
     expr->as.call = code;
     lint_call(compiler, ast, children[0], code);
+    lint_call_angles(compiler, ast);
     return expr;
 }
 
@@ -253,7 +277,9 @@ static const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     for (uint32_t i = 0; i < params->count; i++)
         compile_bind(compiler, BINDING_PARAM, names[i], params->children[i]->span, NULL);
     compiler->repeats++;
+    compiler->varies++;
     const Expr *body = compile_expr(compiler, ast->children[1]);
+    compiler->varies--;
     compiler->repeats--;
     compile_function_close(compiler, &function);
     FunctionCode *code = arena_alloc(compiler->arena, sizeof *code);
@@ -296,6 +322,7 @@ static void note_import(Compiler *compiler, const Expr *file) {
 static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
     const Ast *names = ast->children[0];
     const Expr *file = compile_expr(compiler, ast->children[1]);
+    compiler->keys.incomplete = true; // the module may contain any symbol
     note_import(compiler, file);
     lint_import(compiler, ast, file);
     const Symbol **symbols = arena_alloc_array(compiler->scratch, names->count, sizeof *symbols);
@@ -350,6 +377,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_c
 static const Expr *compile_kind(Compiler *compiler, const Ast *ast, bool in_children) {
     switch (ast->kind) {
     case AST_LITERAL:
+        compile_note_literal(compiler, ast);
         return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the value outlives the tree
     case AST_NODE:
         return compile_node(compiler, ast);
@@ -380,6 +408,10 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast, bool in_chil
         return compile_template(compiler, ast);
     case AST_RANGE:
         return compile_range(compiler, ast);
+    case AST_COMPOSE:
+        lint_streams(compiler, ast);
+        compile_note_vector(compiler, ast);
+        return compile_same(compiler, ast, in_children);
     case AST_ADD:
     case AST_SUB:
     case AST_MUL:
@@ -391,20 +423,26 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast, bool in_chil
     case AST_APPEND:
         compiler->subject = ast->children[0];
         return compile_same(compiler, ast, false);
-    case AST_LOOKUP:
+    case AST_LOOKUP: {
         compiler->key = ast->children[0];
-        return compile_same(compiler, ast, false);
-    case AST_IF: {
-        const Expr *expr = compile_same(compiler, ast, in_children);
-        lint_branches(compiler, expr);
+        compiler->lookups++;
+        const Expr *expr = compile_same(compiler, ast, false);
+        compiler->lookups--;
         return expr;
     }
+    case AST_IF:
+        return compile_if(compiler, ast, in_children);
     case AST_AND:
     case AST_OR:
     case AST_XOR:
     case AST_NOT:
-        for (uint32_t i = 0; i < ast->count; i++)
-            lint_negation(compiler, ast->children[i]);
+    case AST_EQ:
+    case AST_NE:
+        for (uint32_t i = 0; i < ast->count; i++) {
+            compile_note_test(compiler, ast->children[i]);
+            if (ast->kind != AST_EQ && ast->kind != AST_NE)
+                lint_negation(compiler, ast->children[i]);
+        }
         return compile_same(compiler, ast, false);
     case AST_LT:
     case AST_GT:
@@ -493,6 +531,7 @@ static const Program *compile_file(Compiler *compiler, const Ast *ast) {
     program->define_uses = compiler->define_uses;
     program->imports = compiler->imports;
     program->import_count = compiler->import_count;
+    program->keys = arena_copy(compiler->arena, &compiler->keys, sizeof compiler->keys);
     return program;
 }
 

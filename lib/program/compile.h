@@ -6,6 +6,15 @@
 // The construct that binds a name. It determines which lints apply.
 typedef enum BindingKind { BINDING_LET, BINDING_FUNC, BINDING_PARAM, BINDING_LOOP, BINDING_IMPORT } BindingKind;
 
+// What lints need to know about the value of a name that a `let` or a loop binds.
+typedef struct Traits {
+    bool is_fixed;      // it certainly is the same in every frame
+    bool follows_clock; // it depends on a name such as `time`
+    bool counts;        // it is an element of a range of whole numbers
+    bool is_whole;      // it is a whole number
+    double largest;     // if is_whole: the largest absolute value of the constants from which it is computed
+} Traits;
+
 // A visible name. The bindings of a function form a linked list that starts with the innermost binding.
 typedef struct Binding Binding;
 struct Binding {
@@ -16,6 +25,7 @@ struct Binding {
     BindingKind kind;
     bool used;        // a use of the name was resolved to this binding
     bool is_constant; // the value is always `constant`
+    Traits traits;
     Value constant;
     // Syntax tree of the value; NULL: the name is one of several of a `let`, or is not bound by `let` or `func`.
     const Ast *value;
@@ -57,10 +67,16 @@ struct Compiler {
     // Number of enclosing loops and functions, plus 1 in a module; if > 0, the code may be executed repeatedly in a
     // frame.
     uint32_t repeats;
+    // Number of enclosing functions, and of enclosing loops and `if` that depend on more than constants. If 0, the code
+    // is executed in the same way in every frame.
+    uint32_t varies;
+    bool restarts;         // a system was compiled that may start later than in the first frame
     uint32_t lookup_count; // number of state lookups so far
-    bool in_children;      // the value of the expression compiled next becomes all or some of a node's children
-    bool is_module;        // the file only binds names, for other files to import, so no name is reported as unused
-    uint32_t depth;        // nesting depth of the current expression; 1: a top-level statement
+    uint32_t lookups;      // number of enclosing state lookups
+    KeyUses keys;
+    bool in_children; // the value of the expression compiled next becomes all or some of a node's children
+    bool is_module;   // the file only binds names, for other files to import, so no name is reported as unused
+    uint32_t depth;   // nesting depth of the current expression; 1: a top-level statement
     DefineUse *define_uses;
     Parameter *parameters;
     uint32_t parameter_count;
@@ -96,7 +112,8 @@ ScopeMark compile_scope_open(Compiler *compiler);
 void compile_scope_close(Compiler *compiler, ScopeMark mark);
 // Binds one name and returns its slot. `value` is the syntax tree of the name's value, or NULL (Binding.value).
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value);
-// Binds the names of a NAMES node in consecutive slots and returns the first slot.
+// Binds the names of a NAMES node in consecutive slots and returns the first slot. `value` is the syntax tree of their
+// value or, for a loop, of its source; NULL: none.
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value);
 // Marks the last `count` bindings as constant, with this value. If `count` is greater than 1, the value is unpacked to
 // them.
@@ -134,6 +151,12 @@ void compile_note_default(Compiler *compiler, const Expr *default_expr);
 // If -D defines the name of `binding`, records where the program first binds it.
 void compile_note_define(Compiler *compiler, const Binding *binding);
 
+// Uses of state keys (key_uses.c).
+// Record a literal; a lookup whose value is only tested (ignores other expressions); a vector.
+void compile_note_literal(Compiler *compiler, const Ast *ast);
+void compile_note_test(Compiler *compiler, const Ast *ast);
+void compile_note_vector(Compiler *compiler, const Ast *vector);
+
 // The simplifier (fold.c).
 // Replaces an expression with a constant, or with a simpler expression, if possible. Otherwise returns the expression
 // itself. `mark` is FunctionScope.next_slot before the expression was compiled, so the names that the expression binds
@@ -141,6 +164,25 @@ void compile_note_define(Compiler *compiler, const Binding *binding);
 const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark);
 // Sets the dependencies of a new expression, which follow from its kind and its children.
 void fold_set_dependencies(Expr *expr);
+
+// Lints of mistakes (lint.c, lint_angles.c, lint_nodes.c), which every load reports.
+// Warns if the value of `ast`, where numbers are needed, is a stream of random numbers. lint_streams checks each child.
+void lint_stream(Compiler *compiler, const Ast *ast);
+void lint_streams(Compiler *compiler, const Ast *ast);
+// Check angles in the arguments of a CALL, and in an attribute of a node.
+void lint_call_angles(Compiler *compiler, const Ast *call);
+void lint_attribute_angles(Compiler *compiler, const Symbol *node, const Ast *attr);
+// Checks the attributes of a node. The names in them must still be visible.
+void lint_node(Compiler *compiler, const Ast *decorate);
+// Returns true if an expression is a range of whole numbers.
+bool lint_is_count(const Compiler *compiler, const Ast *ast);
+// Returns true if an expression is always a whole number: whole constants and names of loops over whole numbers, and
+// their sums and products. *largest becomes the largest absolute value of the constants if that is larger.
+bool lint_is_whole(const Compiler *compiler, const Ast *ast, double *largest);
+// Returns true if an expression certainly has the same value in every frame. The names in it must still be visible.
+bool lint_is_fixed(const Compiler *compiler, const Ast *ast);
+// Returns the traits of a name that is bound to the value of an expression or, in a loop, to its elements.
+Traits lint_traits(const Compiler *compiler, const Ast *value);
 
 // Lints for `petri check` (lint.c): code that is valid but unlikely to be intended. They do nothing unless
 // CompileOptions.lint is set.

@@ -1,4 +1,4 @@
-// lint.c: lints of petri check; see compile.h.
+// lint.c: lints of code that is valid but unlikely to be intended; see compile.h.
 #include "base/file.h"
 #include "builtin/builtin.h"
 #include "program/compile.h"
@@ -154,7 +154,37 @@ static bool has_text(Value v) {
     return false;
 }
 
+// Returns the call of a function of random numbers whose result, a stream, is the value of an expression. Returns NULL
+// if there is none.
+static const Ast *stream_of(const Compiler *compiler, const Ast *ast) {
+    if (ast->kind == AST_NAME) {
+        const Binding *binding = compile_find_binding(compiler, ast->name);
+        bool is_let = binding && binding->kind == BINDING_LET && binding->value && binding->value->kind == AST_CALL;
+        return is_let ? stream_of(compiler, binding->value) : NULL;
+    }
+    const Ast *callee = ast->kind == AST_CALL ? ast->children[0] : NULL;
+    bool random = callee && callee->kind == AST_NAME &&
+                  str_word_number(callee->name->name, "beta normal uniform") >= 0 &&
+                  !compile_find_binding(compiler, callee->name);
+    return random ? ast : NULL;
+}
+
+void lint_stream(Compiler *compiler, const Ast *ast) {
+    if (compiler->in_include_path || !stream_of(compiler, ast))
+        return;
+    Str text = {compiler->source->text.bytes + ast->span.start, ast->span.end - ast->span.start};
+    add_warning_with_hint(compiler, ast->span, "missing-index",
+                          STR("a stream of random numbers without an index is null here"),
+                          str_format(compiler->arena, "for its first number, write %.*s[0]", STR_ARGS(text)));
+}
+
+void lint_streams(Compiler *compiler, const Ast *ast) {
+    for (uint32_t i = 0; i < ast->count; i++)
+        lint_stream(compiler, ast->children[i]);
+}
+
 void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr) {
+    lint_streams(compiler, ast);
     for (uint32_t i = 0; lint_enabled(compiler) && i < expr->count; i++)
         if (expr->children[i]->kind == EXPR_CONST && has_text(expr->children[i]->as.value)) {
             add_warning_with_hint(compiler, ast->span, "string-arithmetic",

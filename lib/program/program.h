@@ -52,6 +52,23 @@ typedef struct DefineUse {
     bool by_let;  // the binding at `bound` is a top-level `let`
 } DefineUse;
 
+// `$KEY;VALUE` without parentheses, which is `($KEY);VALUE`.
+typedef struct LooseKey {
+    double symbol; // the key
+    Origin origin; // of the whole vector
+} LooseKey;
+
+// What a program says about keys of the state (key_uses.c), for lints.
+typedef struct KeyUses {
+    double *symbols; // symbols that occur outside of lookups, each once
+    Origin *tested;  // lookups whose value the script expects to be null
+    LooseKey *loose;
+    uint32_t symbol_count, tested_count, loose_count;
+    uint32_t symbol_capacity, tested_capacity, loose_capacity;
+    bool ids_change; // there may be other particles in other frames
+    bool incomplete; // there are too many symbols, or some are in other files
+} KeyUses;
+
 typedef struct Program {
     const Source *source;
     const Code *code;
@@ -66,6 +83,7 @@ typedef struct Program {
     const DefineUse *define_uses; // one element per element of CompileOptions.defines
     const Str *imports;           // constant paths of modules imported at the top level
     uint32_t import_count;
+    const KeyUses *keys;
 } Program;
 
 // Functions that the compiler calls.

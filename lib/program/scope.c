@@ -34,9 +34,11 @@ uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, 
 
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value) {
     uint32_t slot = compiler->function->next_slot;
+    Traits traits = value ? lint_traits(compiler, value) : (Traits){0};
     for (uint32_t i = 0; i < names->count; i++) {
         Binding *binding = add_binding(compiler, kind, names->children[i]->name, names->children[i]->span);
-        binding->value = names->count == 1 ? value : NULL;
+        binding->value = names->count == 1 && kind == BINDING_LET ? value : NULL;
+        binding->traits = traits;
     }
     return slot;
 }

@@ -235,6 +235,8 @@ static uint64_t update_system(Scene *scene, PhysicsSystem *system, const Reader 
                         .run = settings->run,
                         .iteration = iteration};
     uint64_t reports = scene->schema->report_count;
+    if (iteration == 0)
+        physics_lint_settings(reader, settings, frame);
     if (!physics_reuse(&tree))
         read_tree(&tree);
     bool faultless = scene->schema->report_count == reports;

@@ -286,8 +286,8 @@ static void store_origin(PhysicsSystem *system, uint32_t force, const NodeOrigin
 
 // Reads one force of a group. Not part of its recursive caller, because the stack frames of that function must be
 // small.
-__attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node *node, NodeKind kind, uint32_t group,
-                                                   uint32_t randoms) {
+__attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node *parent, const Node *node,
+                                                   NodeKind kind, uint32_t group, uint32_t randoms) {
     Reader reader = reader_of(tree, node, kind);
     PhysForce force;
     if (schema_force(kind) == PHYS_FORCE_KINDS) {
@@ -296,6 +296,8 @@ __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node
     }
     if (!read_force(tree, &reader, randoms, &force))
         return;
+    if (!tree->from_state)
+        physics_lint_force(tree, &reader, parent, group, &force);
     uint32_t number = phys_add_force(tree->engine, group, &force);
     PhysicsSystem *system = tree->system;
     store_origin(system, number, node->origin);
@@ -344,7 +346,7 @@ static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t gr
         } else if (kind != KIND_PARTICLE && kind != KIND_ANCHOR) {
             if (group > 0 && tree->scene->schema->lint)
                 check_group(tree, parent, child, kind);
-            read_applier(tree, child, kind, group, randoms);
+            read_applier(tree, parent, child, kind, group, randoms);
             randoms += kind == KIND_RANDOM;
         }
     }

@@ -123,6 +123,14 @@ uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before);
 // Stores the node of a particle if it has program lifetime, so that the next frame can recognise it.
 void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool has_program_lifetime);
 
+// physics_lint.c
+// Reports a force that does nothing. `parent` is the node of the group in which it acts. Called after all particles
+// have been read.
+void physics_lint_force(PhysicsTree *tree, const Reader *reader, const Node *parent, uint32_t group,
+                        const PhysForce *force);
+// Reports settings that are probably not intended.
+void physics_lint_settings(const Reader *reader, const SystemAttrs *settings, const SceneFrame *frame);
+
 // physics_slots.c
 enum { PHYSICS_NO_BODY = -1, PHYSICS_KEY_NUMBERS = 24 };
 // Returns the key prefix;id or prefix;id;:velocity. A short numeric key is stored in `numbers`, any other key in the

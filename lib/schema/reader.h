@@ -87,6 +87,10 @@ void reader_report_child(const Reader *reader, const Node *child);
 // no such kind.
 void schema_add_home(Text *out, Str kind);
 
+// Returns true if the kind of the node has all its attributes. Otherwise a missing attribute may be misspelled, which
+// is reported when the node is read.
+bool reader_knows_attrs(const Reader *reader);
+
 // Reports the unknown attributes and the unknown or misplaced nodes inside a system that is not read otherwise.
 void reader_report_inside(const Reader *reader);
 

@@ -172,6 +172,14 @@ static bool has_attr(const Schema *schema, NodeKind kind, const Symbol *name) {
     return reader_find_slot(first, end, first, name) < end;
 }
 
+bool reader_knows_attrs(const Reader *reader) {
+    const Node *node = reader->node;
+    for (uint32_t i = 0; i < node->attr_count; i++)
+        if (!has_attr(reader->schema, reader->kind, node->attrs[i].name))
+            return false;
+    return true;
+}
+
 void reader_report_inside(const Reader *reader) {
     uint32_t count;
     const Node *const *children = node_children(reader->arena, reader->node, &count);

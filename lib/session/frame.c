@@ -280,6 +280,10 @@ static PetriStatus evaluate_script(PetriSession *session, void *context) {
     input_write(scene_input(session->scene), session->state, &frame->arena, session->clock.beat, undo);
     if (state_clear_exhausted(session->state))
         arena_exhausted(&frame->arena);
+    if (frame->no_frame_yet) {
+        session->vm.missed = arena_alloc(&frame->arena, sizeof *session->vm.missed);
+        *session->vm.missed = (LookupLog){0};
+    }
     session_evaluate(session, session->state);
     frame->evaluation_seconds = clock_seconds() - start;
     return PETRI_OK;
@@ -321,6 +325,8 @@ static PetriStatus evaluate_frame(PetriSession *session, const FrameClock *recor
         session->vm.globals[ENGINE_CLOCK] = value_number(recorded->realtime ? recorded->unix_time : 0);
     session->frame.physics_steps = 0;
     PetriStatus status = session_protect(session, NULL, evaluate_script, &undo);
+    session->frame.missed = session->vm.missed;
+    session->vm.missed = NULL;
     session_report_abort(session, status, "the frame");
     bool counts = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
     if (!counts)
@@ -353,6 +359,9 @@ static PetriStatus update_frame(PetriSession *session) {
     if (status == PETRI_OK && scene_clear_stopped(session->scene, &session->last_outcome))
         status = session->last_outcome == ARENA_WORK_LIMIT ? PETRI_LIMIT_EXCEEDED : PETRI_INTERRUPTED;
     session_report_abort(session, status, "the frame");
+    if (status == PETRI_OK && frame->missed)
+        session_protect(session, NULL, session_lint_state, frame->missed);
+    frame->missed = NULL;
     frame->profiled_physics += frame->physics_seconds;
     frame->profiled_frames++;
     if (status != PETRI_OK && session->options.rollback_frames)

@@ -28,6 +28,7 @@ typedef struct SessionFrame {
     bool evaluating;   // true while an evaluation is in progress
     bool no_frame_yet; // no frame of the loaded script has been computed
     SeenNodes seen;
+    struct LookupLog *missed; // lookups of the first frame that found nothing, in `arena`; NULL in other frames
     uint64_t physics_steps;
     double evaluation_seconds;
     double physics_seconds;

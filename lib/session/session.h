@@ -174,6 +174,11 @@ void session_lint_top_nodes(PetriSession *session);
 // frames of the script had nodes of the same kinds with the same parents. A limit that this exceeds is reported only
 // when the windows are drawn.
 void session_lint_windows(PetriSession *session);
+// Reports lookups of the first frame that can never find anything (state_lint.c). `log` is the LookupLog of the frame.
+// Called within a protected call, after the systems were updated.
+PetriStatus session_lint_state(PetriSession *session, void *log);
+// Reports shapes and canvases in a window that stay invisible (drawing_lint.c).
+void session_lint_drawings(Schema *schema, Arena *arena, const Node *window, const Source *script);
 
 // Text output to a callback of the host, in chunks (text_sink.c).
 typedef struct TextSink {

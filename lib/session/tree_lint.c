@@ -60,8 +60,11 @@ static PetriStatus read_windows(PetriSession *session, void *context) {
     Schema *schema = arena_copy(arena, &session->schema, sizeof *schema);
     const Node *window;
     schema->file_access = NULL;
-    for (uint32_t at = 0; (window = canvas_next_window(schema, session->frame.tree, &at));)
+    for (uint32_t at = 0; (window = canvas_next_window(schema, session->frame.tree, &at));) {
         canvas_read(schema, arena, window);
+        if (session->frame.no_frame_yet)
+            session_lint_drawings(schema, arena, window, session->config.program->source);
+    }
     return PETRI_OK;
 }
 

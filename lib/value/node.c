@@ -160,6 +160,14 @@ Value node_get(const Node *node, const Symbol *name) {
     return at < node->attr_count ? node->attrs[at].value : VALUE_NULL;
 }
 
+bool node_mentions(const Node *node, const Symbol *name) {
+    const NodeOrigin *origin = node->origin;
+    bool found = !origin || attr_find(node->attrs, node->attr_count, name) < node->attr_count;
+    for (uint32_t i = 0; !found && i < origin->attr_count; i++)
+        found = origin->attrs[i].name == name;
+    return found;
+}
+
 // Returns a copy of a mixed vector's items, in which the caller replaces nodes.
 static Item *items_clone(Arena *arena, Value v) {
     return arena_copy(arena, v.as.items, v.len * sizeof(Item));

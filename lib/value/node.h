@@ -85,6 +85,9 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 void value_mark_program_lifetime(Value v);
 // Returns the attribute's value, or null.
 Value node_get(const Node *node, const Symbol *name) PRIVATE_API(node_get);
+// Returns true if the node has an attribute, or if the script writes it and its value is null. Also returns true if the
+// location of the node is unknown.
+bool node_mentions(const Node *node, const Symbol *name);
 // Returns the location of an attribute. If that is unknown, returns the location of the node. If that is
 // unknown too, the source of the result is NULL.
 Origin node_origin(const Node *node, const Symbol *attr);

@@ -53,6 +53,30 @@ static Value copy_of(Vm *vm, Value v) {
     return value_copy(vm->arena, v);
 }
 
+// Returns the place of the current lookup in the log, or NULL if there are too many places.
+static MissedLookup *log_place(Vm *vm, LookupLog *log, const Origin *at) {
+    if (log->last < log->count && log->places[log->last].at == at)
+        return &log->places[log->last];
+    for (log->last = 0; log->last < log->count; log->last++)
+        if (log->places[log->last].at == at)
+            return &log->places[log->last];
+    if (log->count == LOOKUP_LOG_PLACES)
+        return NULL;
+    log->places = arena_grow_array(vm->arena, log->places, log->count, &log->capacity, sizeof *log->places);
+    log->places[log->count] = (MissedLookup){.at = at};
+    return &log->places[log->count++];
+}
+
+// Records a lookup that found nothing. Returns null.
+static Value miss(Vm *vm, Value key) {
+    MissedLookup *place = vm->missed ? log_place(vm, vm->missed, vm->at) : NULL;
+    if (place && place->count < LOOKUP_LOG_KEYS)
+        place->keys[place->count] = value_copy(vm->arena, key);
+    if (place)
+        place->count++;
+    return VALUE_NULL;
+}
+
 Value vm_lookup_numbers(Vm *vm, uint32_t lookup, const double *numbers, uint32_t len) {
     StateSlot *guess = next_guess(vm, lookup), slot = guess ? *guess : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT || !state_slot_has_key(vm->state, slot, value_numbers_view(numbers, len))) {
@@ -60,7 +84,8 @@ Value vm_lookup_numbers(Vm *vm, uint32_t lookup, const double *numbers, uint32_t
         if (guess)
             *guess = slot;
     }
-    return slot == STATE_NO_SLOT ? VALUE_NULL : copy_of(vm, state_slot_get(vm->state, slot));
+    Value found = slot == STATE_NO_SLOT ? VALUE_NULL : copy_of(vm, state_slot_get(vm->state, slot));
+    return found.len > 0 ? found : miss(vm, value_numbers_view(numbers, len));
 }
 
 // Most keys are a few numbers, for which no key vector needs to be built.
@@ -78,9 +103,11 @@ Value vm_lookup(Vm *vm, const Frame *frame, const Instr *instr) {
     if (count == instr->count && vm->state)
         return vm_lookup_numbers(vm, instr->target, buffer, count);
     Value key = instr->count == 1 ? slots[list[0]] : vm_compose_at(vm, frame, instr, instr->as.inner_origin);
+    vm->at = instr->at;
     if (!vm->state)
         return VALUE_NULL;
     if (key.kind == VALUE_NUMBERS && key.len > 0)
         return vm_lookup_numbers(vm, instr->target, value_numbers(&key), key.len);
-    return copy_of(vm, state_get(vm->state, key));
+    Value found = copy_of(vm, state_get(vm->state, key));
+    return found.len > 0 ? found : miss(vm, key);
 }

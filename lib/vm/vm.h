@@ -46,10 +46,26 @@ typedef struct InlineCache {
     uint32_t next; // index in `slots` for the next execution
 } InlineCache;
 
+// The lookups of an evaluation that found nothing, for lints.
+enum { LOOKUP_LOG_PLACES = 256, LOOKUP_LOG_KEYS = 16 };
+typedef struct MissedLookup {
+    const Origin *at;
+    uint32_t count; // number of lookups; only the first LOOKUP_LOG_KEYS keys are stored
+    Value keys[LOOKUP_LOG_KEYS];
+} MissedLookup;
+typedef struct LookupLog LookupLog;
+struct LookupLog {
+    MissedLookup *places; // in the arena of the VM
+    uint32_t count;
+    uint32_t capacity;
+    uint32_t last; // index of the place that was found last
+};
+
 typedef struct Vm {
     Arena *arena; // the frame's arena, with results and temporary values
     Arena slots;  // memory of the call frames (Frame), used as a stack
     SymbolTable *symbols;
+    LookupLog *missed;  // records lookups that find nothing; NULL: they are not recorded
     const State *state; // state that LOOKUP reads; NULL in modules and while folding: lookups result in null
     Value globals[ENGINE_NAME_COUNT];
     BuiltinContext builtins; // context in which built-ins are called, with the directory of the current program

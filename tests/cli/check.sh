@@ -167,7 +167,7 @@ cat >ignored.fl <<'END'
         void main() { color = vec4(float(7 % 3)); }"""
 !physics state=:y
 !physics state=:z dimensions=2
-    !particle id=1
+    !particle id=1 radius=1
         !foo
     !drag
         !particle

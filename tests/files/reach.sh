@@ -120,7 +120,7 @@ if [ "$status" -eq 0 ]; then # this build has Cairo
     check "--no-files makes the run fail if the script writes" status_is 1
     petri render disc.fl --frames 1 -o away/named.png --no-files
     check "--no-files does not limit the output of the command line" eval 'status_is 0 && [ -s away/named.png ]'
-    printf '!window size=40\n    !canvas\n        !image filename="../disc.png"\n        !rect size=5\n' >home/image.fl
+    printf '!window size=40\n    !canvas\n        !image filename="../disc.png"\n        !rect size=5 fill=true\n' >home/image.fl
     cd cwd || exit 1
     petri render ../home/image.fl --frames 1 -o image.png
     check "an image outside the allowed folders is not drawn" eval 'status_is 0 && grep -q "image.fl:3:16: warning: !image: cannot read" err'

@@ -8,6 +8,15 @@ static const char bodies[] = " !particle id=:a position=0;0 velocity=1;2 radius=
                              " !particle id=:b position=1;0.5 velocity=-1;0.5 radius=0.75 charge=-2\n"
                              " !anchor id=:c position=0.5;1 radius=0.5 mass=3 charge=1\n";
 
+// Drops reports of nodes that do nothing here, because the test uses many such values on purpose.
+static void drop_lints(World *world) {
+    int kept = 0;
+    for (int i = 0; i < world->reported_count && i < WORLD_MAX_REPORTED; i++)
+        if (!strstr("barrier-side missing-index no-bounds no-charge no-radius", world->reported[i].code))
+            world->reported[kept++] = world->reported[i];
+    world->reported_count = kept;
+}
+
 // Returns the state after frame 4 of the scene with the node under test, and checks the diagnostics. The caller frees
 // it.
 static char *state_with(const char *node, const char *attribute, const char *codes) {
@@ -15,6 +24,7 @@ static char *state_with(const char *node, const char *attribute, const char *cod
     char *script = text_of(P2 "%s %s %s\n", bodies, node, attribute);
     world_open(&world, 16, script);
     world_to(&world, 4);
+    drop_lints(&world);
     check_reported(&world, codes, script, __FILE__, __LINE__);
     // The message names the node and the attribute.
     for (int i = 0; i < world.reported_count; i++) {

@@ -8,8 +8,10 @@ static void test_particles(void **state) {
         {"initial position and velocity", P2 " !particle id=:a position=1;2 velocity=3;-4\n", 2, "a=7;-6 a'=3;-4", 0},
         {"one number for all dimensions", P3 " !particle id=:a position=1 velocity=2 force=3\n", 1, "a=6;6;6 a'=5;5;5",
          0},
-        {"the position counts at the first step only", P1 " !particle id=:a position=10*frame\n", 3, "a=10", 0},
-        {"the velocity counts at the first step only", P1 " !particle id=:a velocity=frame\n", 3, "a'=1 a=3", 0},
+        {"the position counts at the first step only", P1 " !particle id=:a position=10*frame\n", 3, "a=10",
+         "changing-start"},
+        {"the velocity counts at the first step only", P1 " !particle id=:a velocity=frame\n", 3, "a'=1 a=3",
+         "changing-start"},
         {"the force at any time", P1 " !particle id=:a force=(frame if frame < 3 else null)\n", 4, "a'=3 a=10", 0},
         {"ease ramps the force up", P1 " !particle id=:a force=8 ease=4\n", 3, "a'=6", 0},
         {"ease has ended", P1 " !particle id=:a force=8 ease=4\n", 6, "a'=28", 0},
@@ -22,7 +24,7 @@ static void test_particles(void **state) {
          "a'=2 a=6", 0},
         {"no mass: stays where it is", P1 " !particle id=:a position=5 mass=0\n !constant acceleration=3\n", 3,
          "a'=0 a=5", 0},
-        {"no mass: cannot be moved later", P1 " !particle id=:a position=5+frame mass=0\n", 4, "a=6", 0},
+        {"no mass: cannot be moved later", P1 " !particle id=:a position=5+frame mass=0\n", 4, "a=6", "changing-start"},
         {"a mass below 0 is 0", P1 " !particle id=:a force=8 mass=-2 velocity=2\n", 1, "a'=2", 0},
         {"no mass: seen by others",
          P1 " !particle id=:a mass=0 radius=1\n !particle id=:b radius=1 position=1.5\n"
@@ -39,8 +41,8 @@ static void test_particles(void **state) {
         {"the radius is a distance in all directions: axis",
          P2 " !particle id=:a radius=5 position=0;0\n !particle id=:b radius=3 position=0;-6\n !collision\n", 1,
          "b'=0;-2", 0},
-        {"radius 0 by default", P1 " !particle id=:a velocity=1\n !drag\n", 1, "a'=1", 0},
-        {"charge 0 by default", P1 " !particle id=:a\n !field direction=1\n", 1, "a'=0", 0},
+        {"radius 0 by default", P1 " !particle id=:a velocity=1\n !drag\n", 1, "a'=1", "no-radius"},
+        {"charge 0 by default", P1 " !particle id=:a\n !field direction=1\n", 1, "a'=0", "no-charge"},
         {"an infinite mass is not moved", P1 " !particle id=:a mass=inf force=5 velocity=2\n", 2, "a'=2 a=4", 0},
     };
     CHECK_CASES(cases);

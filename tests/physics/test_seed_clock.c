@@ -29,7 +29,8 @@ static void test_resolution(void **state) {
         {"1", SYSTEM("resolution=1"), 1, "a'=3 a=3 :clock=1", 0},
         {"1/2: as many steps as needed", SYSTEM("resolution=0.5"), 1, "a'=3 a=2.5 :clock=1", 0},
         {"1/4", SYSTEM("resolution=0.25"), 1, "a'=3 a=2.25 :clock=1", 0},
-        {"delta below resolution: in lockstep with time", SYSTEM("resolution=1e6"), 3, "a'=7 a=15 :clock=3", 0},
+        {"delta below resolution: in lockstep with time", SYSTEM("resolution=1e6"), 3, "a'=7 a=15 :clock=3",
+         "long-resolution"},
         {"a last step that is shorter", SYSTEM("resolution=0.75"), 1, "a'=3 a=2.625 :clock=1", 0},
         {"iterations count frames", SYSTEM("resolution=0.25"), 2, ":iteration=2 :clock=2", 0},
     };

@@ -52,7 +52,7 @@ static void test_changing_values(void **state) {
     (void)state;
     static const Report rows[] = {
         {P2 " !particle id=:a mass=frame;1\n", "bad-attribute", {"!particle", ":a", "mass"}},
-        {P2 " !particle id=:a position=frame;1;2\n", "bad-attribute", {"!particle", ":a", "position"}},
+        {P2 " !particle id=:a force=frame;1;2\n", "bad-attribute", {"!particle", ":a", "force"}},
         {P2 " !group\n  !drag flow=1;2;frame\n", "bad-attribute", {"!drag", "flow"}},
         {"!physics state=:s dimensions=1 run=1;frame\n", "bad-attribute", {"!physics", ":s", "run"}},
     };

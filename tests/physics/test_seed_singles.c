@@ -33,7 +33,7 @@ static void test_field(void **state) {
         {"in proportion to the charge",
          P2 " !particle id=:a charge=2\n !particle id=:b charge=4\n !field direction=1;-2\n", 1, "a'=2;-4 b'=4;-8", 0},
         {"negative charges the other way", P2 " !particle id=:a charge=-2\n !field direction=1;-2\n", 1, "a'=-2;4", 0},
-        {"no charge is the default", P2 " !particle id=:a\n !field direction=1;-2\n", 1, "a'=0;0", 0},
+        {"no charge is the default", P2 " !particle id=:a\n !field direction=1;-2\n", 1, "a'=0;0", "no-charge"},
         {"the direction is not normalised", P2 " !particle id=:a charge=2\n !field direction=3;4 strength=0.5\n", 1,
          "a'=3;4", 0},
         {"acceleration is q / m", P1 " !particle id=:a charge=3 mass=8\n !field direction=2\n", 1, "a'=0.75", 0},
@@ -66,7 +66,7 @@ static void test_drag(void **state) {
          "a'=2.125;2.5", 0},
         {"the flow takes along what rests", P1 " !particle id=:a radius=1\n !drag strength=0.25 flow=2\n", 1, "a'=1",
          0},
-        {"no radius, no drag", P1 " !particle id=:a velocity=2\n !drag strength=0.25\n", 1, "a'=2", 0},
+        {"no radius, no drag", P1 " !particle id=:a velocity=2\n !drag strength=0.25\n", 1, "a'=2", "no-radius"},
         {"limited: at most stops", P2 " !particle id=:a radius=1 velocity=3;4\n !drag strength=1e9\n", 1, "a'=0;0", 0},
         {"limited: at most moves with the medium",
          P2 " !particle id=:a radius=1 velocity=3;4 mass=8\n"
@@ -94,7 +94,7 @@ static void test_buoyancy(void **state) {
         {"no gravity at all", P2 " !particle id=:a radius=2\n !buoyancy gravity=0\n", 1, "a'=0;0", 0},
         {"strength", P2 " !particle id=:a radius=2\n !buoyancy density=1/8 strength=4\n", 1, "a'=0;-2", 0},
         {"a negative density", P2 " !particle id=:a radius=1\n !buoyancy density=-1\n", 1, "a'=0;-2", 0},
-        {"no radius", P2 " !particle id=:a mass=2\n !buoyancy\n", 1, "a'=0;0", 0},
+        {"no radius", P2 " !particle id=:a mass=2\n !buoyancy\n", 1, "a'=0;0", "no-radius"},
         {"no mass", P2 " !particle id=:a mass=0 radius=2\n !buoyancy\n", 1, "a'=0;0", 0},
     };
     CHECK_CASES(cases);

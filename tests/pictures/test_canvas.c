@@ -656,7 +656,7 @@ static void test_bad_input_is_reported_once(void **state) {
         {"        !image image_id=:b\n    !canvas id=:b size=60\n        !image image_id=:a\n        !image "
          "image_id=:b\n"
          "    !reference id=:c\n    !offscreen id=:c\n        !reference id=:c\n        !reference id=:a\n"
-         "    !canvas size=-5\n    !canvas size=20000\n        !rect size=9\n    !canvas\n",
+         "    !canvas size=-5\n    !canvas size=20000\n        !rect size=9 fill=true\n    !canvas\n",
          "12 [bad-attribute] !canvas: size should be one number or two, each 0 or more, not -5\n"
          "13 [bad-size] !canvas: a picture can have 1 to 16384 pixels in width and height\n",
          false},

@@ -132,7 +132,7 @@ static const Row rows[] = {
      "        !sphere position=1.5;0;0 size=1e-300 color=1 translucency=1e-300\n"
      "        !cone start=0 end=1e300 radius=1e-300\n        !cylinder start=1e300 end=-1e300\n"
      "        !light color=1e-30 position=1e300 radius=1e300\n        !light color=1e-9 start=-1e300 end=1e300\n"
-     "        !camera id=:c secondary=true size=16;16 position=1e300 focus=-1e300 up=0 near=-1 far=-1 fov=7 "
+     "        !camera id=:c secondary=true size=16;16 position=1e300 focus=-1e300 up=0 near=-1 far=-1 fov=7.5 "
      "fog_max=1e300 "
      "fog_curve=-1 width=0 orthographic=true samples=1e9\n",
      ""},

@@ -6,7 +6,8 @@ static const char *reports_of(Player *player, const char *lines) {
     PetriOptions options = player_options(player);
     player_reopen(player, &options);
     Notebook script = {0};
-    const char *const parts[] = {"!physics state=:s dimensions=2\n    !particle id=1\n    ", lines, "\n"};
+    const char *const parts[] = {"!physics state=:s dimensions=2\n    !particle id=1 radius=1\n    !anchor id=9\n    ",
+                                 lines, "\n"};
     for (size_t i = 0; i < COUNT_OF(parts); i++)
         note(&script, parts[i], strlen(parts[i]));
     player_run(player, script.text, 3);
@@ -47,7 +48,7 @@ static void test_malformed_attributes_are_reported(void **state) {
         {"!collision max_distance='far' power=0/0", BAD("!collision", "max_distance should be one number, not 'far'")
                                                         BAD("!collision", "power should be one number, not nan")},
         {"!barrier normal=1;0 min='x'", BAD("!barrier", "min should be one number, not 'x'")},
-        {"!distance from=1 to=1 fixed='x' min=1", BAD("!distance", "fixed should be one number, not 'x'")},
+        {"!distance from=1 to=9 fixed='x' min=1", BAD("!distance", "fixed should be one number, not 'x'")},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         const char *reported = reports_of(*state, rows[i].script);
@@ -75,7 +76,7 @@ static void test_unknown_attributes_are_reported(void **state) {
         {"!gravity power=2",
          // `power` is an attribute of another node
          "warning !gravity: unknown attribute 'power' [unknown-attribute]\n"},
-        {"!distance from=1 to=1 max_distance=3",
+        {"!distance from=1 to=9 max_distance=3",
          "warning !distance: unknown attribute 'max_distance' [unknown-attribute]\n"},
         {"!partikel id=2", "warning !partikel id=2: unknown inside !physics; the node is ignored; did you mean "
                            "!particle? [unknown-node]\n"},
@@ -111,8 +112,8 @@ static void test_ids(void **state) {
         {"!particle id='1'", ""},
         {"!particle id=1;1", ""},
         {"!particle id=-0\n    !particle id=0", ""}, // 0 and -0 are different keys
-        {"!distance from=1 to=9",
-         "warning !distance: to=9: no particle or anchor has this id; the force is ignored [unknown-particle]\n"},
+        {"!distance from=1 to=8",
+         "warning !distance: to=8: no particle or anchor has this id; the force is ignored [unknown-particle]\n"},
         {"!distance from='q' to=1",
          "warning !distance: from='q': no particle or anchor has this id; the force is ignored [unknown-particle]\n"},
         {"!distance to=1",

@@ -285,7 +285,7 @@ static void test_check(void **state) {
 static void test_check_reports_in_order(void **state) {
     Desk *desk = *state;
     Notebook *reported = &desk->player.diagnostics;
-    static const char script[] = "!window size=40;40\n    !canvas size=40;40\n        !rect siz=1\n"
+    static const char script[] = "!window size=40;40\n    !canvas size=40;40\n        !rect siz=1 fill=true color=1\n"
                                  "!physics state=:s dimensions=1 colour=1\n!a v=unknown\n";
     static const char *const wanted[] = {"!rect: unknown attribute 'siz'", "unknown attribute 'colour'", "t.fl:5:6 ",
                                          "'!a' does nothing"};
