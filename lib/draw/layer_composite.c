@@ -41,11 +41,25 @@ static void store_color(const LayerComposite *mix, Texture *out, size_t at, cons
         out->linear[4 * at + k] = mix->bits == 8 ? rintf(255 * clamp_unit(color[k])) / 255 : color[k];
 }
 
-Texture *layer_composite(const LayerComposite *mix) {
+// Returns true if the result equals the only input, because decoding and encoding cancel out.
+static bool is_only_input(const LayerComposite *mix) {
     const Texture *only = mix->count == 1 ? mix->inputs[0] : NULL;
     bool same = only && only->width == mix->width && only->height == mix->height && mix->alpha == 1;
-    // In these cases, the result equals the only input, because decoding and encoding cancel out.
-    if (same && (only->bytes ? mix->srgb || mix->bits > 8 : !mix->srgb && mix->bits > 8))
+    return same && (only->bytes ? mix->srgb || mix->bits > 8 : !mix->srgb && mix->bits > 8);
+}
+
+double layer_composite_cost(const LayerComposite *mix) {
+    enum { ONE_TEXEL = 16, FOUR_TEXELS = 30 }; // per pixel and input, measured on a machine from 2024
+    double each = 0;
+    for (uint32_t i = 0; i < mix->count && !is_only_input(mix); i++) {
+        bool same = mix->inputs[i]->width == mix->width && mix->inputs[i]->height == mix->height;
+        each += same || mix->sampler.nearest ? ONE_TEXEL : FOUR_TEXELS;
+    }
+    return each * mix->width * mix->height;
+}
+
+Texture *layer_composite(const LayerComposite *mix) {
+    if (is_only_input(mix))
         return texture_retain(mix->inputs[0]);
     Texture *out = texture_new(mix->budget, mix->width, mix->height, !mix->srgb);
     if (!out || mix->count == 0)

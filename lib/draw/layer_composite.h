@@ -16,6 +16,8 @@ typedef struct LayerComposite {
     Budget *budget;
 } LayerComposite;
 
+// Returns an estimate of the time that layer_composite takes, in nanoseconds.
+double layer_composite_cost(const LayerComposite *mix);
 // Returns a new picture, or another reference to the only input if the result would equal that input. Returns NULL if
 // out of memory.
 Texture *layer_composite(const LayerComposite *mix);

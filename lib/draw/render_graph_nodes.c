@@ -50,6 +50,16 @@ Texture *render_graph_draw_canvas(Walk *walk, const DrawNode *node, int width, i
     return converted ? converted : report_no_memory(walk, node, width, height);
 }
 
+// Charges the work of drawing a node. If that would exceed the limit, reports it and returns false.
+static bool charge_node(Walk *walk, const DrawNode *node, double cost, const char *what) {
+    if (budget_charge_time(&walk->painter->budget, cost))
+        return true;
+    draw_report(walk->faults, &node->origin, DIAG_WARNING, "drawing-limit",
+                "!%s: drawing exceeded the work limit (--work): the %s is left out", schema_kinds[node->kind].name,
+                what);
+    return false;
+}
+
 static Texture *composite_on_cpu(Walk *walk, const DrawNode *node, Texture *const *inputs, uint32_t count, int width,
                                  int height) {
     LayerComposite mix = {.inputs = inputs,
@@ -63,6 +73,8 @@ static Texture *composite_on_cpu(Walk *walk, const DrawNode *node, Texture *cons
                           .srgb = node->kind == KIND_RECORD,
                           .budget = &walk->painter->budget};
     if (mix.how == MIX_UNKNOWN && count > 1)
+        return NULL;
+    if (!charge_node(walk, node, layer_composite_cost(&mix), "picture"))
         return NULL;
     Texture *texture = layer_composite(&mix);
     return texture ? texture : report_no_memory(walk, node, width, height);
@@ -97,18 +109,6 @@ static bool needs_gpu(const DrawNode *node, Texture *const *inputs, uint32_t cou
     return !render_graph_is_plain(node);
 }
 
-// Charges the work of an effect. If that would exceed the limit, reports it and returns false.
-static bool charge_effect(Walk *walk, const GlEffect *effect) {
-    Budget *budget = &walk->painter->budget;
-    double cost = gl_call.effect_cost(effect);
-    if (budget_charge_time(budget, cost))
-        return true;
-    draw_report(walk->faults, &effect->node->origin, DIAG_WARNING, "drawing-limit",
-                "!%s: drawing exceeded the work limit (--work): the effect is left out",
-                schema_kinds[effect->node->kind].name);
-    return false;
-}
-
 // Runs an effect on the GPU. Without a GPU, the children are composited without the effect.
 static Texture *run_effect(Walk *walk, const DrawNode *node, const GraphNode *past, Texture *const *inputs,
                            uint32_t count, int width, int height) {
@@ -137,7 +137,7 @@ static Texture *run_effect(Walk *walk, const DrawNode *node, const GraphNode *pa
                        .format = node->kind == KIND_RECORD ? GL_FORMAT_SRGB8
                                                            : gl_call.format(gl, render_graph_bits(node, walk->bits)),
                        .frame = &frame};
-    if (!charge_effect(walk, &effect))
+    if (!charge_node(walk, node, gl_call.effect_cost(&effect), "effect"))
         return NULL;
     GlImage image = gl_call.effect(gl, &walk->frame->arena, &effect, walk->faults);
     if (!image.texture && walk->painter->budget.memory_refused)

@@ -24,6 +24,17 @@ petri render many.fl -o many.png --work 500k
 check "drawing is charged as work: particles" has err "drawing exceeded the work limit (--work)"
 petri render many.fl -o many.png --work "$(sufficient work)"
 check "the note names a limit that suffices: particles" [ ! -s err ]
+# Compositing pictures without shaders is also charged: 200 of 10^6 pixels take 3 s, whatever their size.
+for size in 1000 999 50; do
+    printf '!window size=1000\n    !canvas id=:a size=%s\n        !rect size=500 fill=true\n    for i in ..200\n        !reference id=:a\n' $size >many.fl
+    petri render many.fl -o many.png --frames 1 --work 20M
+    check "compositing is charged as work: size $size" count_is err "!window: drawing exceeded the work limit (--work): the picture is left out" 1
+    sed 's/\.\.200/..20/' many.fl >few.fl
+    petri render few.fl -o many.png --frames 1 --work 20M
+    check "compositing is charged before it is done: size $size" has err "drawing exceeded the work limit"
+    petri render few.fl -o many.png --frames 1 --work "$(sufficient work)"
+    check "the note names a limit that suffices for compositing: size $size" eval 'status_is 0 && [ ! -s err ]'
+done
 printf '!window size=1000\n    for i in ..3\n        !canvas\n            !ellipse point=500 radius=400 fill=true\n' >many.fl
 petri render many.fl -o many.png --frames 1 --memory 10M
 check "pictures above the memory limit are left out" has err "exceeds the memory limit (--memory); it is left out"
