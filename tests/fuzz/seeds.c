@@ -287,6 +287,20 @@ static void write_frames(void) {
     write_seed("spool", "frames", all, sizeof all);
 }
 
+// Descriptions of nodes: each byte is a choice (fuzz_schema.c).
+static void write_choices(void) {
+    enum { SEEDS = 40, LENGTH = 256 };
+    uint32_t number = 1;
+    for (int i = 0; i < SEEDS; i++) {
+        unsigned char bytes[LENGTH];
+        char name[12];
+        for (int j = 0; j < LENGTH; j++)
+            bytes[j] = (unsigned char)((number = number * 1664525 + 1013904223) >> 24);
+        snprintf(name, sizeof name, "%d", i);
+        write_seed("schema", name, bytes, LENGTH - (size_t)(i % 3));
+    }
+}
+
 // The messages that an editor sends, apart from those that open a document.
 static const char *const METHODS[] = {
     "completion",        "hover",         "signatureHelp",     "definition",   "references",
@@ -340,7 +354,7 @@ int main(int argc, char **argv) {
     static const char *const folders[] = {"",          "script",   "simplify", "draw",  "effects", "scene", "mesh",
                                           "prompt",    "clock",    "physics",  "state", "files",   "image", "golden",
                                           "arguments", "repl",     "link",     "plan",  "journal", "lsp",   "resume",
-                                          "fmt",       "terminal", "listen",   "spool", "h5md"};
+                                          "fmt",       "terminal", "listen",   "spool", "h5md",    "schema"};
     if (argc != 2) {
         fputs("usage: fuzz_seeds FOLDER\n", stderr);
         return 2;
@@ -358,6 +372,7 @@ int main(int argc, char **argv) {
     write_foreign();
     write_editor_messages();
     write_frames();
+    write_choices();
     write_image();
     return 0;
 }
