@@ -250,7 +250,8 @@ PETRI_API PetriStatus petri_reload(PetriSession *session, const char *file);
 PETRI_API PetriStatus petri_step(PetriSession *session);
 
 // A parameter of the loaded script, declared at its top level by `let NAME=NAME or DEFAULT -- RANGE DESCRIPTION`. Its
-// value is the one set with petri_define or petri_set_parameter if that value is true as a condition, else the default.
+// value is the one set with petri_define or petri_set_parameter, else the default. `or` would replace a value that is
+// false, such as 0, so such a value is an error. `let NAME=NAME if NAME != null else DEFAULT` accepts all values.
 // `let X=NAME or NUMBERS` declares the parameter NAME if the script uses NAME only there.
 // RANGE is optional: `1..500`, `0..1|0.05` with a step, or `0..` with one end. The range is a recommendation: a value
 // outside it causes a warning.
@@ -269,6 +270,7 @@ typedef struct PetriParameter {
     const char *file;          // position of the declaration
     uint32_t line;             // from 1
     uint32_t column;           // in characters, from 1
+    bool accepts_false;        // false: a value that is false, such as 0, is an error unless the default is false too
 } PetriParameter;
 
 // Gets a parameter of the script by number: first the parameters of the script and its included files, then those of
@@ -278,8 +280,8 @@ PETRI_API bool petri_parameter(PetriSession *session, size_t number, PetriParame
 
 // Sets a parameter of the script to a value written as in petri_define, or resets it to its default if `value` is NULL.
 // The change takes effect in the next frame. State, frame numbers, time and beat continue. Returns PETRI_INVALID if the
-// script has no such parameter, if the default is a number and the value is not, or if an included file can no longer
-// be read.
+// script has no such parameter, if the default is a number and the value is not, if the value is false and the
+// parameter does not accept that, or if an included file can no longer be read.
 PETRI_API PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value);
 
 // The frame that was computed last.

@@ -89,6 +89,7 @@ struct Compiler {
     const Ast *key;               // key of the latest state lookup; used for a hint
     const Ast *state_attr;        // value of the latest attribute `state`; used for a hint
     const Ast *parameter_use;     // NAME of the last parameter `let X=NAME or DEFAULT`; not reported if unbound
+    const Ast *parameter_test;    // second NAME of `let X=NAME if NAME != null else DEFAULT`, or NULL
     const Ast *parameter_default; // DEFAULT of the last parameter; NULL: the right side has several `or`
     Include *includes;            // in order of the %include directives
     uint32_t include_count;
@@ -127,8 +128,8 @@ const Expr *compile_name(Compiler *compiler, const Ast *ast);
 bool compile_is_tested(Compiler *compiler, const Ast *ast);
 // Returns true if the script tests the name somewhere, once per name: later calls return false.
 bool compile_list_optional(Compiler *compiler, const Symbol *name);
-// Returns true if the name occurs only once.
-bool compile_is_used_once(Compiler *compiler, const Symbol *name);
+// Returns how often the name is used, at most 3.
+uint32_t compile_count_uses(Compiler *compiler, const Symbol *name);
 // Returns true if there is a hint about the probable cause of an unbound name in the value of the name `bound`, such as
 // a similar name.
 bool compile_has_hint(Compiler *compiler, const Ast *use, const Symbol *bound);

@@ -109,8 +109,11 @@ bool compile_list_optional(Compiler *compiler, const Symbol *name) {
     return true;
 }
 
-bool compile_is_used_once(Compiler *compiler, const Symbol *name) {
-    uint32_t left;
+uint32_t compile_count_uses(Compiler *compiler, const Symbol *name) {
+    enum { MAX_COUNTED = 3 };
+    uint32_t left, count = 0;
     const NameUse *use = find_use(compiler, name, NULL, &left);
-    return use && (left == 1 || use[1].name != name);
+    while (use && count < MAX_COUNTED && count < left && use[count].name == name)
+        count++;
+    return count;
 }

@@ -1,6 +1,7 @@
 // parameters.c: parameters of scripts, `let NAME=NAME or DEFAULT` or `let X=NAME or NUMBER`; see program.h.
 //
-// The language needs no special rule: an undefined name is null, which is false, so `or` selects the default. This file
+// Instead of `NAME or DEFAULT`, a script can write `NAME if NAME != null else DEFAULT`. The language needs no special
+// rule: an undefined name is null, which is false, so `or` selects the default. This file
 // suppresses the warning about the undefined name and collects the parameters for listings. The comments that describe
 // them are read from the source text, because the lexer drops comments.
 #include "ast/literal.h"
@@ -9,13 +10,41 @@
 #include <math.h>
 #include <string.h>
 
-// Returns the NAME of `NAME or … or …`, or NULL for other values.
-static const Ast *first_operand(const Ast *value) {
-    if (value->kind != AST_OR)
+// A value that can declare a parameter.
+typedef struct Declaration {
+    const Ast *use;         // NAME; NULL: the value does not declare a parameter
+    const Ast *test;        // the second NAME of `NAME if NAME != null else DEFAULT`, or NULL
+    const Ast *fallback;    // DEFAULT; NULL: it is not one node, because the value is `NAME or A or B`
+    uint32_t default_start; // offset at which the source text of the default begins
+} Declaration;
+
+// Returns the operand that is compared with null in `A != null`, or NULL for other expressions.
+static const Ast *tested_for_null(const Ast *test) {
+    if (test->kind != AST_NE)
         return NULL;
-    while (value->kind == AST_OR)
-        value = value->children[0];
-    return value->kind == AST_NAME ? value : NULL;
+    for (uint32_t i = 0; i < 2; i++)
+        if (test->children[i]->kind == AST_NAME && str_equal(test->children[i]->name->name, STR("null")))
+            return test->children[1 - i];
+    return NULL;
+}
+
+static Declaration read_cond(const Ast *cond) {
+    const Ast *use = cond->children[0], *test = tested_for_null(cond->children[1]), *other = cond->children[2];
+    if (use->kind != AST_NAME || !test || test->kind != AST_NAME || test->name != use->name || !other)
+        return (Declaration){0};
+    return (Declaration){use, test, other, other->span.start};
+}
+
+// Reads `NAME or … or …` or `NAME if NAME != null else …`.
+static Declaration read_declaration(const Ast *value) {
+    if (value->kind == AST_COND)
+        return read_cond(value);
+    const Ast *use = value;
+    while (use->kind == AST_OR)
+        use = use->children[0];
+    if (value->kind != AST_OR || use->kind != AST_NAME)
+        return (Declaration){0};
+    return (Declaration){use, NULL, value->children[0] == use ? value->children[1] : NULL, use->span.end};
 }
 
 static bool is_blank(char c) {
@@ -27,9 +56,9 @@ static Str text_between(const Source *source, uint32_t start, uint32_t end) {
     return str_trim((Str){source->text.bytes + start, end > start ? end - start : 0});
 }
 
-// Returns the source text of a default: the part of `value` after the first `or`. `use` is the NAME before the `or`.
-static Str default_text(const Source *source, const Ast *use, const Ast *value) {
-    Str rest = text_between(source, use->span.end, value->span.end);
+// Returns the source text of a default: the part of `value` from `start`, without an `or` at its beginning.
+static Str default_text(const Source *source, uint32_t start, const Ast *value) {
+    Str rest = text_between(source, start, value->span.end);
     if (str_starts_with(rest, STR("or")))
         rest = (Str){rest.bytes + 2, rest.len - 2};
     return str_trim(rest);
@@ -119,31 +148,54 @@ static bool is_plain_number(const Ast *ast) {
 
 // Returns true if `let X=NAME or DEFAULT` defines the parameter NAME. If NAME is not X, it must occur only here, and
 // the default must be numbers. A name that is similar to another one is probably misspelled.
-static bool is_parameter(Compiler *compiler, const Ast *use, const Ast *name, const Ast *value) {
+static bool is_parameter(Compiler *compiler, const Declaration *declared, const Ast *name) {
+    const Ast *use = declared->use;
     if (!use || !compile_is_free(compiler, use->name))
         return false;
     if (use->name == name->name)
         return true;
-    return !compiler->options->module && value->children[0] == use && is_plain_number(value->children[1]) &&
-           compile_is_used_once(compiler, use->name) && !compile_has_hint(compiler, use, name->name);
+    return !compiler->options->module && declared->fallback && is_plain_number(declared->fallback) &&
+           compile_count_uses(compiler, use->name) == (declared->test ? 2 : 1) &&
+           !compile_has_hint(compiler, use, name->name);
 }
 
 void compile_note_parameter(Compiler *compiler, const Ast *binding) {
-    const Ast *names = binding->children[0], *value = binding->children[1], *use = first_operand(value);
-    compiler->parameter_use = compiler->parameter_default = NULL;
-    if (compiler->depth != 1 || names->count != 1 || !is_parameter(compiler, use, names->children[0], value))
+    const Ast *names = binding->children[0], *value = binding->children[1];
+    Declaration declared = read_declaration(value);
+    compiler->parameter_use = compiler->parameter_test = compiler->parameter_default = NULL;
+    if (compiler->depth != 1 || names->count != 1 || !is_parameter(compiler, &declared, names->children[0]))
         return;
-    Parameter parameter = {.name = use->name,
+    Parameter parameter = {.name = declared.use->name,
                            .source = compiler->source,
                            .span = names->children[0]->span,
-                           .default_text = default_text(compiler->source, use, value)};
+                           .keeps_false = declared.test,
+                           .default_text = default_text(compiler->source, declared.default_start, value)};
     parse_comment(trailing_comment(compiler->source, value->span.end), &parameter);
     compiler->parameters = arena_grow_array(compiler->arena, compiler->parameters, compiler->parameter_count,
                                             &compiler->parameter_capacity, sizeof parameter);
     compiler->parameters[compiler->parameter_count++] = parameter;
-    compiler->parameter_use = use;
-    if (value->children[0] == use) // in `X or A or B`, the tree has no node for the default `A or B`
-        compiler->parameter_default = value->children[1];
+    compiler->parameter_use = declared.use;
+    compiler->parameter_test = declared.test;
+    compiler->parameter_default = declared.fallback;
+}
+
+Str program_null_test(Arena *arena, const Parameter *parameter) {
+    Str name = parameter->name->name;
+    Str bound = text_between(parameter->source, parameter->span.start, parameter->span.end);
+    return str_format(arena, "write 'let %.*s=%.*s if %.*s != null else %.*s'", STR_ARGS(bound), STR_ARGS(name),
+                      STR_ARGS(name), STR_ARGS(parameter->default_text));
+}
+
+// Warns about a range with values that `or` replaces by the default.
+static void lint_zero(Compiler *compiler, const Parameter *parameter) {
+    bool has_range = parameter->min > -INFINITY || parameter->max < INFINITY;
+    bool has_zero = has_range && parameter->min <= 0 && parameter->max >= 0;
+    if (compiler->options->lint && has_zero && !parameter->keeps_false &&
+        !(parameter->is_static && !value_true(parameter->value)))
+        compile_report(compiler, parameter->span, DIAG_WARNING, "zero-in-range",
+                       str_format(compiler->arena, "the range contains 0, but `or` replaces 0 by the default %.*s",
+                                  STR_ARGS(parameter->default_text)),
+                       program_null_test(compiler->arena, parameter));
 }
 
 void compile_note_default(Compiler *compiler, const Expr *default_expr) {
@@ -157,6 +209,7 @@ void compile_note_default(Compiler *compiler, const Expr *default_expr) {
         parameter->value = compiler->folding_pass->parameters[last].value;
     }
     lint_default(compiler, parameter);
+    lint_zero(compiler, parameter);
 }
 
 void compile_note_define(Compiler *compiler, const Binding *binding) {

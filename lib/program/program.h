@@ -30,13 +30,15 @@ typedef struct Pragma {
     Span span;
 } Pragma;
 
-// A parameter: `let NAME=NAME or DEFAULT` at the top level of a file, if the NAME after = can get a value only from -D
-// (parameters.c). A comment after the parameter on the same line describes it.
+// A parameter: `let NAME=NAME or DEFAULT` or `let NAME=NAME if NAME != null else DEFAULT` at the top level of a file,
+// if the NAME after = can get a value only from -D (parameters.c). A comment after the parameter on the same line
+// describes it.
 typedef struct Parameter {
     const Symbol *name;
     const Source *source;
     Span span;        // position of the name
     Str default_text; // source text of the default
+    bool keeps_false; // a definition that is false, such as 0, counts: `let NAME=NAME if NAME != null else DEFAULT`
     bool is_static;   // the default is the constant `value`
     Value value;
     Str comment; // comment that describes the parameter, without the range at its start
@@ -129,6 +131,9 @@ const Export *program_find_export(const Program *program, const Symbol *name);
 
 // Returns the parameter with this name, or NULL.
 const Parameter *program_find_parameter(const Program *program, const Symbol *name);
+
+// Returns a hint with the declaration of a parameter that also accepts values that are false.
+Str program_null_test(Arena *arena, const Parameter *parameter);
 
 const char *engine_name_text(EngineName name);
 bool engine_name_exists(Str name);

@@ -258,7 +258,7 @@ bool compile_has_hint(Compiler *compiler, const Ast *use, const Symbol *bound) {
 
 static const Expr *compile_unbound(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
-    if (ast == compiler->parameter_use)
+    if (ast == compiler->parameter_use || ast == compiler->parameter_test)
         return compile_constant(compiler, ast, VALUE_NULL);
     if (compiler->options->module) {
         Expr *expr = compile_expr_new(compiler, EXPR_UNBOUND, ast, NULL, 0);

@@ -118,28 +118,32 @@ static void check_range(const Check *check, const Parameter *parameter) {
     }
 }
 
-// Returns false if the defined value is false, such as 0, because `or` then uses the default. Warns about this unless
-// the default is known to be false too.
-static bool check_truth(const Check *check, const Parameter *parameter) {
+// Returns true if the definition sets the parameter: it is true, or the parameter also accepts what is false.
+static bool is_used(const Parameter *parameter, Value defined) {
+    return value_true(defined) || parameter->keeps_false;
+}
+
+// Checks a definition that is false, such as 0, so that `or` uses the default. Reports an error and returns false
+// unless the default is false too.
+static bool check_false(const Check *check, const Parameter *parameter) {
     Arena *arena = &check->unit->arena;
-    if (value_true(check->define->value))
-        return true;
     if (parameter->is_static && !value_true(parameter->value))
-        return false;
+        return true;
     Str printed = format_text(arena, &check->session->symbols, check->define->value);
-    report_definition(check, DIAG_WARNING, "false-definition", origin_of(parameter),
+    report_definition(check, DIAG_ERROR, "false-definition", origin_of(parameter),
                       str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so `or` uses the default %.*s",
                                  STR_ARGS(parameter->name->name), STR_ARGS(printed), STR_ARGS(printed),
                                  STR_ARGS(parameter->default_text)),
-                      (Str){0});
+                      program_null_test(arena, parameter));
     return false;
 }
 
 static bool check_parameter(const Check *check, const Parameter *parameter) {
     if (!check_numbers(check, parameter))
         return false;
-    if (check_truth(check, parameter))
-        check_range(check, parameter);
+    if (!is_used(parameter, check->define->value))
+        return check_false(check, parameter);
+    check_range(check, parameter);
     return true;
 }
 
@@ -266,7 +270,7 @@ static const char *to_one_line(Arena *arena, Str source) {
 static void describe_parameter(PetriSession *session, const Parameter *parameter, bool settable, PetriParameter *out) {
     Arena *arena = &session->text_arena;
     const Define *define = settable ? find_define(session, parameter->name) : NULL;
-    bool defined = define && value_true(define->value);
+    bool defined = define && is_used(parameter, define->value);
     Value value = defined ? define->value : parameter->value;
     SourcePosition place = source_locate(parameter->source, parameter->span.start);
     *out = (PetriParameter){
@@ -280,6 +284,7 @@ static void describe_parameter(PetriSession *session, const Parameter *parameter
         .min = parameter->min,
         .max = parameter->max,
         .step = parameter->step,
+        .accepts_false = parameter->keeps_false,
         .defined = defined,
         .settable = settable,
         .file = str_to_c(arena, parameter->source->name),

@@ -31,7 +31,7 @@ RULE("duplicate-id", "Two particles of a system have the same id; the second is 
 RULE("duplicate-prefix", "Two systems have the same attribute `state`.")
 RULE("empty-solid", "An operation on solids leaves nothing.")
 RULE("encoding", "The file is not valid UTF-8.")
-RULE("false-definition", "A parameter is set to a value that is false, so `or` uses the default.")
+RULE("false-definition", "A parameter is set to a value that is false, which `or` would replace by the default.")
 RULE("ignored-attribute", "petri accepts the attribute, but it has no effect.")
 RULE("invalid-input-node", "A `!pointer`, `!key` or other input node lacks an attribute; it is ignored.")
 RULE("invalid-system", "A `!physics` lacks an attribute, or an attribute is not valid; the system is skipped.")

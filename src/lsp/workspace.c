@@ -262,15 +262,19 @@ static BindingSet resolve_name(const Workspace *workspace, size_t file, Str text
 BindingSet workspace_bindings(const Workspace *workspace, size_t file, size_t number) {
     const Document *document = workspace->documents[file];
     const PetriBinding *name = &document->names[number], *before = number > 0 ? name - 1 : NULL;
+    // In `let NAME=NAME if NAME != null else DEFAULT`, another use may be in between.
+    if (before && before > document->names && before->kind == PETRI_NAME_USE)
+        before--;
     Str text = document_slice(document, name->start, name->end);
     if (name->kind != PETRI_NAME_USE)
         return binding_definition(workspace, file, number, 0);
     BindingSet found = resolve_name(workspace, file, text, document_binding(document, name));
     // In the parameter `let NAME=NAME or DEFAULT`, the second NAME means the value set with -D. It refers to the
     // first.
-    bool given = found.count == 0 && before && before->kind == PETRI_NAME_LET && before->value_start == name->start &&
+    bool given = found.count == 0 && before && before->kind == PETRI_NAME_LET && before->value_start <= name->start &&
+                 name->start < before->value_end &&
                  str_equal(document_slice(document, before->start, before->end), text);
-    return given ? binding_definition(workspace, file, number - 1, 0) : found;
+    return given ? binding_definition(workspace, file, (size_t)(before - document->names), 0) : found;
 }
 
 BindingSet workspace_resolve(const Workspace *workspace, size_t token) {

@@ -350,7 +350,8 @@ const Command RUN_COMMAND = {
         "A top-level line such as `let CELLS=CELLS or 200 -- 1..500 how many` declares a parameter. 'petri run\n"
         "--parameters SCRIPT.fl' lists parameters, '-D CELLS=50' sets one. The range is optional; a value outside it\n"
         "and an unknown name cause warnings. Numbers may have suffixes (1k, 20m), vectors are 1;2;3, symbols are\n"
-        ":name. A value of 0 selects the default, because 0 is false. -D does not affect modules.",
+        ":name. 0 is false, so `or` would use the default: `let CELLS=CELLS if CELLS != null else 200` accepts 0. -D\n"
+        "does not affect modules.",
     .examples = "  petri run dish.fl --stats                       print speed and final energy\n"
                 "  petri run dish.fl --print state --every 60      print the state once a second\n"
                 "  petri run dish.fl -D DROPS=50 --frames 100      set a parameter\n"

@@ -51,13 +51,18 @@ static double step_from(const PetriParameter *parameter, double value, int steps
     return fmin(fmax(to, parameter->min), parameter->max);
 }
 
+// Returns true if a value would select the default instead.
+static bool selects_default(const PetriParameter *parameter, double value) {
+    return value == 0 && parameter->default_number != 0 && !parameter->accepts_false;
+}
+
 double parameter_stepped(const PetriParameter *parameter, int steps) {
     if (!isfinite(parameter->number))
         return NAN;
     double to = step_from(parameter, parameter->number, steps);
-    if (to == 0 && parameter->default_number != 0) // skip 0, which selects the default
+    if (selects_default(parameter, to))
         to = step_from(parameter, to, steps > 0 ? 1 : -1);
-    return to == 0 && parameter->default_number != 0 ? NAN : to;
+    return selects_default(parameter, to) ? NAN : to;
 }
 
 double parameter_at(const PetriParameter *parameter, double fraction) {
@@ -65,7 +70,7 @@ double parameter_at(const PetriParameter *parameter, double fraction) {
     double size = parameter->step > 0 ? parameter->step : counts_whole(parameter, regular) ? 1 : range / SLIDER_STEPS;
     double steps = round(fraction * range / size);
     double to = round_decimal(fmin(parameter->min + steps * size, parameter->max));
-    if (to == 0 && regular != 0) // 0 would select the default
+    if (selects_default(parameter, to))
         to = round_decimal(to + size <= parameter->max ? to + size : to - size);
     return to;
 }

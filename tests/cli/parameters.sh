@@ -57,6 +57,24 @@ check "check reports a default outside its range" has err "outside.fl:1:5: warni
 petri run --frames 1 outside.fl
 check "a run does not report a default outside its range" empty err
 
+# Parameters for which 0 is a value.
+echo "let GAIN=GAIN if GAIN != null else 5 -- 0..9|1 how strong
+!n g=GAIN" >gain.fl
+petri check --werror gain.fl
+check "a parameter that accepts 0 has no warnings" status_is 0
+petri run --parameters gain.fl -D GAIN=0
+check "a parameter that accepts 0 is listed with its range" out_is "GAIN  0 (default 5)  0..9|1  how strong"
+petri run --frames 1 --print tree gain.fl -D GAIN=0
+check "0 sets a parameter that accepts it" has out "!n g=0"
+echo "let GAIN=GAIN or 5 -- 0..9|1 how strong
+!n g=GAIN" >gain.fl
+petri check gain.fl
+check "check reports a range with values that 'or' replaces" has err 'gain.fl:1:5: warning: the range contains 0, but `or` replaces 0 by the default 5 [zero-in-range]'
+check "check writes the declaration that accepts 0" has err "write 'let GAIN=GAIN if GAIN != null else 5'"
+petri run --frames 1 --print tree gain.fl -D GAIN=0
+check "a run does not use the default instead of 0" eval 'status_is 1 && empty out'
+check "the error writes the declaration that accepts 0" has err "write 'let GAIN=GAIN if GAIN != null else 5'"
+
 petri run --parameters cells.fl
 check "--parameters lists name, default, range and comment" out_is "CELLS  200       1..500  how many cells
 SPEED  1.5

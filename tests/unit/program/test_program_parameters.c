@@ -68,10 +68,10 @@ static void test_definition_keeps_default(void **state) {
 
 static void test_default_outside_range_is_reported(void **state) {
     static const ParameterRow rows[] = {
-        {"let n=n or 5 -- 0..3 few\n!a v=n\n",
+        {"let n=n or 5 -- 1..3 few\n!a v=n\n",
          "1:5 the default of 'n' is outside the range in its comment [out-of-range]\n"},
-        {"let n=n or (1;2) -- 0..3 few\n!a v=n\n", ""},
-        {"let n=n or frame -- 0..3 few\n!a v=n\n", ""},
+        {"let n=n or (1;2) -- 1..3 few\n!a v=n\n", ""},
+        {"let n=n or frame -- 1..3 few\n!a v=n\n", ""},
     };
     Desk *desk = *state;
     desk->options.lint = true;

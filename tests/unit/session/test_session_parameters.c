@@ -110,9 +110,6 @@ static void test_values(void **state) {
          "warning unused definition 'X': t.fl does not read it; "
          "the parameter of the script is N [unread-definition]\n"},
         {"N=4", "!a v=4;2\n", ""},
-        {"N=0", "!a v=3;2\n",
-         "warning t.fl:1:5 N=0 has no effect: 0 is false, so `or` uses the default 3 "
-         "[false-definition]\n"},
         {"N=5;1", "!a v=5;1;2\n", ""},
         {"N=11", "!a v=11;2\n", "warning t.fl:1:5 N=11 is outside the range 1..10 [out-of-range]\n"},
         {"N=nan", "!a v=nan;2\n", "warning t.fl:1:5 N=nan is outside the range 1..10 [out-of-range]\n"},
@@ -127,6 +124,63 @@ static void test_values(void **state) {
             assert_text(rows[i].definition, player_tree(player), rows[i].tree);
             assert_text(rows[i].definition, player_diagnostics(player), rows[i].reported);
         }
+}
+
+// A definition that `or` would replace is an error that names a declaration without `or`. That declaration accepts it.
+static void test_false_definitions(void **state) {
+    Player *player = *state;
+    static const struct {
+        const char *script, *definition, *tree, *reported;
+    } rows[] = {
+        {"let N=N or 3 -- 1..10\n!a v=N\n", "N=0", NULL,
+         "error t.fl:1:5 N=0 has no effect: 0 is false, so `or` uses the default 3 [false-definition]\n"},
+        {"let N=N or (3;4)\n!a v=N\n", "N=0;0", NULL,
+         "error t.fl:1:5 N=0;0 has no effect: 0;0 is false, so `or` uses the default (3;4) [false-definition]\n"},
+        {"let N=N or 0\n!a v=N\n", "N=0", "!a v=0\n", ""},
+        {"let T=T or 'x'\n!a v=T\n", "T=", NULL,
+         "error t.fl:1:5 T='' has no effect: '' is false, so `or` uses the default 'x' [false-definition]\n"},
+        {"let T=T if T != null else 'x'\n!a v=T;1\n", "T=", "!a v='';1\n", ""},
+        {"let N=N if N != null else 3 -- 0..10\n!a v=N\n", "N=0", "!a v=0\n", ""},
+        {"let N=N if N != null else 3 -- 0..10\n!a v=N\n", "M=1", "!a v=3\n",
+         "warning unused definition 'M': t.fl does not read it; the parameter of the script is N "
+         "[unread-definition]\n"},
+        {"let N=N if null != N else 3 -- 1..10\n!a v=N\n", "N=0", "!a v=0\n",
+         "warning t.fl:1:5 N=0 is outside the range 1..10 [out-of-range]\n"},
+        {"let size=WIDTH if WIDTH != null else -3 -- -9..9\n!a v=size\n", "WIDTH=0", "!a v=0\n", ""},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++)
+        for (int simplify = 1; simplify >= 0; simplify--) {
+            PetriOptions options = player_options(player);
+            options.simplify = simplify;
+            player_reopen(player, &options);
+            assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
+            PetriStatus status = player_load(player, rows[i].script);
+            assert_int_equal(status, rows[i].tree ? PETRI_OK : PETRI_INVALID);
+            if (rows[i].tree) {
+                player_step(player, 1);
+                assert_text(rows[i].script, player_tree(player), rows[i].tree);
+            }
+            assert_text(rows[i].script, player_diagnostics(player), rows[i].reported);
+        }
+}
+
+// A session whose parameter cannot be set to 0 keeps its last value. Without `or`, 0 is a value like any other.
+static void test_zero_is_set(void **state) {
+    Player *player = *state;
+    PetriParameter parameter;
+    player_run(player, "let A=A or 3\n    B=B if B != null else 3 -- 0..9|1 bees\n!a v=A;B\n", 1);
+    assert_int_equal(petri_set_parameter(player->session, "A", "2"), PETRI_OK);
+    assert_int_equal(petri_set_parameter(player->session, "A", "0"), PETRI_INVALID);
+    assert_int_equal(petri_set_parameter(player->session, "B", "0"), PETRI_OK);
+    player_step(player, 1);
+    assert_text("0 is a value of B", player_tree(player), "!a v=2;0\n");
+    assert_true(petri_parameter(player->session, 1, &parameter, sizeof parameter));
+    assert_true(parameter.accepts_false && parameter.defined && parameter.number == 0 && parameter.max == 9);
+    assert_text("comment", parameter.comment, "bees");
+    assert_text("default", parameter.default_value, "3");
+    assert_int_equal(petri_set_parameter(player->session, "B", NULL), PETRI_OK);
+    player_step(player, 1);
+    assert_text("the default again", player_tree(player), "!a v=2;3\n");
 }
 
 // An unused definition is reported. The diagnostic's position shows the cause.
@@ -361,6 +415,8 @@ TEST_GROUP(session_parameters) {
         PLAYER_TEST(test_parameters_are_recognised),
         PLAYER_TEST(test_comments),
         PLAYER_TEST(test_values),
+        PLAYER_TEST(test_false_definitions),
+        PLAYER_TEST(test_zero_is_set),
         PLAYER_TEST(test_unused_definitions_are_reported),
         PLAYER_TEST(test_hints_are_rendered),
         PLAYER_TEST(test_invalid_definitions_are_rejected),

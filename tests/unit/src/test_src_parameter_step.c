@@ -83,9 +83,20 @@ static void test_fraction_selects_value(void **state) {
     }
 }
 
+// A parameter that accepts 0 reaches it with keys and with its slider.
+static void test_zero_is_reached_if_accepted(void **state) {
+    (void)state;
+    PetriParameter row = parameter(1, 5, -5, 5, 0);
+    row.accepts_false = true;
+    assert_number("step down to 0", parameter_stepped(&row, -1), 0);
+    assert_number("0 in the middle", parameter_at(&row, 0.5), 0);
+    row.min = 0;
+    assert_number("0 at the minimum", parameter_at(&row, 0), 0);
+}
+
 TEST_GROUP(src_parameter_step) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_step_gives_expected_value),
-                                       cmocka_unit_test(test_step_down_undoes_step_up),
-                                       cmocka_unit_test(test_fraction_selects_value)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_step_gives_expected_value), cmocka_unit_test(test_step_down_undoes_step_up),
+        cmocka_unit_test(test_fraction_selects_value), cmocka_unit_test(test_zero_is_reached_if_accepted)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
