@@ -205,22 +205,19 @@ static uint32_t next_enclosing(const Group *groups, uint32_t g, uint32_t level) 
     return next != NO_GROUP && next >= level ? next : NO_GROUP;
 }
 
-// Records one force with `theta` of a divided pass.
-static bool explain_far_force(Probe *probe, Force *force, uint32_t group, uint32_t level) {
+// Records one force with `theta` of a divided pass, between `group` and itself or the enclosing group `g`.
+static bool explain_far_force(Probe *probe, Force *force, uint32_t group, uint32_t g) {
     const Group *groups = probe->system->groups.bytes;
-    if (group == probe->group && !explain_far_group(probe, force, group))
+    if (group != probe->group && g != probe->group)
+        return phys_charge(probe->system, 1);
+    bool pays = groups[g].count >= PHYS_FAR_MIN_PARTICLES;
+    if (pays && !phys_far_pays(probe->system, force, group, g, &pays))
         return false;
-    for (uint32_t g = next_enclosing(groups, group, level); g != NO_GROUP; g = next_enclosing(groups, g, level)) {
-        if (groups[g].count < PHYS_FAR_MIN_PARTICLES) {
-            PassForces pass = pass_forces(probe, (ForceRange){force, force + 1}, false);
-            if (!explain_group(probe, &pass, group, g))
-                return false;
-        } else if ((group == probe->group && !explain_far_group(probe, force, g)) ||
-                   (g == probe->group && !explain_far_group(probe, force, group))) {
-            return false;
-        }
+    if (!pays) {
+        PassForces pass = pass_forces(probe, (ForceRange){force, force + 1}, false);
+        return explain_group(probe, &pass, group, g);
     }
-    return true;
+    return explain_far_group(probe, force, group == probe->group ? g : group);
 }
 
 // Records the forces of the pass over the particles of `group` and of the enclosing groups up to `level`.
@@ -235,8 +232,9 @@ static bool explain_pass(Probe *probe, uint32_t group, uint32_t level) {
         if (!explain_group(probe, &pass, group, g))
             return false;
     for (Force *force = forces.begin; force < forces.end && pass.divided; force++)
-        if (phys_is_far(system, force) && !explain_far_force(probe, force, group, level))
-            return false;
+        for (uint32_t g = group; g != NO_GROUP && phys_is_far(system, force); g = next_enclosing(groups, g, level))
+            if (!explain_far_force(probe, force, group, g))
+                return false;
     return true;
 }
 

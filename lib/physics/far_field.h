@@ -17,6 +17,8 @@ enum {
     FAR_CELLS = 256,    // number of cells in a block, a multiple of FAR_SUMS
     FAR_LEVELS = 42,    // maximum depth of a tree
     FAR_QUADRUPOLE = 6, // components xx, xy, xz, yy, yz, zz
+    FAR_PAIR = 2,       // cost of an exact pair, in evaluations of a cell
+    FAR_VISIT = 4,      // cost of visiting a cell, in evaluations of a cell
 };
 
 // A cell of a tree. Cells are in depth-first order, and the children of a cell are in the order of their keys.
@@ -101,7 +103,7 @@ typedef struct FarScratch {
     FarTarget targets[FAR_GROUP];
     size_t target_count;
     bool any_cell;        // a cell was accepted for the current targets
-    uint64_t evaluations; // pairs and cells that were evaluated for a target, and visited cells
+    uint64_t evaluations; // the cost of pairs and cells that were evaluated for a target, and of visited cells
 } FarScratch;
 
 // Adds the exact forces of a block of sources to the partial sums of the targets. The count of the block must be a

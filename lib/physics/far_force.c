@@ -82,6 +82,64 @@ static uint32_t list_targets(PhysSystem *system, FarForest *forest, const FarTre
     return count;
 }
 
+static FarPass make_pass(const PhysSystem *system, FarForest *forest, Force *force, uint32_t targets,
+                         uint32_t sources) {
+    double opening = force->given.theta * 2 / 3;
+    FarPass pass = {
+        .system = system,
+        .forest = forest,
+        .targets = phys_far_tree(forest, targets),
+        .sources = phys_far_tree(forest, sources),
+        .kernels = phys_kernels(system)->far,
+        .opening_squared = opening * opening,
+        .stop = system->options.division ? NULL : phys_stop(system),
+    };
+    phys_fill_terms(&pass.term, (ForceRange){force, force + 1});
+    pass.bound = pass.term.bound * 0.5 * forest->half_scale;
+    return pass;
+}
+
+// --- whether a tree saves time
+
+// Returns the number of targets of a group that are not anchors.
+static size_t moving_targets(const FarPass *pass, FarTargets targets) {
+    size_t moving = 0;
+    for (uint32_t i = targets.first; i < targets.end; i++)
+        moving += !pass->system->columns.anchor[pass->forest->column[i]];
+    return moving;
+}
+
+// Adds to *pairs the number of exact pairs of a pass, estimated from a sample of its groups of targets. Returns false
+// if the step must be aborted.
+static bool estimate_pairs(PhysSystem *system, const FarPass *pass, double *pairs) {
+    enum { SAMPLES = 64 };
+    uint32_t count = list_targets(system, pass->forest, pass->targets), step = 1 + count / SAMPLES;
+    const FarTargets *targets = pass->forest->targets.bytes;
+    uint64_t sum = 0, visits = 0;
+    for (uint32_t i = 0; i < count && !system->failed; i += step) {
+        FarCount walk = phys_far_count(pass, targets[i]);
+        sum += walk.pairs * moving_targets(pass, targets[i]);
+        visits += walk.visits;
+    }
+    *pairs += (double)sum * step;
+    return !system->failed && phys_charge(system, visits * FAR_VISIT / EVALUATIONS_A_UNIT + 1);
+}
+
+bool phys_far_pays(PhysSystem *system, Force *force, uint32_t group, uint32_t other, bool *pays) {
+    const Group *groups = system->groups.bytes;
+    FarForest *forest = get_forest(system, force->given.kind);
+    if (!forest)
+        return false;
+    FarPass inward = make_pass(system, forest, force, group, other),
+            outward = make_pass(system, forest, force, other, group);
+    double pairs = 0;
+    if (!estimate_pairs(system, &inward, &pairs) || (group != other && !estimate_pairs(system, &outward, &pairs)))
+        return false;
+    double all = (double)groups[group].count * groups[other].count * (group == other ? 1 : 2);
+    *pays = pairs * 4 <= all * 3;
+    return true;
+}
+
 // --- batches
 
 // Groups of targets that are evaluated together, every `step`-th from `first` on.
@@ -134,14 +192,6 @@ static bool run_alone(PhysSystem *system, const FarPass *pass, size_t count, int
 }
 
 // --- several processes
-
-// Returns the number of targets of a group that are not anchors.
-static size_t moving_targets(const FarPass *pass, FarTargets targets) {
-    size_t moving = 0;
-    for (uint32_t i = targets.first; i < targets.end; i++)
-        moving += !pass->system->columns.anchor[pass->forest->column[i]];
-    return moving;
-}
 
 // Adds the forces of a group of targets to the columns.
 static void add_results(const FarPass *pass, FarTargets targets, const double *forces) {
@@ -206,23 +256,6 @@ static bool add_tree_forces(PhysSystem *system, FarPass *pass) {
     if (count == 0 || pass->sources->count == 0)
         return true;
     return system->options.division ? run_divided(system, pass, count, chunks) : run_alone(system, pass, count, chunks);
-}
-
-static FarPass make_pass(const PhysSystem *system, FarForest *forest, Force *force, uint32_t targets,
-                         uint32_t sources) {
-    double opening = force->given.theta * 2 / 3;
-    FarPass pass = {
-        .system = system,
-        .forest = forest,
-        .targets = phys_far_tree(forest, targets),
-        .sources = phys_far_tree(forest, sources),
-        .kernels = phys_kernels(system)->far,
-        .opening_squared = opening * opening,
-        .stop = system->options.division ? NULL : phys_stop(system),
-    };
-    phys_fill_terms(&pass.term, (ForceRange){force, force + 1});
-    pass.bound = pass.term.bound * 0.5 * forest->half_scale;
-    return pass;
 }
 
 bool phys_far_forces(PhysSystem *system, Force *force, uint32_t targets, uint32_t sources) {

@@ -91,7 +91,7 @@ static size_t padded_count(size_t count) {
 static void flush_pairs(const FarPass *pass, FarScratch *scratch) {
     FarPairs *pairs = &scratch->pairs;
     size_t n = pass->forest->dimensions, padded = padded_count(pairs->count);
-    scratch->evaluations += pairs->count * scratch->target_count;
+    scratch->evaluations += FAR_PAIR * pairs->count * scratch->target_count;
     for (; pairs->count < padded; pairs->count++) {
         for (size_t k = 0; k < n; k++)
             pairs->position[k][pairs->count] = NAN;
@@ -206,8 +206,21 @@ static bool is_own_point(const FarPass *pass, const FarCell *cell, FarTargets ta
     return cell->point && pass->sources == pass->targets && targets.first >= cell->first && targets.end <= cell->end;
 }
 
+FarCount phys_far_count(const FarPass *pass, FarTargets targets) {
+    const FarCell *cells = pass->forest->cells.bytes;
+    Box box = target_box(pass->forest, targets);
+    FarCount count = {0, 0};
+    for (uint32_t cell = pass->sources->root; cell < pass->sources->end; count.visits++) {
+        Decision decision = decide(pass, &box, &cells[cell]);
+        bool leaf = cells[cell].skip == cell + 1;
+        if (decision == CELL_OPEN && leaf && !is_own_point(pass, &cells[cell], targets))
+            count.pairs += cells[cell].end - cells[cell].first;
+        cell = decision == CELL_OPEN ? cell + 1 : cells[cell].skip;
+    }
+    return count;
+}
+
 void phys_far_walk(const FarPass *pass, FarTargets targets, FarScratch *scratch, double *forces) {
-    enum { VISITS_PER_EVALUATION = 4 };
     const FarCell *cells = pass->forest->cells.bytes;
     collect_targets(pass, targets, scratch);
     if (!scratch->target_count)
@@ -229,6 +242,6 @@ void phys_far_walk(const FarPass *pass, FarTargets targets, FarScratch *scratch,
         flush_pairs(pass, scratch);
     if (scratch->cells.count)
         flush_cells(pass, scratch);
-    scratch->evaluations += visits * VISITS_PER_EVALUATION;
+    scratch->evaluations += visits * FAR_VISIT;
     finish_targets(pass, scratch, forces);
 }

@@ -21,6 +21,13 @@ typedef struct FarPass {
     const atomic_bool *stop; // as in PairPass
 } FarPass;
 
+// The work of a walk for each of its targets, without evaluating anything.
+typedef struct FarCount {
+    uint64_t pairs;  // sources that are computed in pairs
+    uint64_t visits; // visited cells
+} FarCount;
+FarCount phys_far_count(const FarPass *pass, FarTargets targets);
+
 // Evaluates the forces on some targets of the pass. `forces` receives the forces of the targets that are not anchors,
 // n doubles each; NULL: they are added to the columns. Uses and updates *scratch.
 void phys_far_walk(const FarPass *pass, FarTargets targets, FarScratch *scratch, double *forces);

@@ -167,26 +167,44 @@ static void compute_pass(const Pass *pass, const Group *group, uint32_t level) {
     }
 }
 
-// Adds one force with `theta` of a divided pass. Enclosing groups with few particles compute all pairs.
-static bool add_far_force(PhysSystem *system, const Group *group, uint32_t level, Force *force) {
-    const Group *groups = system->groups.bytes;
-    uint32_t own = (uint32_t)(group - groups);
-    if (!phys_far_forces(system, force, own, own))
-        return false;
-    for (const Group *other = next_enclosing(system, group, level); other;
-         other = next_enclosing(system, other, level)) {
-        if (other->count >= PHYS_FAR_MIN_PARTICLES) {
-            uint32_t outer = (uint32_t)(other - groups);
-            if (!phys_far_forces(system, force, own, outer) || !phys_far_forces(system, force, outer, own))
-                return false;
-            continue;
-        }
-        Pass pass = prepare_pass(system, (ForceRange){force, force + 1}, false);
-        if (!charge_pairs(&pass, (uint64_t)group->count * other->count))
-            return false;
-        pass_rectangle(&pass, group->first, (size_t)group->first + group->count, other->first,
-                       (size_t)other->first + other->count);
+// Adds one force within a group, or between it and an enclosing group, for all pairs. Returns false if the step must be
+// aborted.
+static bool add_all_pairs(PhysSystem *system, const Group *group, const Group *other, Force *force) {
+    if (system->column_order == ORDER_BY_CELL) {
+        phys_restore_order(system);
+        phys_far_forget(system); // trees refer to columns
+        system->unlisted = true;
     }
+    Pass pass = prepare_pass(system, (ForceRange){force, force + 1}, false);
+    uint64_t pairs = (uint64_t)group->count * other->count;
+    if (!charge_pairs(&pass, group == other ? pairs / 2 : pairs))
+        return false;
+    size_t end = (size_t)group->first + group->count;
+    if (group == other)
+        pass_triangle(&pass, group->first, end);
+    else
+        pass_rectangle(&pass, group->first, end, other->first, (size_t)other->first + other->count);
+    return true;
+}
+
+// Adds one force with `theta` of a divided pass, between a group and itself or an enclosing group. All pairs are
+// computed if the enclosing group has few particles, or if this is faster.
+static bool add_far_force(PhysSystem *system, const Group *group, const Group *other, Force *force) {
+    const Group *groups = system->groups.bytes;
+    uint32_t own = (uint32_t)(group - groups), outer = (uint32_t)(other - groups);
+    bool pays = other->count >= PHYS_FAR_MIN_PARTICLES;
+    if (pays && !phys_far_pays(system, force, own, outer, &pays))
+        return false;
+    if (!pays)
+        return add_all_pairs(system, group, other, force);
+    return phys_far_forces(system, force, own, outer) && (own == outer || phys_far_forces(system, force, outer, own));
+}
+
+// Adds one force with `theta` of a divided pass.
+static bool add_far_forces(PhysSystem *system, const Group *group, uint32_t level, Force *force) {
+    for (const Group *other = group; other; other = next_enclosing(system, other, level))
+        if (!add_far_force(system, group, other, force))
+            return false;
     return true;
 }
 
@@ -203,7 +221,7 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Mo
         (!pass.kernels || !phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, number, level, pass.move)))
         compute_pass(&pass, group, level);
     for (Force *force = forces.begin; force < forces.end && divided; force++)
-        if (phys_is_far(system, force) && !add_far_force(system, group, level, force))
+        if (phys_is_far(system, force) && !add_far_forces(system, group, level, force))
             return;
 }
 

@@ -13,7 +13,7 @@ import sys
 import tempfile
 from collections import namedtuple
 
-MIN_PARTICLES, LEAF, TARGETS, LEVELS, SUMS = 1024, 32, 64, 42, 8
+MIN_PARTICLES, LEAF, TARGETS, LEVELS, SUMS, SAMPLES = 1024, 32, 64, 42, 8, 64
 DELTA = 1 / 64
 
 Particle = namedtuple('Particle', 'group position mass charge radius anchor')
@@ -306,9 +306,34 @@ class System:
             for j in own[at + 1:] + [j for g in outer for j in self.members[g]]:
                 self.add_pair(forces, i, j)
 
-    def far(self, force, targets, sources):
+    def forest(self, force):
         forest = self.forests.setdefault(force.kind, None) or Forest(self, force.kind)
         self.forests[force.kind] = forest
+        return forest
+
+    def sampled_pairs(self, force, targets, sources):
+        """Returns an estimate of the number of exact pairs."""
+        forest = self.forest(force)
+        if not forest.trees[targets] or not forest.trees[sources]:
+            return 0
+        boxes = target_groups(forest.trees[targets])
+        step, pairs = 1 + len(boxes) // SAMPLES, 0
+        for box in boxes[::step]:
+            walk = Walk(self, forest, force, box)
+            walk.visit(forest.trees[sources])
+            pairs += len(walk.sources) * sum(not self.particles[target.number].anchor for target in box)
+        return pairs * step
+
+    def tree_pays(self, force, group, other):
+        size = len(self.members[other])
+        if size < MIN_PARTICLES:
+            return False
+        ways = {(group, other), (other, group)}
+        pairs = sum(self.sampled_pairs(force, *way) for way in ways)
+        return pairs * 4 <= len(ways) * len(self.members[group]) * size * 3
+
+    def far(self, force, targets, sources):
+        forest = self.forest(force)
         if not forest.trees[targets] or not forest.trees[sources]:
             return
         for box in target_groups(forest.trees[targets]):
@@ -317,9 +342,12 @@ class System:
             walk.apply()
 
     def far_pass(self, group, outer, force):
-        self.far(force, group, group)
+        if self.tree_pays(force, group, group):
+            self.far(force, group, group)
+        else:
+            self.exact_pass(group, [], [force])
         for other in outer:
-            if len(self.members[other]) < MIN_PARTICLES:
+            if not self.tree_pays(force, group, other):
                 for i in self.members[group]:
                     for j in self.members[other]:
                         self.add_pair([force], i, j)
@@ -453,6 +481,9 @@ def cases():
     yield 'neutral_3d', make(34, 3, 1100, 'cube', [ELECTROSTATIC], neutral=True, theta=1.0)
     yield 'neutral_2d', make(35, 2, 1100, 'clusters', [ELECTROSTATIC], neutral=True)
     yield 'large_radii_3d', make(36, 3, 1100, 'cube', both, radius=3.0, theta=1.2)
+    yield 'larger_radii_2d', make(43, 2, 1100, 'cube', [GRAVITY], radius=30.0)
+    yield 'groups_large_radii_2d', make(44, 2, 2100, 'cube', [ELECTROSTATIC], parents=(0, 0), radius=20.0)
+    yield 'many_samples_2d', make(45, 2, 2800, 'cube', [GRAVITY], theta=1.5)
     yield 'max_distance_3d', make(37, 3, 1100, 'cube', both, max_distance=4.0, theta=1.0)
     yield 'max_distance_2d', make(38, 2, 1100, 'cube', both, max_distance=6.5, theta=1.5)
     yield 'groups_3d', make(39, 3, 2100, 'cube', both, parents=(0, 0), theta=1.2)

@@ -5,7 +5,9 @@
 
 enum { COUNT = 3000 };
 
-typedef enum Layout { CUBE, CLUSTER, PLANE, ONE_POINT } Layout;
+// DECADES: distances over 600 powers of ten; DISTANT: one particle is so far away that the keys of the others are
+// equal.
+typedef enum Layout { CUBE, CLUSTER, PLANE, ONE_POINT, DECADES, DISTANT } Layout;
 
 typedef struct Setup {
     uint32_t dimensions, count;
@@ -31,6 +33,8 @@ static void place(const Setup *setup, Dice *dice, double *position) {
             x = x * x * x * x * x;
         if (setup->layout == ONE_POINT || (setup->layout == PLANE && k == 1))
             x = 0.25;
+        if (setup->layout == DECADES)
+            x = pow(10, 300 * x);
         position[k] = x * (setup->scale > 0 ? setup->scale : 1);
     }
 }
@@ -46,6 +50,8 @@ static PhysSystem *make_system(const Setup *setup) {
     for (uint32_t i = 0; i < setup->count; i++) {
         double position[4];
         place(setup, &dice, position);
+        if (setup->layout == DISTANT && i == setup->count / 2)
+            position[0] = 1e300;
         double charge = setup->neutral && i % 2 ? -1 : 1;
         phys_add_particle(system, 0,
                           &(PhysParticle){.position = position, .mass = 1, .charge = charge, .radius = setup->radius});
@@ -184,12 +190,46 @@ static void test_extreme_coordinates(void **state) {
 static void test_distant_body(void **state) {
     (void)state;
     Budget budget = {.memory_limit = SIZE_MAX};
-    budget_begin(&budget, UINT64_C(5000000), NULL); // all pairs take 20 times as long
+    budget_begin(&budget, UINT64_C(10000000), NULL); // all pairs take 9 times as long
     Setup setup = {.dimensions = 3, .count = 60000, .force = far_force(PHYS_GRAVITY, 0.7), .budget = &budget};
     PhysSystem *system = make_system(&setup);
     phys_add_particle(system, 0, &(PhysParticle){.position = VEC(1e9, 0, 0), .mass = 1});
     one_step(system);
     phys_free(system);
+}
+
+// Setups in which the tree saves nothing. Such forces are those of all pairs.
+static Setup useless_setup(int number, uint32_t count) {
+    Setup setup = {.dimensions = 2 + (uint32_t)number % 2, .count = count, .force = far_force(PHYS_GRAVITY, 0.7)};
+    setup.layout = number < 2 ? DECADES : number < 4 ? DISTANT : CUBE;
+    setup.radius = number < 4 ? 0 : number < 6 ? 1e300 : 20;
+    return setup;
+}
+
+static void test_useless_tree(void **state) {
+    (void)state;
+    for (int i = 0; i < 8; i++)
+        for (uint32_t count = PHYS_FAR_MIN_PARTICLES; count <= COUNT; count += COUNT - PHYS_FAR_MIN_PARTICLES) {
+            Setup setup = useless_setup(i, count), exact = setup;
+            exact.force.theta = 0;
+            check_identical(setup, exact);
+        }
+}
+
+// Work is charged before it is done: all pairs of 300 000 particles exceed the default limit. They take a minute.
+static void test_useless_tree_is_charged_first(void **state) {
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        Budget budget = {.memory_limit = SIZE_MAX};
+        Setup setup = useless_setup(i, 300000);
+        setup.budget = &budget;
+        budget_begin(&budget, UINT64_C(1) << 30, NULL);
+        PhysSystem *system = make_system(&setup);
+        PhysResult result = run_until(system, 1, 1);
+        assert_int_equal(result.status, PHYS_STOPPED);
+        assert_int_equal(result.steps, 0);
+        phys_free(system);
+    }
 }
 
 static void test_work_limit(void **state) {
@@ -243,8 +283,8 @@ static void check_explanation(const PhysSystem *system, uint32_t particle, uint3
     phys_explanation_free(&explanation);
 }
 
-static void test_explanations(void **state) {
-    (void)state;
+// `radius`: of the inner particles
+static void check_explanations(double radius) {
     Setup setup = {.dimensions = 3, .count = COUNT, .force = far_force(PHYS_GRAVITY, 0.8), .radius = 0.02};
     setup.keep_forces = true;
     PhysSystem *system = make_system(&setup);
@@ -257,7 +297,7 @@ static void test_explanations(void **state) {
                           &(PhysParticle){.position = VEC(dice_between(&dice, -1, 1), dice_between(&dice, -1, 1), 0),
                                           .mass = 2,
                                           .charge = 1,
-                                          .radius = 0.05});
+                                          .radius = radius});
     phys_add_force(system, 0, &charges);
     phys_add_force(system, inner, &collision);
     phys_add_force(system, inner, &charges);
@@ -267,7 +307,15 @@ static void test_explanations(void **state) {
     for (uint32_t i = COUNT; i < COUNT + INNER + 10; i += 203)
         check_explanation(system, i, 4);
     check_explanation(system, COUNT + INNER + 9, INNER); // in a small group, whose pairs are exact
+    if (radius > 10)
+        check_explanation(system, COUNT, INNER); // in a group whose pairs are exact because the tree does not pay
     phys_free(system);
+}
+
+static void test_explanations(void **state) {
+    (void)state;
+    check_explanations(0.05);
+    check_explanations(20);
 }
 
 TEST_GROUP(far) {
@@ -279,6 +327,8 @@ TEST_GROUP(far) {
         cmocka_unit_test(test_coincident_bodies),
         cmocka_unit_test(test_extreme_coordinates),
         cmocka_unit_test(test_distant_body),
+        cmocka_unit_test(test_useless_tree),
+        cmocka_unit_test(test_useless_tree_is_charged_first),
         cmocka_unit_test(test_work_limit),
         cmocka_unit_test(test_memory_limit),
         cmocka_unit_test(test_explanations),
