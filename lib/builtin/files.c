@@ -261,8 +261,8 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
     entry->parsed = load_entry(context, entry, c_path, &problem);
     entry->tried = true;
     if (!entry->parsed) {
-        arena_free(&entry->arena);
         report_unreadable(context, function, text, problem);
+        arena_free(&entry->arena); // can hold the text of the problem
     }
     return entry->parsed;
 }

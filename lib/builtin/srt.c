@@ -38,12 +38,13 @@ static bool read_digits(Str text, double *x) {
     return text.len > 0;
 }
 
-// Parses [[hh:]mm:]ss[,mmm] to seconds, adding in this order: mmm/1000, ss, 60*mm, 3600*hh. Returns false if the text
-// is invalid.
+// Parses [[hh:]mm:]ss[,mmm] to seconds, adding in this order: mmm/1000, ss, 60*mm, 3600*hh. The comma can be a point.
+// Returns false if the text is invalid.
 static bool read_time(Str text, double *time) {
     Str rest = str_trim(text), clock, part;
     double milliseconds = 0, parts[3];
-    if (split_part(&rest, STR(","), &clock) && !read_digits(rest, &milliseconds))
+    bool has_comma = memchr(rest.bytes, ',', rest.len) != NULL;
+    if (split_part(&rest, has_comma ? STR(",") : STR("."), &clock) && !read_digits(rest, &milliseconds))
         return false;
     int count = 0;
     for (bool more = true; more; count++) {
@@ -69,38 +70,91 @@ static uint32_t count_lines(Str text) {
     return lines;
 }
 
-static bool read_section(Str section, Subtitle *subtitle) {
-    Str number, times, start;
-    if (section.len && section.bytes[section.len - 1] == '\n') // the newline at the end of the file
-        section.len--;
-    if (!split_part(&section, STR("\n"), &number) || !builtin_is_integer(number))
-        return false;
-    split_part(&section, STR("\n"), &times);
-    if (!split_part(&times, STR("-->"), &start) || !read_time(start, &subtitle->start) ||
-        !read_time(times, &subtitle->end))
-        return false;
-    subtitle->text = section;
-    subtitle->line_count = count_lines(section);
-    return true;
+// What a line of the file is.
+typedef enum LineKind { LINE_EMPTY, LINE_NUMBER, LINE_TIMES, LINE_DAMAGED, LINE_TEXT } LineKind;
+
+// Classifies a line, and sets the times of a LINE_TIMES. After the times, there can be a position (X1:40 X2:600 ...).
+static LineKind read_line(Str line, Subtitle *subtitle) {
+    Str times = str_trim(line), start, end;
+    if (times.len == 0)
+        return LINE_EMPTY;
+    if (builtin_is_integer(times))
+        return LINE_NUMBER;
+    bool begins = times.bytes[0] >= '0' && times.bytes[0] <= '9';
+    if (!begins || !split_part(&times, STR("-->"), &start))
+        return LINE_TEXT;
+    times = str_trim(times);
+    size_t len = 0;
+    while (len < times.len && times.bytes[len] != ' ' && times.bytes[len] != '\t')
+        len++;
+    end = (Str){times.bytes, len};
+    return read_time(start, &subtitle->start) && read_time(end, &subtitle->end) ? LINE_TIMES : LINE_DAMAGED;
+}
+
+// Sets the text of a subtitle to the lines between two places, without the empty lines around them.
+static void set_text(Subtitle *subtitle, const char *begin, const char *end) {
+    Str text = {begin, (size_t)(end - begin)}, line;
+    for (Str rest = text; rest.len > 0 && split_part(&rest, STR("\n"), &line) && str_trim(line).len == 0;)
+        text = rest;
+    size_t used = text.len;
+    while (used > 0 && (unsigned char)text.bytes[used - 1] <= ' ')
+        used--;
+    while (used > 0 && used < text.len && text.bytes[used] != '\n')
+        used++;
+    text.len = used;
+    subtitle->text = text;
+    subtitle->line_count = count_lines(text);
+}
+
+// Finds the subtitles of a file. A subtitle begins with a line of times, before which there can be a line with a
+// number. `subtitles`: NULL to count only. Returns their number; on failure, sets *bad to the number of the first
+// invalid line.
+static uint32_t find_subtitles(Str all, Subtitle *subtitles, uint32_t *bad) {
+    Subtitle next = {0}, last = {0};
+    const char *text = NULL,
+               *number = NULL; // text: text of the last subtitle; number: line before this one, if a number
+    uint32_t count = 0, lines = 0;
+    for (Str rest = all, line; rest.len > 0;) {
+        split_part(&rest, STR("\n"), &line);
+        lines++;
+        LineKind kind = read_line(line, &next);
+        if (kind == LINE_DAMAGED || (kind == LINE_TEXT && count == 0)) {
+            *bad = lines;
+            return 0;
+        }
+        if (kind == LINE_TIMES) {
+            if (count > 0 && subtitles) {
+                set_text(&last, text, number ? number : line.bytes);
+                subtitles[count - 1] = last;
+            }
+            last = next;
+            text = rest.bytes;
+            count++;
+        }
+        number = kind == LINE_NUMBER ? line.bytes : NULL;
+    }
+    if (count > 0 && subtitles) {
+        set_text(&last, text, all.bytes + all.len);
+        subtitles[count - 1] = last;
+    }
+    *bad = count ? 0 : lines;
+    return count;
 }
 
 static const void *parse_srt(Arena *arena, char *bytes, size_t len, const char **problem) {
     if (!file_is_text(bytes, len, problem))
         return NULL;
-    Str all = {bytes, source_unify_lines(bytes, len)}, rest = all, section;
-    uint32_t count = 1;
-    while (split_part(&rest, STR("\n\n"), &section))
-        count++;
+    Str all = {bytes, source_unify_lines(bytes, len)};
+    if (str_starts_with(all, STR("\xEF\xBB\xBF")))
+        all = (Str){all.bytes + 3, all.len - 3};
+    uint32_t bad, count = find_subtitles(all, NULL, &bad);
+    if (count == 0) {
+        *problem = str_format(arena, "it is not a subtitle file: line %u is not START --> END", bad).bytes;
+        return NULL;
+    }
     SrtFile *file = arena_alloc(arena, sizeof *file);
     Subtitle *subtitles = arena_alloc_array(arena, count, sizeof *subtitles);
-    rest = all;
-    for (uint32_t i = 0; i < count; i++) {
-        split_part(&rest, STR("\n\n"), &section);
-        if (!read_section(section, &subtitles[i])) {
-            *problem = "it is not a subtitle file";
-            return NULL;
-        }
-    }
+    find_subtitles(all, subtitles, &bad);
     *file = (SrtFile){subtitles, count};
     return file;
 }

@@ -206,6 +206,12 @@ static void test_srt_returns_lines(void **state) {
                "2\n00:01:00,500 --> 00:02:00,000\nLater\n");
     write_file(place, "short.srt", "1\n0 --> 2\na\n\n2\n1,5 --> 1:01:01,250\nb\n\n3\n5 --> 6");
     write_file(place, "trailing.srt", "1\n0 --> 2\na\n\n");
+    // mark, numbers that are missing, repeated or in the text, points, positions, spaces, empty lines
+    write_file(
+        place, "forms.srt",
+        "\xef\xbb\xbf\n\n7\n0:0:1 --> 00:00:02,000\nA\n\n\n\n7\n1.005 --> 1.500 X1:40 X2:600 Y1:20 Y2:50\nB\n\n2 b"
+        "\n\n00:00:03.000-->00:00:04.000\n\nC\n  \n9\n 4 --> 5 \nD\n42\n\n9\n7 --> 8\n\n10\n8,000 --> 9,000\n"
+        "--> F\n\n\n");
     write_file(place, "number.srt", "one\n0 --> 2\na\n");
     write_file(place, "arrow.srt", "1\n0 -> 2\na\n");
     write_file(place, "time.srt", "1\n0:0:0:0 --> 2\na\n");
@@ -221,14 +227,20 @@ static void test_srt_returns_lines(void **state) {
         "srt('short.srt',3661.25);srt('short.srt',nan);srt('short.srt',-1) => null",
         "srt('short.srt',5.5) => 'b'",
         "srt('film.srt',null);srt('film.srt',1;2);srt('film.srt','1');srt(null,1) => null",
-        "srt('trailing.srt',1);srt('number.srt',1);srt('arrow.srt',1);srt('time.srt',1) => null",
+        "srt('trailing.srt',2);srt('number.srt',1);srt('arrow.srt',1);srt('time.srt',1) => null",
+        "srt('trailing.srt',1);srt('forms.srt',1) => 'a';'A'",
+        "srt('forms.srt',1.006) => 'A';'B';'';'2 b'",
+        "srt('forms.srt',3) => 'C'",
+        "srt('forms.srt',4.5) => 'D';'42'",
+        "srt('forms.srt',7);srt('forms.srt',8.5) => '--> F'",
         "srt('empty.srt',1);srt('lone.srt',1);srt('missing.srt',1) => null",
     };
     CHECK_ALL(place->world, lines);
     assert_int_equal(faults_of(place->world, "srt('lone.srt',1)"), 0); // this error was already reported above
     write_file(place, "lone.srt", "1\nx");
     assert_int_equal(faults_of(place->world, "srt('lone.srt',1)"), 1);
-    assert_string_equal(place->world->text, "srt: cannot read 'lone.srt': it is not a subtitle file");
+    assert_string_equal(place->world->text,
+                        "srt: cannot read 'lone.srt': it is not a subtitle file: line 2 is not START --> END");
 }
 
 // Checks the paths that match a pattern, relative to the folder and joined by spaces.
