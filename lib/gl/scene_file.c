@@ -230,13 +230,34 @@ static void set_vertex(const Obj *obj, const Corner *corner, MeshVertex *vertex)
         memcpy(vertex->normal, obj->lists[2].items + 3 * (size_t)(corner->parts[2] - 1), sizeof vertex->normal);
 }
 
+// Returns the next line of an OBJ file, with all lines that continue it after a `\` at the end of a line. Comments are
+// not continued, because they can end with the name of a folder. Adds the number of lines to *number.
+static Str next_obj_line(Arena *arena, Str *bytes, uint32_t *number) {
+    Str line = mesh_next_line(bytes);
+    ++*number;
+    Text joined = text_new(arena);
+    for (Str part = line; part.len > 0 && *line.bytes != '#'; part = mesh_next_line(bytes), ++*number) {
+        size_t len = part.len - (part.bytes[part.len - 1] == '\r');
+        bool continues = len > 0 && part.bytes[len - 1] == '\\';
+        if (!continues && joined.len == 0)
+            return line;
+        text_add(&joined, (Str){part.bytes, continues ? len - 1 : len});
+        if (!continues || bytes->len == 0)
+            break;
+        text_add_c(&joined, " ");
+    }
+    return joined.len ? text_str(&joined) : line;
+}
+
 static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     Obj obj = {.arena = arena, .normals = true};
-    for (uint32_t line = 1; bytes.len > 0; line++)
-        if (!read_obj_line(&obj, mesh_next_line(&bytes))) {
-            *fault = (MeshError){obj.problem, line};
+    for (uint32_t line = 0; bytes.len > 0;) {
+        uint32_t first = line + 1;
+        if (!read_obj_line(&obj, next_obj_line(arena, &bytes, &line))) {
+            *fault = (MeshError){obj.problem, first};
             return false;
         }
+    }
     *fault = (MeshError){"it contains no triangles", 0};
     if (obj.count == 0)
         return false;

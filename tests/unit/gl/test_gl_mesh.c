@@ -205,11 +205,18 @@ static void test_obj(void **state) {
     assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
     assert_true(from_file(*state, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1//1 2//1 3//-1", &mesh));
     assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 1, 0, 0, 0, 0}));
+    // A line that ends with `\` continues, unless it is a comment.
+    assert_true(from_file(
+        *state, "# C:\\\nv 0 \\\n 0 0\nv 1 0 0\nv 0\\\r\n1\\\r\n0\nv 0 0 \\\n\\\n1\nf 1 2 \\\r\n3\nf 1 2 4\\", &mesh));
+    assert_int_equal(mesh.index_count, 6);
+    assert_true(has_vertex(&mesh, (const float[]){0, 1, 0, 0, 0, 1, 0, 0}));
+    assert_int_equal(mesh.vertex_count, 6);
     static const struct {
         const char *text;
         uint32_t line;
         const char *problem;
     } bad[] = {
+        {"v 0 0 0\nv 1 \\\n0\\\n 0\nv 0 1 \\\nx\nf 1 2 3\n", 5, "'v' needs three numbers"},
         {"", 0, "it contains no triangles"},
         {"v 0 0 0\n", 0, "it contains no triangles"},
         {"# a\n\nv 0 0\n", 3, "'v' needs three numbers"},
