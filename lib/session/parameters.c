@@ -107,12 +107,15 @@ static void check_range(const Check *check, const Parameter *parameter) {
     Value v = check->define->value;
     Arena *arena = &check->unit->arena;
     for (uint32_t i = 0; all_numbers(check->session, v) && i < v.len; i++) {
-        if (is_within(parameter, value_at(&v, i).as.number))
+        double x = value_at(&v, i).as.number;
+        if (is_within(parameter, x))
             continue;
-        Str range = range_text(arena, parameter), printed = format_text(arena, &check->session->symbols, v);
+        Str problem = isnan(x) ? STR("not a number")
+                               : str_format(arena, "outside the range %.*s", STR_ARGS(range_text(arena, parameter)));
+        Str printed = format_text(arena, &check->session->symbols, v);
         report_definition(check, DIAG_WARNING, "out-of-range", origin_of(parameter),
-                          str_format(arena, "%.*s=%.*s is outside the range %.*s", STR_ARGS(parameter->name->name),
-                                     STR_ARGS(printed), STR_ARGS(range)),
+                          str_format(arena, "%.*s=%.*s is %.*s", STR_ARGS(parameter->name->name), STR_ARGS(printed),
+                                     STR_ARGS(problem)),
                           (Str){0});
         return;
     }

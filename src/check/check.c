@@ -41,6 +41,7 @@ static int check_scripts(Check *check, const CommandContext *host, const Options
         return status;
     for (size_t i = first; i < end; i++) {
         const char *path = options->scripts.items[i].path;
+        check->report.script = path;
         if (options->replayed)
             counts->rejected += replay_check(options, session) != PETRI_OK;
         else if (!petri_archive_is(path)) // check_archives checks archives
@@ -48,6 +49,7 @@ static int check_scripts(Check *check, const CommandContext *host, const Options
         if (options->stats && host->print_meshes && (options->replayed || !petri_archive_is(path)))
             host->print_meshes(host, options, path);
     }
+    check->report.script = NULL;
     counts->errors += petri_diagnostic_count(session, PETRI_ERROR);
     counts->warnings += petri_diagnostic_count(session, PETRI_WARNING);
     petri_close(&session);

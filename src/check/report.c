@@ -52,6 +52,10 @@ static void add_json(Report *report, const PetriDiagnostic *diagnostic) {
     json_add_diagnostic(&report->text, diagnostic);
 }
 
+static uint32_t at_least_1(uint32_t number) {
+    return number > 0 ? number : 1;
+}
+
 static void add_sarif(Report *report, const PetriDiagnostic *diagnostic, const char *message_text) {
     Text *out = &report->text;
     text_add_format(out, "%s\n      {", report->count == 0 ? "" : ",");
@@ -64,14 +68,16 @@ static void add_sarif(Report *report, const PetriDiagnostic *diagnostic, const c
     text_add_c(out, ", \"message\": {");
     JSON_ADD(out, "text", message_text);
     text_add_c(out, "}");
-    if (diagnostic->file) {
+    const char *file = diagnostic->file ? diagnostic->file : report->script;
+    if (file) { // sites that show findings require a location
         SCOPED_TEXT uri = {0};
-        text_add_uri(&uri, diagnostic->file);
+        text_add_uri(&uri, file);
         text_add_c(out, ", \"locations\": [{\"physicalLocation\": {\"artifactLocation\": {");
         JSON_ADD(out, "uri", uri.bytes);
         text_add_format(
             out, "}, \"region\": {\"startLine\": %u, \"startColumn\": %u, \"endLine\": %u, \"endColumn\": %u}}}]",
-            diagnostic->line, diagnostic->column, diagnostic->end_line, diagnostic->end_column);
+            at_least_1(diagnostic->line), at_least_1(diagnostic->column), at_least_1(diagnostic->end_line),
+            at_least_1(diagnostic->end_column));
     }
     text_add_c(out, "}");
 }

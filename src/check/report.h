@@ -10,8 +10,9 @@ typedef struct Report {
     ReportForm form;
     Text text;
     size_t count;
-    bool incomplete; // true if a file was not checked
-    TextList codes;  // distinct codes of the diagnostics so far; SARIF lists them as rules
+    const char *script; // the checked script, for diagnostics without a position; NULL: none
+    bool incomplete;    // true if a file was not checked
+    TextList codes;     // distinct codes of the diagnostics so far; SARIF lists them as rules
 } Report;
 
 void report_add(Report *report, const PetriDiagnostic *diagnostic);

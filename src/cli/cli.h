@@ -16,6 +16,10 @@ struct PlotSupport;
 // Exit codes. After a signal, the exit code is STATUS_SIGNAL plus the number of the signal.
 enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 };
 
+// The last message of a run with STATUS_FAILED whose frames are complete, although a module has a syntax error.
+// `petri test` compares the output of such a run.
+#define BROKEN_MODULE_MESSAGE "a module has syntax errors; its names are null"
+
 // Bits of OptionSpec.commands: one for each command that accepts the option. FOR_GOLDEN: the option is also allowed in
 // a golden file of petri test.
 // clang-format off

@@ -38,8 +38,10 @@ static bool add_entry(ScriptList *list, const char *path, const char *name, size
         return cannot_read(path);
     if (S_ISDIR(about.st_mode))
         return search_folder(list, path, below);
+    bool wanted =
+        str_ends_with(str_from(name), STR(".fl")) || (list->goldens && str_ends_with(str_from(name), STR(".golden")));
     // Reading a pipe or device could block.
-    if (str_ends_with(str_from(name), STR(".fl")) && stat(path, &about) == 0 && S_ISREG(about.st_mode))
+    if (wanted && stat(path, &about) == 0 && S_ISREG(about.st_mode))
         add_script(list, path, below);
     return true;
 }

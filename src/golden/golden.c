@@ -2,6 +2,7 @@
 #include "golden/golden.h"
 
 #include "base/file.h"
+#include "base/source.h"
 #include "cli/cli.h"
 
 #include <inttypes.h>
@@ -114,6 +115,17 @@ static bool read_head_line(Golden *golden, const char *line, size_t length, Text
     return split_options(golden, line + 5, length - 5, error_text) && check_options(golden, error_text);
 }
 
+// Removes a byte-order mark, and converts CR LF to LF: editors and version control on Windows add them.
+static void drop_mark(Text *text) {
+    static const char mark[] = "\xef\xbb\xbf";
+    size_t skip = text->len >= 3 && memcmp(text->bytes, mark, 3) == 0 ? 3 : 0;
+    if (text->len == 0)
+        return;
+    memmove(text->bytes, text->bytes + skip, text->len - skip);
+    text->len = source_unify_lines(text->bytes, text->len - skip);
+    text->bytes[text->len] = '\0';
+}
+
 bool golden_read(Golden *golden, const char *path, Text *error_text) {
     *golden = (Golden){.horizon = INT64_MAX, .strict = INT64_MAX, .body_line = 1};
     const char *problem = text_read_file(&golden->text, path, SIZE_MAX);
@@ -121,6 +133,7 @@ bool golden_read(Golden *golden, const char *path, Text *error_text) {
         text_add_format(error_text, "cannot read %s: %s", path, problem);
         return false;
     }
+    drop_mark(&golden->text);
     const char *data = golden->text.bytes;
     while (golden->body < golden->text.len && (golden->body_line == 1 || data[golden->body] == '#')) {
         const char *line = data + golden->body;

@@ -21,9 +21,10 @@ static long read_line_number(const char *path, Text *error_text) {
         text_add_format(error_text, "cannot read %s: %s", path, problem);
         return NO_LINE;
     }
-    if (strncmp(text.bytes, "line *", 6) == 0 && sscanf(text.bytes + 6, " %c", &rest) != 1) {
+    const char *line_text = text.bytes + (strncmp(text.bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0);
+    if (strncmp(line_text, "line *", 6) == 0 && sscanf(line_text + 6, " %c", &rest) != 1) {
         line = ANY_LINE;
-    } else if (sscanf(text.bytes, "line %ld %c", &line, &rest) != 1 || line < 1) {
+    } else if (sscanf(line_text, "line %ld %c", &line, &rest) != 1 || line < 1) {
         text_add_format(error_text, "cannot read %s: expected 'line N' or 'line *'", path);
         line = NO_LINE;
     }

@@ -1,5 +1,6 @@
 // report.c: reports of test results (golden.h).
 #include "base/file.h"
+#include "base/source.h"
 #include "cli/cli.h"
 #include "golden/golden.h"
 
@@ -26,17 +27,36 @@ static void add_escaped(Text *out, const char *text) {
     }
 }
 
+// Adds the folder of a script as the name of a class, with points between its parts. Readers identify a test by class
+// and name.
+static void add_class(Text *out, const char *name) {
+    SCOPED_TEXT folder = {0};
+    while (strncmp(name, "./", 2) == 0)
+        name += 2;
+    size_t len = path_directory(str_from(name)).len;
+    text_add(&folder, len > 1 ? (Str){name, len - 1} : STR("petri"));
+    text_add_c(&folder, "");
+    for (size_t i = 0; i < folder.len; i++)
+        folder.bytes[i] = folder.bytes[i] == '/' ? '.' : folder.bytes[i];
+    add_escaped(out, folder.bytes);
+}
+
 static void add_result(Text *out, const Result *result) {
-    text_add_format(out, "  <testcase name=\"");
-    add_escaped(out, result->name);
+    text_add_format(out, "  <testcase classname=\"");
+    add_class(out, result->name);
+    text_add_format(out, "\" name=\"");
+    add_escaped(out, result->name + path_directory(str_from(result->name)).len);
     text_add_format(out, "\" time=\"%.3f\"", result->seconds);
     if (result->passed) {
         text_add_format(out, "/>\n");
         return;
     }
-    text_add_format(out, ">\n    <failure message=\"");
-    add_escaped(out, !result->error_text.bytes ? "" : result->error_text.bytes);
-    text_add_format(out, "\"/>\n  </testcase>\n");
+    const char *error_text = !result->error_text.bytes ? "" : result->error_text.bytes;
+    text_add_format(out, ">\n    <failure type=\"failure\" message=\"");
+    add_escaped(out, error_text);
+    text_add_format(out, "\">");
+    add_escaped(out, error_text);
+    text_add_format(out, "</failure>\n  </testcase>\n");
 }
 
 bool report_junit(const char *path, Result *const *results, size_t count) {
@@ -48,8 +68,8 @@ bool report_junit(const char *path, Result *const *results, size_t count) {
     }
     SCOPED_TEXT out = {0};
     text_add_format(&out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    text_add_format(&out, "<testsuite name=\"petri\" tests=\"%zu\" failures=\"%zu\" time=\"%.3f\">\n", count, failed,
-                    seconds);
+    text_add_format(&out, "<testsuite name=\"petri\" tests=\"%zu\" failures=\"%zu\" errors=\"0\" time=\"%.3f\">\n",
+                    count, failed, seconds);
     for (size_t i = 0; i < count; i++)
         add_result(&out, results[i]);
     text_add_format(&out, "</testsuite>\n");

@@ -73,6 +73,8 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Frames *frames = host;
     if (diagnostic->level == PETRI_ERROR)
         frames->memory_exceeded = diagnostic->code && strcmp(diagnostic->code, "memory-limit") == 0;
+    if (diagnostic->level == PETRI_ERROR && (frames->done == 0 || frames->options->keep_modules))
+        frames->broken = frames->broken || (diagnostic->code && strcmp(diagnostic->code, "syntax") == 0);
     frames->invalid_definition = frames->invalid_definition || is_invalid_definition(diagnostic);
     if (should_print_diagnostic(frames, diagnostic->level)) {
         progress_erase(&frames->progress);

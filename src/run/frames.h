@@ -22,6 +22,7 @@ typedef struct Frames {
     bool abandoned;          // true if a signal aborted the current frame
     bool shown_last;         // true if the last error or warning was shown; its notes are then shown as well
     bool memory_exceeded;    // true if the last error was that the memory limit was exceeded
+    bool broken;             // true if the script or a module has a syntax error that was not made while the script ran
     bool invalid_definition; // true if the script rejected a value of -D
 } Frames;
 

@@ -202,7 +202,9 @@ static int run_frames(Run *run) {
         return STATUS_FAILED;
     report_result(run);
     report_pictures(run);
-    return STATUS_DONE;
+    if (frames->broken)
+        message("%s", BROKEN_MODULE_MESSAGE);
+    return frames->broken ? STATUS_FAILED : STATUS_DONE;
 }
 
 static int list_parameters(Run *run) {

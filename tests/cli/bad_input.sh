@@ -66,6 +66,21 @@ check "byte-order marks in modules and includes are skipped" out_is "@0 time=0 b
 !k
 !n a=2"
 
+# a module with a syntax error: its names are null, and the frames are computed
+printf 'let size=\n' >broken.fl
+printf 'import size from "broken.fl"\n!n a=frame size=size\n' >uses_broken.fl
+for way in "run --frames 2 --print tree" "run --runtime 0.02 --realtime --print tree" "render --frame 1 -o broken.png"; do
+    petri $way uses_broken.fl
+    check "$way: a syntax error in a module is an error" has err "broken.fl:1:10: error: "
+    check "$way: a script whose module has an error fails" status_is 1
+done
+petri run --frames 2 --print tree uses_broken.fl
+check "frames are computed without the broken module" has out '!n a=1'
+check "the run says that the module is missing" last_line_is err "petri: a module has syntax errors; its names are null"
+printf 'let START=START or 1\n!o a=START\n' >start.fl
+petri run --frames 1 -D START=nan start.fl
+check "a definition that is not a number is called so" has err "warning: START=nan is not a number [out-of-range]"
+
 { printf '!n a=0' && repeat 5000000 ';1' && echo; } >long.fl
 petri run --frames 1 long.fl
 check "a line of 10 MB is a script" status_is 0

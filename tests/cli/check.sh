@@ -297,5 +297,8 @@ check "SARIF output lists the rules" has out '"rules": [{"id": "unbound-name", "
 check "SARIF output gives positions by URI" has out '{"artifactLocation": {"uri": "co%22d%20es.fl"}, "region": {"startLine": 1, "startColumn": 7, "endLine": 1, "endColumn": 10}}'
 check "SARIF output says that all files were checked" has out '"executionSuccessful": true'
 check "SARIF output with warnings exits with 0" status_is 0
+printf '!a\n\377\n' >latin.fl
+petri check --format=sarif latin.fl
+check "SARIF output gives a location for a file that is not text" has out '"locations": [{"physicalLocation": {"artifactLocation": {"uri": "latin.fl"}, "region": {"startLine": '
 petri check --format=json --werror codes.fl
 check "--werror makes warnings fail with --format as well" status_is 1

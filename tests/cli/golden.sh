@@ -198,6 +198,33 @@ check "a missing path does not prevent other tests" last_line_is out "1 passed, 
 petri test --junit results.xml g
 check "--junit counts tests and failures" has results.xml '<testsuite name="petri" tests="4" failures="1"'
 check "--junit gives the reason of a failure" has results.xml 'message="frame 0 line 3: expected !n a=1'
+check "--junit has the attributes that readers require" has results.xml ' errors="0" time="'
+check "--junit names the folder as class" has results.xml '<testcase classname="g.below" name="d.fl" time="'
+mkdir -p lost/here
+printf '# run --frames 1\n' | tee lost/old.golden >lost/here/old.golden
+printf '!n\n' | tee lost/new.fl >lost/here/old.fl
+petri test lost
+check "a golden without a script is a failed test" status_is 1
+check "a golden without a script is named" out_is "ok lost/here/old.fl
+FAIL lost/old.golden no such script: lost/old.fl; rename the golden like its script, or delete it
+1 passed, 1 failed"
+petri test --junit lost.xml --filter old.golden lost
+check "a golden without a script is in the report" has lost.xml '<testcase classname="lost" name="old.golden" time="'
+petri check lost
+check "other commands ignore goldens" has err "2 files checked"
+# goldens from Windows: CR LF and a byte-order mark
+mkdir windows
+printf '!n a=frame\n' >windows/crlf.fl
+printf '# run --frames 3 --print tree\n# a remark\n' >windows/crlf.golden
+printf 'let a=\n' >windows/rejected.fl
+petri test --update windows
+sed -i 's/$/\r/; 1s/^/\xef\xbb\xbf/' windows/crlf.golden
+printf '\357\273\277line 1\r\n' >windows/rejected.err
+petri test windows
+check "goldens can have CR LF and a byte-order mark" last_line_is out "2 passed, 0 failed"
+cp windows/crlf.golden before
+petri test --update windows/crlf.fl
+check "--update leaves a golden with CR LF as it is, if nothing changed" cmp before windows/crlf.golden
 petri test --junit nowhere/results.xml g/a.fl
 check "--junit to a missing folder fails" status_is 1
 timeout 100 "$petri" test g/a.fl >/dev/full 2>err

@@ -112,7 +112,7 @@ static void test_values(void **state) {
         {"N=4", "!a v=4;2\n", ""},
         {"N=5;1", "!a v=5;1;2\n", ""},
         {"N=11", "!a v=11;2\n", "warning t.fl:1:5 N=11 is outside the range 1..10 [out-of-range]\n"},
-        {"N=nan", "!a v=nan;2\n", "warning t.fl:1:5 N=nan is outside the range 1..10 [out-of-range]\n"},
+        {"N=nan", "!a v=nan;2\n", "warning t.fl:1:5 N=nan is not a number [out-of-range]\n"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         for (int simplify = 1; simplify >= 0; simplify--) {
