@@ -137,16 +137,16 @@ int subprocess_wait_for(pid_t pid) {
 }
 #endif
 
-static void read_output(int fd, Text *text) {
+static const char *read_output(int fd, Text *text) {
     text_add_c(text, "");
-    if (lseek(fd, 0, SEEK_SET) == 0 && !text_read(text, fd, SIZE_MAX))
-        message("cannot read the output of a script: %s", strerror(errno));
+    const char *problem = lseek(fd, 0, SEEK_SET) == 0 && text_read(text, fd, SIZE_MAX) ? NULL : strerror(errno);
     close(fd);
+    return problem;
 }
 
-void subprocess_collect(Subprocess *child, Text *output, Text *errors) {
-    read_output(child->output, output);
-    read_output(child->errors, errors);
+const char *subprocess_collect(Subprocess *child, Text *output, Text *errors) {
+    const char *problem = read_output(child->output, output), *second = read_output(child->errors, errors);
+    return problem ? problem : second;
 }
 
 void subprocess_describe(int status, const Text *errors, Text *error_text) {

@@ -30,7 +30,7 @@ pid_t subprocess_spawn(const char *program, const char *const *words, const int 
 int subprocess_wait_for(pid_t pid);
 // Waits until any child ends. Returns its process id, or -1 if there is no child. Sets *status like waitpid.
 pid_t subprocess_wait(int *status);
-// Reads the output of a child that has ended and closes its files.
-void subprocess_collect(Subprocess *child, Text *output, Text *errors);
+// Reads the output of a child that has ended and closes its files. Returns NULL, or the reason of a failure.
+const char *subprocess_collect(Subprocess *child, Text *output, Text *errors);
 // Adds a description of a child that did not exit with 0: its status and the first line of its standard error.
 void subprocess_describe(int status, const Text *errors, Text *error_text);

@@ -156,8 +156,11 @@ static void end_case(const Suite *suite, Case *item, int status) {
     SCOPED_TEXT output = {0};
     SCOPED_TEXT errors = {0};
     item->result.seconds = clock_seconds() - item->result.seconds;
-    subprocess_collect(&item->child, &output, &errors);
-    check_case(suite, item, status, &output, &errors);
+    const char *problem = subprocess_collect(&item->child, &output, &errors);
+    if (problem)
+        text_add_format(&item->result.error_text, "cannot read the output of the run: %s", problem);
+    else
+        check_case(suite, item, status, &output, &errors);
     golden_free(&item->golden);
     item->done = true;
 }
