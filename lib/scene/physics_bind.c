@@ -126,13 +126,13 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
     if (!isfinite(settings->run))
         settings->run = 0;
     const Symbol *dimensions = reader->schema->slots[ROW_PHYSICS_DIMENSIONS].name;
-    const char *reason = NULL;
+    const char *reason = NULL, *missing = NULL;
     if (settings->state.len == 0)
-        reason = "attribute 'state' is missing or null; the system is skipped";
+        missing = "attribute 'state' is missing or null; the system is skipped";
     else if (!state_key_valid(settings->state))
         reason = "attribute 'state' must be numbers, symbols or strings, such as :x; the system is skipped";
     else if (!(settings->dimensions >= 1) && node_get(reader->node, dimensions).len == 0)
-        reason = "attribute 'dimensions' is missing or null; the system is skipped";
+        missing = "attribute 'dimensions' is missing or null; the system is skipped";
     else if (!(settings->dimensions >= 1))
         reason = "dimensions must be at least 1; the system is skipped";
     else if (settings->dimensions > 1e9)
@@ -143,7 +143,9 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
         reason = "resolution must be above 0 and finite; the system is skipped";
     if (reason)
         reader_report(reader, "invalid-system", "", str_from(reason));
-    return !reason;
+    if (missing)
+        reader_report_fault(reader, "invalid-system", str_from(missing));
+    return !reason && !missing;
 }
 
 // Returns the number of nodes below a node.
@@ -198,6 +200,7 @@ static double simulate_system(PhysicsTree *tree, const Reader *reader, const Sys
 
 // Reads a tree from scratch.
 static void read_tree(PhysicsTree *tree) {
+    tree->scene->tree_was_read = true;
     tree->body_count = 0;
     mirror_open(tree);
     physics_read_bodies(tree);
@@ -262,8 +265,11 @@ static void retain_skipped(Scene *scene, Value prefix, const SceneFrame *frame) 
     uint32_t occurrence;
     StateSlot start = state_find(frame->state, prefix);
     PhysicsSystem **known = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence, frame->arena);
-    if (known && (*known)->last_frame + 1 == scene->frame_number)
-        place_system(scene, known)->last_frame = scene->frame_number;
+    if (!known || (*known)->last_frame + 1 != scene->frame_number)
+        return;
+    PhysicsSystem *system = place_system(scene, known);
+    system->last_frame = scene->frame_number;
+    system->node = NULL;
 }
 
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame) {
@@ -286,5 +292,6 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
         reader_report(&reader, "duplicate-prefix", "",
                       STR("another !physics has the same attribute 'state'; give each system its own"));
     system->last_frame = scene->frame_number;
+    system->node = node;
     return system->steps = update_system(scene, system, &reader, &settings, frame);
 }

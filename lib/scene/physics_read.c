@@ -30,6 +30,20 @@ void physics_read_particle(const PhysicsTree *tree, const Node *node, bool ancho
     reader_fill(&reader, body);
 }
 
+void physics_check_body(const PhysicsTree *tree, const Node *node, bool anchor, const BodyAttrs *body,
+                        PhysPreserve preserve) {
+    const Reader reader = reader_of(tree, node, anchor ? KIND_ANCHOR : KIND_PARTICLE);
+    int64_t frame = tree->frame->number;
+    if (!preserve.position)
+        reader_report_not_finite(&reader, ATTR_POSITION, body->numbers.position, frame,
+                                 "no position is stored, and no force acts between this and other particles");
+    if (!preserve.velocity && !anchor)
+        reader_report_not_finite(&reader, ATTR_VELOCITY, body->numbers.velocity, frame,
+                                 "no position or velocity is stored");
+    if (!anchor)
+        reader_report_not_finite(&reader, ATTR_FORCE, body->numbers.force, frame, "no force changes the velocity");
+}
+
 // Reports an id such as :last, whose state key the system itself uses.
 static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
     const Scene *scene = tree->scene;
@@ -88,9 +102,17 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
         return false;
     }
     check_reserved(tree, &reader, id);
-    // If the slot is marked, its key is also the key of another particle's velocity.
-    tree->keys_collide |= physics_mark(tree, slot) != 0;
     StateSlot velocity = state_slot(tree->frame->state, physics_key(tree, id, true, numbers));
+    // If the slot is marked, its key is also the key of another particle's velocity, and the other way round.
+    bool position_collides = physics_mark(tree, slot) != 0;
+    if (position_collides || (velocity != STATE_NO_SLOT && physics_mark(tree, velocity) != 0)) {
+        tree->keys_collide = true;
+        reader_report(&reader, "colliding-keys", "",
+                      position_collides ? STR("the position has the same key in the state as the velocity of another "
+                                              "particle; use another id")
+                                        : STR("the velocity has the same key in the state as the position of another "
+                                              "particle; use another id"));
+    }
     if (register_body(tree, anchor, slot, velocity))
         return true;
     tree->out_of_memory = true;
@@ -114,6 +136,9 @@ __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *n
         numbers->velocity =
             mirror_start(tree, slots[1], numbers->velocity, &velocity, &numbers->velocity_from_attribute);
     }
+    physics_check_body(
+        tree, node, anchor, &body,
+        (PhysPreserve){!anchor && !numbers->position_from_attribute, !anchor && !numbers->velocity_from_attribute});
     phys_add_particle(tree->engine, group, numbers);
 }
 
@@ -244,10 +269,24 @@ static void check_theta(const PhysicsTree *tree, const Reader *reader, PhysForce
     }
 }
 
+// Reports vectors of a force that are not finite.
+static void check_vectors(const PhysicsTree *tree, const Reader *reader, const ForceAttrs *read) {
+    const char *effect = reader->kind == KIND_BARRIER ? "no positions of the particles in its group are stored"
+                                                      : "no force changes the velocities of particles in its group";
+    for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++) {
+        const SchemaRow *row = &schema_rows[i];
+        if (schema_types[row->type].shape == SHAPE_VECTOR)
+            reader_report_not_finite(reader, row->name,
+                                     *(const PhysVector *)(const void *)((const char *)read + row->field),
+                                     tree->frame->number, effect);
+    }
+}
+
 // Fills `force` from the node of a force or barrier. Returns false if the node must be ignored.
 static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms, PhysForce *force) {
     ForceAttrs read = tree->scene->force_defaults[schema_force(reader->kind)];
     reader_fill(reader, &read);
+    check_vectors(tree, reader, &read);
     *force = read.force;
     force->has_minimum = resolve_bound(read.fixed, &force->minimum);
     force->has_maximum = resolve_bound(read.fixed, &force->maximum);

@@ -27,6 +27,7 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
         // These flags are ignored for values that the engine keeps.
         read.numbers.position_from_attribute = read.numbers.velocity_from_attribute = true;
     }
+    physics_check_body(tree, node, anchor, &read, preserve);
     phys_update_particle(tree->engine, body, &read.numbers, preserve);
     if (body < system->node_count)
         system->nodes[body] = NULL;

@@ -5,6 +5,7 @@
 // below 2 * base are outdated: they belong to earlier trees.
 #include "base/heap.h"
 #include "scene/systems.h"
+#include "value/format.h"
 
 #include <string.h>
 
@@ -105,4 +106,54 @@ int64_t physics_find_body(PhysicsTree *tree, Value id) {
     rebuild_marks(tree);
     StateSlot slot = state_find(tree->frame->state, physics_key(tree, id, false, numbers));
     return slot == STATE_NO_SLOT ? PHYSICS_NO_BODY : physics_find_slot(tree, slot);
+}
+
+// Returns the first slot of a system that another system owns, and enters all others in `owners`, by slot. Returns
+// STATE_NO_SLOT if there is none.
+static StateSlot enter_slots(PhysicsSystem *system, PhysicsSystem **owners) {
+    StateSlot *own[PHYSICS_OWN_SLOTS], shared = STATE_NO_SLOT;
+    physics_own_slots(system, own);
+    for (uint32_t i = 0; i < PHYSICS_OWN_SLOTS + system->mirror.slot_count; i++) {
+        StateSlot slot = i < PHYSICS_OWN_SLOTS ? *own[i] : system->mirror.slots[i - PHYSICS_OWN_SLOTS];
+        if (owners[slot] && owners[slot] != system && shared == STATE_NO_SLOT)
+            shared = slot;
+        if (!owners[slot])
+            owners[slot] = system;
+    }
+    return shared;
+}
+
+// Reports a key that two systems share.
+static void report_shared_key(Scene *scene, PhysicsSystem *system, StateSlot slot, const SceneFrame *frame) {
+    const Reader reader = {scene->schema, frame->arena, system->node, KIND_PHYSICS, 1};
+    Text text = text_new(frame->arena);
+    text_add_c(&text, "another !physics also stores the key $(");
+    format_value(&text, scene->schema->symbols, state_slot_key(frame->state, slot));
+    text_add_c(&text, "); use another 'state'");
+    reader_report(&reader, "colliding-keys", "", text_str(&text));
+}
+
+void physics_report_shared_keys(Scene *scene, const SceneFrame *frame) {
+    uint32_t count = state_slot_count(frame->state), length = 0;
+    bool possible = false; // only if one prefix begins with another, which is shorter
+    for (PhysicsSystem *system = scene->systems; system && scene->tree_was_read; system = system->next) {
+        uint32_t len = state_slot_key(frame->state, system->start).len;
+        possible |= length > 0 && len != length;
+        length = len;
+    }
+    if (!possible)
+        return;
+    arena_charge(frame->arena, count);
+    PhysicsSystem **owners = arena_alloc_array(frame->arena, count, sizeof *owners);
+    memset(owners, 0, count * sizeof *owners);
+    for (PhysicsSystem *system = scene->systems; system; system = system->next) {
+        if (system->last_frame != scene->frame_number || system->occurrence > 0 || !system->node)
+            continue;
+        StateSlot shared = enter_slots(system, owners);
+        if (shared == STATE_NO_SLOT)
+            continue;
+        report_shared_key(scene, system, shared, frame);
+        // So that the next frame reads the trees again and repeats the report.
+        system->mirror.state = owners[shared]->mirror.state = MIRROR_STALE;
+    }
 }

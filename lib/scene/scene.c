@@ -107,10 +107,9 @@ Input *scene_input(Scene *scene) {
     return &scene->input;
 }
 
-// Number of slots that a system has besides those of its particles: start, run, iteration, clock and last.
-enum { OWN_SLOTS = 5 };
-static void own_slots(PhysicsSystem *system, StateSlot *slots[OWN_SLOTS]) {
-    StateSlot *const all[OWN_SLOTS] = {&system->start, &system->run, &system->iteration, &system->clock, &system->last};
+void physics_own_slots(PhysicsSystem *system, StateSlot *slots[PHYSICS_OWN_SLOTS]) {
+    StateSlot *const all[PHYSICS_OWN_SLOTS] = {&system->start, &system->run, &system->iteration, &system->clock,
+                                               &system->last};
     memcpy(slots, all, sizeof all);
 }
 
@@ -128,11 +127,11 @@ static void compact_state(Scene *scene, const SceneFrame *frame) {
     if (count / 2 < held)
         return; // many slots without a value belong to particles, which get values in the first step
     uint8_t *used = arena_alloc_array(frame->arena, count, sizeof *used);
-    StateSlot *moved = arena_alloc_array(frame->arena, count, sizeof *moved), *own[OWN_SLOTS];
+    StateSlot *moved = arena_alloc_array(frame->arena, count, sizeof *moved), *own[PHYSICS_OWN_SLOTS];
     memset(used, 0, count);
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
-        own_slots(system, own);
-        for (int i = 0; i < OWN_SLOTS; i++)
+        physics_own_slots(system, own);
+        for (int i = 0; i < PHYSICS_OWN_SLOTS; i++)
             used[*own[i]] = 1;
         for (uint32_t i = 0; i < system->mirror.slot_count; i++)
             used[system->mirror.slots[i]] = 1;
@@ -141,8 +140,8 @@ static void compact_state(Scene *scene, const SceneFrame *frame) {
         return;
     scene->marked_system = NULL;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
-        own_slots(system, own);
-        for (int i = 0; i < OWN_SLOTS; i++)
+        physics_own_slots(system, own);
+        for (int i = 0; i < PHYSICS_OWN_SLOTS; i++)
             *own[i] = moved[*own[i]];
         for (uint32_t i = 0; i < system->mirror.slot_count; i++)
             system->mirror.slots[i] = moved[system->mirror.slots[i]];
@@ -174,6 +173,7 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     scene->frame_number++;
     scene->origins_valid = true;
     scene->stopped = BUDGET_OK;
+    scene->tree_was_read = false;
     free_absent(scene, frame);
     compact_state(scene, frame);
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
@@ -192,6 +192,7 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
         if (scene->exhausted || scene->stopped != BUDGET_OK)
             return steps; // the frame will be aborted
     }
+    physics_report_shared_keys(scene, frame);
     input_bind(&scene->input, scene->schema, tree, frame->arena);
     return steps;
 }

@@ -12,8 +12,9 @@ typedef struct Scene Scene;
 
 typedef struct SceneFrame {
     State *state;
-    Arena *arena; // for temporary data of the frame
-    double time;  // default of the attribute `time`
+    Arena *arena;   // for temporary data of the frame
+    int64_t number; // number of the frame, for reports
+    double time;    // default of the attribute `time`
     double fps;
     double performance;  // PhysTime.performance
     bool lockstep;       // PhysTime.lockstep

@@ -35,6 +35,7 @@ struct PhysicsSystem {
     // True if the clock of the system was above 0 before the last update, so that the script could see the particles.
     bool had_simulated;
     uint64_t last_frame; // scene->frame_number of the last update
+    const Node *node;    // node of the last update, valid until its end; NULL: the system was skipped
 
     // The last frame's tree, with which the next one is compared.
     uint32_t dimensions;         // number of dimensions in the last update; 0: no update yet
@@ -60,6 +61,7 @@ struct Scene {
     Schema *schema;
     BodyAttrs body_defaults[2]; // defaults of particles [0] and anchors [1]
     ForceAttrs force_defaults[PHYS_FORCE_KINDS];
+    bool tree_was_read;    // a tree was read from scratch in the current update
     bool exhausted;        // true if an update ran out of memory (scene_clear_exhausted)
     BudgetOutcome stopped; // why the last update was stopped; BUDGET_OK: it was not
     Budget *budget;
@@ -108,6 +110,11 @@ struct PhysicsTree {
     uint32_t next_link;    // number of the next distance force to read
 };
 
+// scene.c: sets `slots` to the addresses of the slots that a system has besides those of its particles: start, run,
+// iteration, clock and last.
+enum { PHYSICS_OWN_SLOTS = 5 };
+void physics_own_slots(PhysicsSystem *system, StateSlot *slots[PHYSICS_OWN_SLOTS]);
+
 // Returns the key prefix;id or, unless `last` is NULL, prefix;id;last.
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last);
 
@@ -115,6 +122,10 @@ Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last);
 void physics_read_defaults(Scene *scene);
 // Reads the attributes of a !particle or !anchor, and reports errors. Vectors point into the node.
 void physics_read_particle(const PhysicsTree *tree, const Node *node, bool anchor, BodyAttrs *body);
+// Reports positions, velocities and forces of a particle or anchor that are not finite, except those that are
+// preserved.
+void physics_check_body(const PhysicsTree *tree, const Node *node, bool anchor, const BodyAttrs *body,
+                        PhysPreserve preserve);
 // Read the tree into the engine: first groups and particles, then forces.
 void physics_read_bodies(PhysicsTree *tree);
 void physics_read_forces(PhysicsTree *tree);
@@ -146,6 +157,8 @@ int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot);
 uint32_t physics_mark(const PhysicsTree *tree, StateSlot slot);
 bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark);
 void physics_clear_marks(const PhysicsTree *tree);
+// After the update of all systems: reports keys that two systems share, if a tree was read in this frame.
+void physics_report_shared_keys(Scene *scene, const SceneFrame *frame);
 // Frees the marks if they are many and unlikely to be needed again.
 void physics_free_marks(const PhysicsTree *tree);
 

@@ -8,6 +8,9 @@
 
 #include <math.h>
 
+// Symbols are numbers of at least this magnitude. fill_checked looks for symbols among such numbers.
+#define MAX_PLAIN 0x1p1023
+
 // Returns the slot of by_name that contains the kinds with this name, or an empty slot in which the name can be stored.
 static size_t find_name(const Schema *schema, const Symbol *name) {
     enum { SLOTS = sizeof schema->by_name };
@@ -33,7 +36,7 @@ void schema_init(Schema *schema, SymbolTable *symbols, SchemaSink sink) {
             bool plain = attr->field != FIELD_NOWHERE && !attr->alias;
             schema->slots[row] = (SchemaSlot){
                 .name = symbol_intern(symbols, str_from(schema_names[attr->name])),
-                .low = type->low,
+                .low = type->shape == SHAPE_NUMBER ? fmax(type->low, -MAX_PLAIN) : type->low,
                 .high = type->high,
                 .field = attr->field,
                 .plain = (uint8_t)(plain ? type->shape : SHAPE_OTHER),
@@ -85,6 +88,15 @@ static PhysVector unit_vector(const Reader *reader, PhysVector v) {
     return unit;
 }
 
+// Returns true if some of the numbers are symbols, such as :x.
+static bool has_symbol(const Reader *reader, const Value *v) {
+    const double *numbers = value_numbers(v);
+    for (uint32_t i = 0; i < v->len; i++)
+        if (symbol_of_number(reader->schema->symbols, numbers[i]))
+            return true;
+    return false;
+}
+
 // Returns the elements of a vector attribute, or NULL if its value is malformed.
 static PhysVector read_vector(const Reader *reader, const Value *v) {
     uint32_t n = reader->dimensions;
@@ -98,6 +110,14 @@ static PhysVector read_vector(const Reader *reader, const Value *v) {
     return repeated;
 }
 
+// Returns false if some of the numbers are symbols, infinite, or not numbers. May also return false for huge numbers.
+static inline bool are_plain(const double *numbers, uint32_t count) {
+    bool plain = true;
+    for (uint32_t k = 0; k < count; k++)
+        plain &= fabs(numbers[k]) < MAX_PLAIN;
+    return plain;
+}
+
 // Stores a value of the expected form. Returns false if the value needs a closer check.
 static inline bool store_fast(const SchemaSlot *slot, uint32_t n, const Value *v, char *record) {
     void *field = record + slot->field;
@@ -108,7 +128,7 @@ static inline bool store_fast(const SchemaSlot *slot, uint32_t n, const Value *v
         *(double *)field = v->as.number;
         return true;
     case SHAPE_VECTOR:
-        if (v->kind != VALUE_NUMBERS || v->len != n)
+        if (v->kind != VALUE_NUMBERS || v->len != n || !are_plain(value_numbers(v), n))
             return false;
         *(PhysVector *)field = value_numbers(v);
         return true;
@@ -130,11 +150,13 @@ static bool store_checked(const Reader *reader, const SchemaRow *row, const Valu
         *(Value *)field = *v;
     } else if (shape == SHAPE_VECTOR || shape == SHAPE_NORMAL) {
         PhysVector vector = read_vector(reader, v);
-        if (!vector)
+        if (!vector || (shape == SHAPE_VECTOR && has_symbol(reader, v)))
             return false;
         *(PhysVector *)field = shape == SHAPE_NORMAL ? unit_vector(reader, vector) : vector;
     } else {
-        if (!value_is_number(*v) || (isnan(v->as.number) && shape != SHAPE_TIME))
+        // Whole numbers can be symbols, because `run` may count with names.
+        if (!value_is_number(*v) || (isnan(v->as.number) && shape != SHAPE_TIME) ||
+            (shape != SHAPE_INTEGER && has_symbol(reader, v)))
             return false;
         *(double *)field = shape == SHAPE_INTEGER ? floor(v->as.number) : clamp_to_limits(reader, row, *v);
     }

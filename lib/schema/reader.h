@@ -73,6 +73,8 @@ typedef struct Reader {
 
 // Reports the warning "!kind id=…: text", once for each code and key.
 void reader_report(const Reader *reader, const char *code, const char *key, Str text);
+// Like reader_report, but an error if scripts are checked (Schema.lint).
+void reader_report_fault(const Reader *reader, const char *code, Str text);
 // Like reader_report, but about an attribute, whose name is the key.
 void reader_report_attr(const Reader *reader, const char *code, AttrName name, Str text);
 // Like reader_report, but at a given origin.
@@ -93,6 +95,11 @@ bool reader_knows_attrs(const Reader *reader);
 
 // Reports the unknown attributes and the unknown or misplaced nodes inside a system that is not read otherwise.
 void reader_report_inside(const Reader *reader);
+
+// Reports a vector attribute that has an infinite number or NaN in frame `frame`; `effect` says what happens instead.
+// Does nothing if all of its numbers are finite, or if the node does not have the attribute.
+void reader_report_not_finite(const Reader *reader, AttrName name, PhysVector vector, int64_t frame,
+                              const char *effect);
 
 // Stores the defaults of a kind in its record. Vectors become NULL.
 void schema_defaults(NodeKind kind, void *record) PRIVATE_API(schema_defaults);

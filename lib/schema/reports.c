@@ -1,8 +1,10 @@
 // reports.c: reports of mistakes in nodes; see reader.h.
+#include "base/number.h"
 #include "schema/reader_internal.h"
 #include "value/format.h"
 #include "value/node_batch.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 // Adds " name=value" of an attribute that identifies the node: the state of a system, the id of other nodes.
@@ -14,14 +16,23 @@ static void add_identifier(Text *out, const Reader *reader, AttrRow row) {
     format_value(out, reader->schema->symbols, v);
 }
 
-void reader_report_at(const Reader *reader, const char *code, Origin place, Str key, Str text) {
+static void report(const Reader *reader, DiagLevel level, const char *code, Origin place, Str key, Str text) {
     Schema *schema = reader->schema;
     Text out = text_new(reader->arena);
     text_add_format(&out, "!%.*s", STR_ARGS(reader->node->kind->name));
     add_identifier(&out, reader, ROW_PARTICLE_ID);
     add_identifier(&out, reader, ROW_PHYSICS_STATE);
     schema->report_count++;
-    schema->sink.report(schema->sink.user_data, DIAG_WARNING, code, &place, text_str(&out), key, text);
+    schema->sink.report(schema->sink.user_data, level, code, &place, text_str(&out), key, text);
+}
+
+void reader_report_at(const Reader *reader, const char *code, Origin place, Str key, Str text) {
+    report(reader, DIAG_WARNING, code, place, key, text);
+}
+
+void reader_report_fault(const Reader *reader, const char *code, Str text) {
+    report(reader, reader->schema->lint ? DIAG_ERROR : DIAG_WARNING, code, node_origin(reader->node, NULL), (Str){0},
+           text);
 }
 
 void reader_report(const Reader *reader, const char *code, const char *key, Str text) {
@@ -164,6 +175,22 @@ void reader_report_lint(const Reader *reader, const char *code, const SchemaRow 
     format_value(&out, reader->schema->symbols, v);
     text_add_c(&out, text);
     report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text_str(&out));
+}
+
+void reader_report_not_finite(const Reader *reader, AttrName name, PhysVector vector, int64_t frame,
+                              const char *effect) {
+    enum { MAX_SHOWN = 8 };
+    uint32_t n = reader->dimensions;
+    if (!vector || numbers_finite(vector, n, 1))
+        return;
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "%s", schema_names[name]);
+    if (n <= MAX_SHOWN) {
+        text_add_c(&out, "=");
+        format_value(&out, reader->schema->symbols, value_numbers_view(vector, n));
+    }
+    text_add_format(&out, " is not finite in frame %" PRId64 "; %s", frame, effect);
+    reader_report_attr(reader, "not-finite", name, text_str(&out));
 }
 
 static bool has_attr(const Schema *schema, NodeKind kind, const Symbol *name) {

@@ -296,6 +296,7 @@ static PetriStatus update_systems(PetriSession *session, void *context) {
     session_lint_top_nodes(session);
     SceneFrame frame = {.state = session->state,
                         .arena = &made->systems_arena,
+                        .number = session->clock.number,
                         .time = session->clock.time,
                         .fps = session->clock.rates.fps,
                         .performance = session->clock.wall.performance,

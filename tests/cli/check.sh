@@ -34,6 +34,14 @@ check "--werror makes warnings fail" status_is 1
 petri run --frames 1 lints.fl
 check "a run does not lint" lacks err "unused"
 
+printf '!physics dimensions=2\n    !particle id=0\n!physics state=:s\n    !particle id=0\n' >incomplete.fl
+petri check incomplete.fl
+check "a system without state or dimensions fails a check" status_is 1
+check "check names the missing attributes" has err "incomplete.fl:1:1: error: !physics: attribute 'state' is missing"
+check "each missing attribute is one error" last_line_is err "petri: 1 file checked: 2 errors, 0 warnings"
+petri run --frames 1 incomplete.fl
+check "a run only warns about an incomplete system" status_is 0
+
 cat >clean.fl <<'END'
 let a=1
 func twice(_unused, x)
@@ -124,7 +132,7 @@ if time > 100
 !shown a=debug("seen")
 END
 petri check nodes.fl
-check "warnings of nodes do not fail a check" status_is 0
+check "a system without state fails a check that finds other mistakes too" status_is 1
 check "a check prints nothing of the frame" empty out
 check "a check does not print what the first frame logs" lacks err "> seen"
 check "a check does not draw !record" [ ! -e out.png ]
@@ -132,7 +140,7 @@ for diagnostic in "4:13: warning: !path: '!elipse' is not supported; ignored; di
     "5:34: warning: !ellipse: unknown attribute 'radus'; did you mean 'radius'?" \
     "6:9: warning: !canvas: '!fil' is not supported; ignored; did you mean '!fill'?" \
     "8:1: warning: '!pysics' does nothing" \
-    "9:1: warning: !physics: attribute 'state' is missing or null" \
+    "9:1: error: !physics: attribute 'state' is missing or null" \
     "12:5: warning: !particle: attribute 'id' is missing or null; the node is ignored" \
     "13:5: warning: !partcle id=1: unknown inside !physics; the node is ignored; did you mean !particle?" \
     "15:24: warning: !particle id=0: unknown attribute 'poistion'; did you mean 'position'?" \
@@ -144,7 +152,7 @@ for diagnostic in "4:13: warning: !path: '!elipse' is not supported; ignored; di
     "25:10: warning: cannot include 'gone.fl'"; do
     check "check finds $diagnostic" count_is err "nodes.fl:$diagnostic" 1
 done
-check "check gives no other diagnostics" last_line_is err "petri: 1 file checked: 0 errors, 15 warnings"
+check "check gives no other diagnostics" last_line_is err "petri: 1 file checked: 1 error, 14 warnings"
 petri run --frames 2 nodes.fl
 check "a run also reports a misspelled node at the top" count_is err "did you mean '!physics'?" 1
 
@@ -196,7 +204,8 @@ cat >expected <<'END'
 END
 for command in check "run --frames 3" "render -o out.png --frames 3"; do
     petri $command ignored.fl
-    grep '^ignored' err | sort -t: -k2n -k3n | sed 's/^ignored.fl://' >reported
+    # An incomplete system is an error only in a check.
+    grep '^ignored' err | sort -t: -k2n -k3n | sed 's/^ignored.fl://; s/error: !physics/warning: !physics/' >reported
     check "$command reports everything that is ignored, once" cmp expected reported
 done
 cat >later.fl <<'END'

@@ -59,6 +59,97 @@ static void test_changing_values(void **state) {
     check_reports(rows, COUNT_OF(rows));
 }
 
+// Symbols are numbers, but huge ones, so that they cannot be meant as numbers.
+static void test_symbols_as_numbers(void **state) {
+    (void)state;
+    static const Report rows[] = {
+        {P2 " !particle id=:a force=:x\n", "bad-attribute", {"!particle", ":a", "force", ":x"}},
+        {P1 " !particle id=:a force=:x\n", "bad-attribute", {"force", "one number", ":x"}},
+        {P3 " !particle id=:a position=1;:x;2\n", "bad-attribute", {"position", "1;:x;2"}},
+        {P2 " !particle id=:a mass=:x\n", "bad-attribute", {"mass", ":x"}},
+        {P2 " !anchor id=:a radius=:x\n", "bad-attribute", {"!anchor", "radius", ":x"}},
+        {P2 " !constant strength=:x\n", "bad-attribute", {"!constant", "strength", ":x"}},
+        {P2 " !barrier normal=:x\n", "bad-normal", {"!barrier", "normal"}},
+        {P2 " !collision max_distance=:x\n", "bad-attribute", {"max_distance", ":x"}},
+        {"!physics state=:s dimensions=2 time=:x\n", "bad-attribute", {"!physics", "time", ":x"}},
+        {"!physics state=:s dimensions=2 resolution=:x\n", "bad-attribute", {"!physics", "resolution", ":x"}},
+        // A run may have a name, a counter may store one, and a huge number is not a symbol.
+        {"!counter state=:c initial=:x\n", "", {NULL}},
+        {"!physics state=:s dimensions=2 run=:x\n", "", {NULL}},
+        {P1 " !particle id=:a mass=1e308\n !constant force=-1.6e308\n", "", {NULL}},
+    };
+    check_reports(rows, COUNT_OF(rows));
+}
+
+// A symbol is ignored like a string: the attribute keeps its default.
+static void test_symbols_keep_the_default(void **state) {
+    (void)state;
+    World world;
+    world_open(&world, 1, P1 " !particle id=:a velocity=2 force=:x mass=:m\n !constant force=1 strength=:s\n");
+    world_to(&world, 2);
+    EXPECT(&world, ":s;:a;:velocity", 4);
+    world_close(&world);
+}
+
+// Vectors that are not finite. A vector that the frame does not use is not reported.
+static void test_not_finite(void **state) {
+    (void)state;
+    static const Report rows[] = {
+        {P2 " !particle id=:a position=0/0;1\n", "not-finite", {":a", "position=nan;1", "frame 0"}},
+        {P2 " !particle id=:a position=1/0\n", "not-finite", {"position=inf;inf", "frame 0"}},
+        {P1 " !particle id=:a velocity=-1/0\n", "not-finite", {"velocity=-inf", "frame 0"}},
+        {P5 " !particle id=:a force=(0 if frame < 3 else 0/0)\n", "not-finite", {":a", "force=nan", "frame 3"}},
+        {P2 " !anchor id=:a position=(1 if frame < 2 else 1/0);1\n", "not-finite", {"!anchor", "inf;1", "frame 2"}},
+        {P2 " !group\n  !constant acceleration=0/0\n", "not-finite", {"!constant", "acceleration=nan"}},
+        {P2 " !barrier position=1/0;0 normal=1;0\n", "not-finite", {"!barrier", "position=inf;0"}},
+        {P2 " for i in ..3\n  !particle id=i force=0/0\n", "not-finite", {"id=0", "force"}},
+        // Only the first frames use the position of a particle, and anchors have no force.
+        {P2 " !particle id=:a position=(1 if frame < 3 else 0/0) velocity=(1 if frame < 3 else 1/0)\n", "", {NULL}},
+        {P2 " !anchor id=:a force=0/0 velocity=1/0\n", "", {NULL}},
+        {P2 " !particle id=:a position=1e308 force=-1e308\n", "", {NULL}},
+    };
+    check_reports(rows, COUNT_OF(rows));
+}
+
+// A particle that is not finite for a while starts as soon as its position is finite, and disturbs no other one.
+static void test_not_finite_for_a_while(void **state) {
+    (void)state;
+    World world;
+    world_open(&world, 1,
+               P1 " !particle id=:a position=(0/0 if frame < 3 else 7) charge=1\n"
+                  " !particle id=:b position=8 charge=1\n"
+                  " if frame < 3\n  !electrostatic\n");
+    world_to(&world, 2);
+    EXPECT(&world, ":s;:b", 8);
+    EXPECT_ABSENT(&world, ":s;:a");
+    world_to(&world, 4);
+    EXPECT(&world, ":s;:b", 8);
+    EXPECT(&world, ":s;:a", 7);
+    world_close(&world);
+}
+
+// Keys of the state that two particles or two systems share, in either order.
+static void test_colliding_keys(void **state) {
+    (void)state;
+    static const Report rows[] = {
+        {P2 " !particle id=:a\n !particle id=:a;:velocity\n", "colliding-keys", {":a;:velocity", "position"}},
+        {P2 " !particle id=:a;:velocity\n !particle id=:a\n", "colliding-keys", {"id=:a:", "velocity"}},
+        {P2 " !anchor id=:a\n !group\n  !particle id=:a;:velocity\n", "colliding-keys", {":a;:velocity"}},
+        {P1 " !particle id=:a\n!physics state=:s;:a dimensions=2\n", "colliding-keys", {"state=:s;:a", "$(:s;:a)"}},
+        {"!physics state=:s;:a dimensions=2\n" P1 " !particle id=:a\n", "colliding-keys", {"state=:s:", "$(:s;:a)"}},
+        {P1 " !particle id=:a;:b\n!physics state=:s;:a dimensions=1\n !particle id=:b\n",
+         "colliding-keys",
+         {"$(:s;:a;:b)"}},
+        {P1 " !particle id=:a;:clock\n!physics state=:s;:a dimensions=1\n", "colliding-keys", {"$(:s;:a;:clock)"}},
+        // Longer keys are different keys.
+        {P1 " !particle id=:a;:speed\n !particle id=:a\n!physics state=:s;:b dimensions=1\n !particle id=:a\n",
+         "",
+         {NULL}},
+        {P1 " !particle id=:velocity\n !particle id=:velocity;1\n", "", {NULL}},
+    };
+    check_reports(rows, COUNT_OF(rows));
+}
+
 static void test_names(void **state) {
     (void)state;
     static const Report rows[] = {
@@ -247,6 +338,11 @@ TEST_GROUP(seed_reports) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shapes),
         cmocka_unit_test(test_changing_values),
+        cmocka_unit_test(test_symbols_as_numbers),
+        cmocka_unit_test(test_symbols_keep_the_default),
+        cmocka_unit_test(test_not_finite),
+        cmocka_unit_test(test_not_finite_for_a_while),
+        cmocka_unit_test(test_colliding_keys),
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_ids),
         cmocka_unit_test(test_reserved_ids),
