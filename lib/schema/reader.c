@@ -88,15 +88,6 @@ static PhysVector unit_vector(const Reader *reader, PhysVector v) {
     return unit;
 }
 
-// Returns true if some of the numbers are symbols, such as :x.
-static bool has_symbol(const Reader *reader, const Value *v) {
-    const double *numbers = value_numbers(v);
-    for (uint32_t i = 0; i < v->len; i++)
-        if (symbol_of_number(reader->schema->symbols, numbers[i]))
-            return true;
-    return false;
-}
-
 // Returns the elements of a vector attribute, or NULL if its value is malformed.
 static PhysVector read_vector(const Reader *reader, const Value *v) {
     uint32_t n = reader->dimensions;
@@ -150,17 +141,27 @@ static bool store_checked(const Reader *reader, const SchemaRow *row, const Valu
         *(Value *)field = *v;
     } else if (shape == SHAPE_VECTOR || shape == SHAPE_NORMAL) {
         PhysVector vector = read_vector(reader, v);
-        if (!vector || (shape == SHAPE_VECTOR && has_symbol(reader, v)))
+        if (!vector)
             return false;
         *(PhysVector *)field = shape == SHAPE_NORMAL ? unit_vector(reader, vector) : vector;
     } else {
-        // Whole numbers can be symbols, because `run` may count with names.
-        if (!value_is_number(*v) || (isnan(v->as.number) && shape != SHAPE_TIME) ||
-            (shape != SHAPE_INTEGER && has_symbol(reader, v)))
+        if (!value_is_number(*v) || (isnan(v->as.number) && shape != SHAPE_TIME))
             return false;
         *(double *)field = shape == SHAPE_INTEGER ? floor(v->as.number) : clamp_to_limits(reader, row, *v);
     }
     return true;
+}
+
+// Returns true if an attribute that wants a quantity has a symbol, such as :x. Symbols are numbers, but huge ones, so
+// that they cannot be meant as quantities. Whole numbers can be symbols, because `run` may count with names.
+static bool is_symbol_as_number(const Reader *reader, const SchemaRow *row, const Value *v) {
+    AttrShape shape = schema_types[row->type].shape;
+    if (shape != SHAPE_NUMBER && shape != SHAPE_TIME && shape != SHAPE_VECTOR)
+        return false;
+    for (uint32_t i = 0; i < v->len; i++)
+        if (symbol_of_number(reader->schema->symbols, value_numbers(v)[i]))
+            return true;
+    return false;
 }
 
 // Stores one attribute that the fast path did not accept. If the attribute is unknown, `row` is the end of the kind's
@@ -179,7 +180,7 @@ static __attribute__((noinline)) void fill_checked(const Reader *reader, const A
         if (v.len > 0 && store_checked(reader, winner, &v, record))
             return;
     }
-    if (!store_checked(reader, found, &attr->value, record))
+    if (!store_checked(reader, found, &attr->value, record) || is_symbol_as_number(reader, found, &attr->value))
         reader_report_shape(reader, found, attr->value);
 }
 

@@ -72,7 +72,9 @@ static void test_symbols_as_numbers(void **state) {
         {P2 " !barrier normal=:x\n", "bad-normal", {"!barrier", "normal"}},
         {P2 " !collision max_distance=:x\n", "bad-attribute", {"max_distance", ":x"}},
         {"!physics state=:s dimensions=2 time=:x\n", "bad-attribute", {"!physics", "time", ":x"}},
-        {"!physics state=:s dimensions=2 resolution=:x\n", "bad-attribute", {"!physics", "resolution", ":x"}},
+        {"!physics state=:s dimensions=2 resolution=:x\n",
+         "bad-attribute invalid-system",
+         {"!physics", "resolution", ":x"}},
         // A run may have a name, a counter may store one, and a huge number is not a symbol.
         {"!counter state=:c initial=:x\n", "", {NULL}},
         {"!physics state=:s dimensions=2 run=:x\n", "", {NULL}},
@@ -81,13 +83,13 @@ static void test_symbols_as_numbers(void **state) {
     check_reports(rows, COUNT_OF(rows));
 }
 
-// A symbol is ignored like a string: the attribute keeps its default.
-static void test_symbols_keep_the_default(void **state) {
+// A symbol is reported and used as its number, as in Flitter: a mass below 0 counts as 0, so no force acts.
+static void test_symbols_are_used_as_numbers(void **state) {
     (void)state;
     World world;
-    world_open(&world, 1, P1 " !particle id=:a velocity=2 force=:x mass=:m\n !constant force=1 strength=:s\n");
+    world_open(&world, 1, P1 " !particle id=:a velocity=2 mass=:m\n !constant force=1\n !constant acceleration=1\n");
     world_to(&world, 2);
-    EXPECT(&world, ":s;:a;:velocity", 4);
+    EXPECT(&world, ":s;:a;:velocity", 2);
     world_close(&world);
 }
 
@@ -104,7 +106,9 @@ static void test_not_finite(void **state) {
         {P2 " !barrier position=1/0;0 normal=1;0\n", "not-finite", {"!barrier", "position=inf;0"}},
         {P2 " for i in ..3\n  !particle id=i force=0/0\n", "not-finite", {"id=0", "force"}},
         // Only the first frames use the position of a particle, and anchors have no force.
-        {P2 " !particle id=:a position=(1 if frame < 3 else 0/0) velocity=(1 if frame < 3 else 1/0)\n", "", {NULL}},
+        {P2 " !particle id=:a position=(1 if frame < 3 else 0/0) velocity=(1 if frame < 3 else 1/0)\n",
+         "changing-start changing-start",
+         {NULL}},
         {P2 " !anchor id=:a force=0/0 velocity=1/0\n", "", {NULL}},
         {P2 " !particle id=:a position=1e308 force=-1e308\n", "", {NULL}},
     };
@@ -339,7 +343,7 @@ TEST_GROUP(seed_reports) {
         cmocka_unit_test(test_shapes),
         cmocka_unit_test(test_changing_values),
         cmocka_unit_test(test_symbols_as_numbers),
-        cmocka_unit_test(test_symbols_keep_the_default),
+        cmocka_unit_test(test_symbols_are_used_as_numbers),
         cmocka_unit_test(test_not_finite),
         cmocka_unit_test(test_not_finite_for_a_while),
         cmocka_unit_test(test_colliding_keys),
