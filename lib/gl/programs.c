@@ -27,10 +27,10 @@ struct GlProgram {
 
 static char *copy_text(Str text) {
     char *out = heap_alloc(text.len + 1);
-    if (out) {
+    if (out && text.len > 0) // the bytes of an empty text can be NULL
         memcpy(out, text.bytes, text.len);
+    if (out)
         out[text.len] = 0;
-    }
     return out;
 }
 

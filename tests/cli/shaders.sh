@@ -24,6 +24,15 @@ if [ -s good.png ] && ! has err "effects and 3-D scenes are left out"; then
     check "a rejected shader is a warning" status_is 0
     check "the warning has the position in the shader" has err "bad.fl:5:38: warning: !shader: \`y' undeclared"
 
+    # the text of an empty attribute has no bytes
+    for texts in 'vertex="" fragment=""' 'fragment=""' 'vertex=""'; do
+        for node in shader canvas3d; do
+            printf '!window size=20\n    !%s %s\n        !sphere\n' $node "$texts" >hollow.fl
+            draw hollow
+            check "$node $texts is reported" eval 'status_is 0 && has err "hollow.fl:2:"'
+        done
+    done
+
     shader large 'float a[2000000000];' 'a[int(x)] = x; x = a[int(x * time)]'
     draw large
     check "a shader that crashes the driver is an error" status_is 1
