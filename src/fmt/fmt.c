@@ -56,16 +56,17 @@ static void format_script(Formatting *formatting, const char *name) {
             write_stdout(&text);
         return;
     }
-    bool changed = text.len != out.len || memcmp(text.bytes, out.bytes, out.len) != 0;
-    formatting->changed += changed;
+    bool changed = text.len != out.len || memcmp(text.bytes, out.bytes, out.len) != 0, good = true;
     if (formatting->only_checks) {
         if (changed)
             message("%s is not formatted", script_display_name(name));
     } else if (script_is_stdin(name)) {
-        formatting->failed += write_stdout(&out) == STATUS_DONE ? 0 : 1;
+        good = write_stdout(&out) == STATUS_DONE;
     } else if (changed) {
-        formatting->failed += output_file(name, text_str(&out)) ? 0 : 1;
+        good = output_file(name, text_str(&out));
     }
+    formatting->failed += !good;
+    formatting->changed += changed && good;
 }
 
 static int fmt_run(const CommandContext *host, Options *options) {
@@ -85,8 +86,13 @@ static int fmt_run(const CommandContext *host, Options *options) {
     petri_close(&formatting.session);
     size_t count = options->scripts.count;
     if (count > 1 || !script_is_stdin(options->scripts.items[0].path)) {
-        message("%zu file%s: %zu %s, %zu unchanged", count, count == 1 ? "" : "s", formatting.changed,
-                formatting.only_checks ? "unformatted" : "formatted", count - formatting.changed);
+        size_t unchanged = count - formatting.changed - formatting.failed;
+        SCOPED_TEXT failures = {0};
+        text_add_c(&failures, "");
+        if (formatting.failed > 0)
+            text_add_format(&failures, ", %zu failed", formatting.failed);
+        message("%zu file%s: %zu %s, %zu unchanged%s", count, count == 1 ? "" : "s", formatting.changed,
+                formatting.only_checks ? "unformatted" : "formatted", unchanged, failures.bytes);
     }
     bool good =
         formatting.failed == 0 && options->unreadable.count == 0 && !(formatting.only_checks && formatting.changed > 0);

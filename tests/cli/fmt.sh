@@ -50,6 +50,19 @@ check "fmt formats files" status_is 0
 check "fmt writes the standard format to the file" cmp -s loose.fl formatted.fl
 check "fmt keeps permissions" [ "$(stat -c %a loose.fl)" = 640 ]
 check "fmt counts formatted and unchanged files" last_line_is err "petri: 2 files: 1 formatted, 1 unchanged"
+mkdir full
+printf '!n  a = 1\n' | tee full/a.fl full/b.fl >full/before
+printf '!n a=1\n' >full/c.fl
+printf '!n a=(\n' >full/d.fl
+(
+    trap '' XFSZ
+    ulimit -f 0 # files cannot grow, as on a full disk
+    timeout 100 "$petri" fmt full 2>&1
+    echo "status $?"
+) | cat >out
+check "fmt counts files that it could not write" has out "petri: 4 files: 0 formatted, 1 unchanged, 3 failed"
+check "fmt fails if it could not write" last_line_is out "status 1"
+check "a file that could not be written is whole" eval 'cmp -s full/a.fl full/before && cmp -s full/b.fl full/before'
 printf '!a x=  \n' >wrong.fl
 cp wrong.fl before.fl
 petri fmt wrong.fl
