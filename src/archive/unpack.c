@@ -9,17 +9,37 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Returns true if a name stays in the folder below which it is written, and has no control characters.
+// Returns true for characters that could change other lines or the order of letters on a terminal.
+static bool is_unsafe(int32_t c) {
+    return utf8_is_control(c) || c == 0x61c || (c >= 0x200e && c <= 0x200f) || (c >= 0x2028 && c <= 0x202e) ||
+           (c >= 0x2066 && c <= 0x2069);
+}
+
+// Reports that a file is not written, with `?` instead of each unsafe character of its name.
+static void report_skipped(const char *name) {
+    SCOPED_TEXT shown = {0};
+    Str all = str_from(name);
+    text_add_c(&shown, "");
+    for (size_t at = 0, from = 0; at < all.len; from = at) {
+        bool unsafe = is_unsafe(utf8_next(all, &at));
+        text_add(&shown, unsafe ? STR("?") : (Str){name + from, at - from});
+    }
+    message("skipped '%s': the name has control characters or a hidden part, or is not below the script's folder",
+            shown.bytes);
+}
+
+// Returns true if a name has no control characters, no marks that change the direction of text, and no hidden part such
+// as `.git`, and stays in the folder below which it is written.
 static bool is_valid_name(const char *name) {
     if (name[0] == '/' || name[0] == '\0')
         return false;
     for (size_t at = 0, length = strlen(name); at < length;)
-        if (utf8_is_control(utf8_next((Str){name, length}, &at)))
+        if (is_unsafe(utf8_next((Str){name, length}, &at)))
             return false;
     for (const char *part = name; part; part = strchr(part, '/')) {
         part += *part == '/';
         size_t length = strcspn(part, "/");
-        if (length == 0 || (length == 1 && part[0] == '.') || (length == 2 && part[0] == '.' && part[1] == '.'))
+        if (length == 0 || part[0] == '.') // also `.` and `..`
             return false;
     }
     return true;
@@ -59,7 +79,7 @@ static int unpack_files(PetriArchive *archive, const char *folder) {
         if (is_folder || !file.bytes || is_replaced(archive, i, file.name))
             continue;
         if (!is_valid_name(file.name))
-            message("skipped '%s': the name has control characters or is not below the script's folder", file.name);
+            report_skipped(file.name);
         else if (!write_file(folder, &file))
             return STATUS_FAILED;
     }
@@ -88,8 +108,8 @@ const Command UNPACK_COMMAND = {
     .summary = "write the files of an archived run to a folder",
     .details =
         "Writes the script and all other files in an archive to the folder DIR, which is created if it does not\n"
-        "exist. Writes the last version of each file. Existing files are not overwritten, and files outside the\n"
-        "script's folder are skipped.",
+        "exist. Writes the last version of each file. Existing files are not overwritten. Files outside the script's\n"
+        "folder, hidden files and folders, such as '.git/hooks', and names with control characters are skipped.",
     .examples = "  petri unpack run.petri dish        write the files to the folder dish\n",
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",

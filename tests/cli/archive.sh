@@ -268,6 +268,18 @@ END
             'status_is 0 && [ -s won ] && has out "verified: $(tail -n 1 won) of"'
     done
 
+    if command -v sqlite3 >/dev/null 2>&1; then
+        # hidden names, and names that would forge lines or reverse letters in messages
+        for name in "'.bashrc'" "'.git/hooks/x'" "'a/.b/c'" "'x' || char(10) || 'petri: forged' || char(8238) || 'lf.exe'"; do
+            cp first.petri evil.petri
+            rm -rf evil
+            sqlite3 evil.petri "UPDATE file SET name = $name WHERE name = 'mass.fl'"
+            petri unpack evil.petri evil
+            check "unpack skips the name $name" eval 'status_is 0 && lines_are err 1 && has err "skipped " && [ "$(ls -A evil)" = dish.fl ]'
+        done
+        check "unsafe characters are shown as ?" has err "skipped 'x?petri: forged?lf.exe'"
+    fi
+
     # Killed runs: at most one second of frames is lost.
     for delay in 0.3 0.9 1.4 2.1; do
         rm -f killed.petri
