@@ -191,6 +191,28 @@ test('npm installs the command', () => within(work => {
     assert.match(run.stdout, /^petri \d/);
 }));
 
+test('files that cannot be read are omitted', async () => {
+    const { filesBelow } = await load('files.mjs');
+    const work = fs.mkdtempSync(join(tmpdir(), 'petri-files-'));
+    try {
+        for (const name of ['a', 'b', 'c'])
+            fs.mkdirSync(join(work, name));
+        for (const name of ['a/a.fl', 'b/b.fl', 'c/c.fl', 'd.fl', 'empty.fl'])
+            fs.writeFileSync(join(work, name), name === 'empty.fl' ? '' : '!n\n');
+        // Folders and files disappear while others are read. Unlike missing permissions, this also happens to root.
+        const removing = (bytes, name) => {
+            fs.rmSync(join(work, 'b'), { recursive: true, force: true });
+            fs.rmSync(join(work, 'd.fl'), { force: true });
+            return name;
+        };
+        assert.deepEqual(Object.keys(filesBelow(work, removing)), ['a/a.fl', 'c/c.fl', 'empty.fl']);
+        assert.throws(() => filesBelow(work, () => { throw new Error('of the reader'); }), /of the reader/);
+        assert.throws(() => filesBelow(join(work, 'none')));
+    } finally {
+        fs.rmSync(work, { recursive: true });
+    }
+});
+
 test('petri view serves the script below a token, and reloads it', async () => {
     const { linkTo, serveScript } = await load('view.mjs'), { filesBelow } = await load('files.mjs');
     const work = fs.mkdtempSync(join(tmpdir(), 'petri-view-'));
