@@ -7,8 +7,11 @@
 #include "cli/signal_cleanup.h"
 #include "petri-ranks.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
+#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
@@ -25,6 +28,20 @@ static void (*leave_ranks)(void);         // stops waiting for the other ranks; 
 
 static pthread_t main_thread;
 
+// Sends output to /dev/null from now on if it goes to a terminal that is stopped (Ctrl-S): a write would block until
+// the terminal resumes. Safe in a signal handler.
+static void leave_stopped_terminal(int fd) {
+    enum { PATIENCE = 200 }; // milliseconds in which a busy terminal accepts something
+    struct pollfd place = {.fd = fd, .events = POLLOUT};
+    if (!isatty(fd) || poll(&place, 1, PATIENCE) != 0)
+        return;
+    int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere >= 0) {
+        dup2(nowhere, fd);
+        close(nowhere);
+    }
+}
+
 static void on_signal(int number) {
     static const char note[] = "\r\033[Kpetri: stopping; Ctrl-C again stops at once\n";
     static double first;
@@ -40,16 +57,20 @@ static void on_signal(int number) {
         }
         return;
     }
+    int error = errno;
     first = clock_seconds();
     interrupted = number;
     if (working)
         petri_interrupt(working);
     if (leave_ranks)
         leave_ranks();
+    leave_stopped_terminal(STDOUT_FILENO);
+    leave_stopped_terminal(STDERR_FILENO);
     if (number == SIGINT && isatty(STDERR_FILENO)) {
         ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
         (void)ignored;
     }
+    errno = error;
 }
 
 // Catches SIGINT, SIGTERM and, unless it is ignored as under nohup, SIGHUP. The first signal aborts the current frame

@@ -125,3 +125,42 @@ check "--show without a terminal reports the digest" has err "petri: digest of t
 check "--show without a terminal suggests a command" grep -q '^petri: to watch the script: .* view two.fl$' err
 petri run two.fl --show --frames 3 --quiet
 check "--quiet suppresses these reports" empty err
+
+# A stopped terminal (Ctrl-S) accepts no output. One signal still ends the run, which saves its state.
+printf '%%pragma fps 60\n!counter state=:c rate=1\n!n a=frame b="%s"\n' "$(repeat 200 x)" >chatter.fl
+cat >stopped.py <<'END'
+import os, pty, select, signal, sys, termios, time
+
+def drain(fd, seconds):
+    end = time.time() + seconds
+    while time.time() < end:
+        if select.select([fd], [], [], 0.05)[0]:
+            try:
+                if not os.read(fd, 65536):
+                    return
+            except OSError:
+                return
+
+pid, fd = pty.fork()
+if pid == 0:
+    os.execv(sys.argv[1], sys.argv[1:])
+drain(fd, 1)
+os.write(fd, b'\x13')
+drain(fd, 1)
+os.kill(pid, int(os.environ['SIGNAL']))
+for _ in range(3000):
+    ended, status = os.waitpid(pid, os.WNOHANG)
+    if ended:
+        break
+    time.sleep(0.01)
+else:
+    os.kill(pid, signal.SIGKILL)
+    _, status = os.waitpid(pid, 0)
+print(os.waitstatus_to_exitcode(status))
+END
+for number in 2 15; do
+    rm -f chatter.state
+    SIGNAL=$number python3 stopped.py "$petri" run chatter.fl --frames 100000000 --print tree --state chatter.state >out 2>err
+    check "signal $number ends a run on a stopped terminal" out_is "$((128 + number))"
+    check "a run on a stopped terminal saves its state after signal $number" [ -s chatter.state ]
+done
