@@ -162,8 +162,13 @@ lets:
 
 %nterm <list> let_lines;
 let_lines:
+    let_line
+  | let_lines let_line { $$ = ast_list_add_all($1, $2); }
+  ;
+%nterm <list> let_line;
+let_line:
     bindings NEWLINE
-  | let_lines bindings NEWLINE { $$ = ast_list_add_all($1, $2); }
+  | error NEWLINE { $$ = LIST(); yyerrok; }
   ;
 
 bindings:

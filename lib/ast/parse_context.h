@@ -28,6 +28,7 @@ typedef struct ParseContext {
     Ast *program;        // the resulting syntax tree
     bool failed;         // an error was reported
     uint32_t error_line; // line of the last error
+    uint32_t let_line;   // last line known to continue the `let` in line error_line; 0: none
     bool too_deep;       // a nesting limit was exceeded and reported, so parsing stops
     bool reported;       // an invalid token was already reported, so the parser's error about it is dropped
     // The next three fields are set by the grammar while it processes a token.

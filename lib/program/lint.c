@@ -35,6 +35,14 @@ static bool can_be_unused(const Binding *binding) {
     return binding->kind == BINDING_LOOP || binding->name->name.bytes[0] == '_';
 }
 
+// Returns true if an expression uses a name.
+static bool mentions(const Ast *ast, const Symbol *name) {
+    bool found = ast->kind == AST_NAME && ast->name == name;
+    for (uint32_t i = 0; i < ast->count && !found; i++)
+        found = ast->children[i] && mentions(ast->children[i], name);
+    return found;
+}
+
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
     static const char *const kinds[] = {"let", "func", "parameter", "loop name", "import"};
     // A file that only binds names is a module, whose top-level names are used by other files.
@@ -43,9 +51,13 @@ void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
         return;
     for (const Binding *binding = scope; binding != end; binding = binding->outer)
         if (!binding->used && !can_be_unused(binding))
-            add_warning(
+            add_warning_with_hint(
                 compiler, binding->span, "unused-name",
-                str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)));
+                str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)),
+                binding->value && mentions(binding->value, binding->name)
+                    ? STR("a 'let' binds a new name and changes no other one; to add up numbers, write 'sum(x for x in "
+                          "v)'")
+                    : (Str){0});
 }
 
 // Reports a wrong number of arguments. If the first frame executes the call, lib/builtin reports the same error with

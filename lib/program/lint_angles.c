@@ -64,11 +64,14 @@ static void find_circles(const Compiler *compiler, const Ast *ast, bool divisor,
             find_circles(compiler, ast->children[i], divisor != (ast->kind == AST_DIV && i == 1), found);
 }
 
-// Returns the source text of an expression, in parentheses if it has operators.
-static Str quoted_operand(const Compiler *compiler, const Ast *ast) {
-    Str text = {compiler->source->text.bytes + ast->span.start, ast->span.end - ast->span.start};
-    bool plain = ast->kind == AST_LITERAL || ast->kind == AST_NAME;
-    return plain ? text : str_format(compiler->arena, "(%.*s)", STR_ARGS(text));
+// Returns a hint with an expression that converts an angle to turns.
+static Str conversion(const Compiler *compiler, const Ast *angle, bool degrees) {
+    Str text = {compiler->source->text.bytes + angle->span.start, angle->span.end - angle->span.start};
+    if (degrees && angle->kind == AST_LITERAL)
+        return str_format(compiler->arena, "to convert it, write %.*sdeg", STR_ARGS(text));
+    bool plain = angle->kind == AST_LITERAL || angle->kind == AST_NAME;
+    return str_format(compiler->arena, plain ? "to convert it, write %.*s/%s" : "to convert it, write (%.*s)/%s",
+                      STR_ARGS(text), degrees ? "360" : "tau");
 }
 
 // Checks one angle. `taker` is the function or attribute that takes it. A whole number counts as degrees if it is
@@ -80,12 +83,10 @@ static void check_angle(Compiler *compiler, const Ast *angle, double smallest, S
     find_circles(compiler, angle, false, &circles);
     if (!degrees && (!circles.above || circles.below))
         return;
-    Str operand = quoted_operand(compiler, angle);
-    const char *unit = degrees ? "degrees" : "radians", *turn = degrees ? "360" : "tau";
     compile_report(compiler, angle->span, DIAG_WARNING, "angle-unit",
                    str_format(compiler->arena, "%.*s takes angles in turns, and this one seems to be in %s",
-                              STR_ARGS(taker), unit),
-                   str_format(compiler->arena, "to convert it, write %.*s/%s", STR_ARGS(operand), turn));
+                              STR_ARGS(taker), degrees ? "degrees" : "radians"),
+                   conversion(compiler, angle, degrees));
 }
 
 // Checks the angles that are the elements of a vector. If `first` is true, only the first element is an angle.

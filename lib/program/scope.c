@@ -228,6 +228,23 @@ static const Ast *loop_to_the_right(const Ast *ast, const Ast *use) {
     return NULL;
 }
 
+// Returns true if a use of a name is in the source of a loop that binds this name, as in `(x for x in v if x > 3)`.
+static bool in_own_source(const Ast *ast, const Ast *use) {
+    while (ast && ast != use) {
+        const Ast *inner = NULL;
+        for (uint32_t i = 0; i < ast->count && !inner; i++)
+            if (ast->children[i] && ast->children[i]->span.start <= use->span.start &&
+                use->span.end <= ast->children[i]->span.end)
+                inner = ast->children[i];
+        if (ast->kind == AST_FOR && inner == ast->children[1] && inner->kind == AST_COND)
+            for (uint32_t i = 0; i < ast->children[0]->count; i++)
+                if (ast->children[0]->children[i]->name == use->name)
+                    return true;
+        ast = inner;
+    }
+    return false;
+}
+
 // Returns a hint about the probable cause of an unbound name, or an empty string.
 static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
@@ -242,6 +259,9 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
         return str_format(compiler->arena, "a name for the state is a symbol: state=:%.*s", STR_ARGS(name));
     if (loop_to_the_right(compiler->root, ast))
         return STR("'for' repeats only the part after the last semicolon; put what it should repeat in parentheses");
+    if (in_own_source(compiler->root, ast))
+        return str_format(compiler->arena, "write the test before 'for': (%.*s if TEST for %.*s in …)", STR_ARGS(name),
+                          STR_ARGS(name));
     if (compiler->subject == ast)
         return str_format(compiler->arena, "a node is written !%.*s", STR_ARGS(name));
     if (compiler->key == ast)

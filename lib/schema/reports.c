@@ -55,8 +55,13 @@ static void add_replacement(Text *out, const Reader *reader, Str name) {
         const char *attr; // suggested if the node has it
         const char *text;
     } replacements[] = {
-        {"x y cx cy left top", "point", "point=x;y"},      {"x y cx cy z", "position", "position=x;y"},
-        {"w h width height", "size", "size=width;height"}, {"r diameter", "radius", "radius=r"},
+        {"x y cx cy left top position pos center centre", "point", "point=x;y"},
+        {"x y cx cy z pos", "position", "position=x;y"},
+        {"vel speed", "velocity", "velocity=x;y"},
+        {"gravity g", "acceleration", "acceleration=x;y"},
+        {"from to start end", "points", "points=x;y;x;y"},
+        {"w h width height", "size", "size=width;height"},
+        {"r diameter", "radius", "radius=r"},
         {"angle rotation", "rotate", "rotate=turns"},
     };
     bool transforms = str_word_number(name, "translate scale rotate skew") >= 0;
@@ -85,8 +90,24 @@ void reader_report_unknown(const Reader *reader, const Symbol *name) {
     report_symbol(reader, "unknown-attribute", name, text_str(&out));
 }
 
+// Returns the kind of node for which other programs have another name, or an empty string.
+static Str find_synonym(Str kind) {
+    static const struct {
+        const char *names;
+        const char *kind;
+    } synonyms[] = {
+#define SYNONYM(names, kind) {names, kind},
+#include "schema/synonym_list.h"
+    };
+    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
+        if (str_word_number(kind, synonyms[i].names) >= 0)
+            return str_from(synonyms[i].kind);
+    return (Str){0};
+}
+
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after) {
-    StrNearest nearest = str_nearest(kind);
+    Str synonym = find_synonym(kind);
+    StrNearest nearest = str_nearest(synonym.len ? synonym : kind);
     for (int i = 0; i < KIND_COUNT; i++)
         if (schema_can_contain((NodeKind)i, place) || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
             str_try_nearest(&nearest, str_from(schema_kinds[i].name));
@@ -111,6 +132,19 @@ void schema_add_home(Text *out, Str kind) {
         text_add_format(out, "%s%s", i == 0 ? "; it belongs " : i + 1 == count ? " or " : ", ", found[i]);
 }
 
+// Returns the first character of the line of a node, or a NUL byte if the location is unknown.
+static char first_in_line(const Node *node) {
+    Origin origin = node_origin(node, NULL);
+    return origin.source ? *source_locate(origin.source, origin.span.start).text.bytes : '\0';
+}
+
+// Adds that a tab may be the reason why a node is inside another one.
+static void add_tab(Text *out, const Node *parent, const Node *child) {
+    char outer = first_in_line(parent), inner = first_in_line(child);
+    if ((inner == '\t' && outer == ' ') || (inner == ' ' && outer == '\t'))
+        text_add_c(out, "; a tab counts as eight spaces of indentation");
+}
+
 void reader_report_child(const Reader *reader, const Node *child) {
     Text out = text_new(reader->arena);
     Str name = child->kind->name;
@@ -119,6 +153,8 @@ void reader_report_child(const Reader *reader, const Node *child) {
                     why == NODE_MISPLACED ? "has no effect here" : "is not supported");
     if (why == NODE_MISPLACED)
         schema_add_home(&out, name);
+    if (why == NODE_MISPLACED)
+        add_tab(&out, reader->node, child);
     else if (why == NODE_UNKNOWN)
         schema_add_nearest_kind(
             &out, name, schema_kinds[reader->kind].children == PLACE_PHYSICS ? PLACE_PHYSICS : PLACE_TOP, "'!", "'");
@@ -146,6 +182,16 @@ static void add_expected(Text *out, const Reader *reader, const TypeRow *type) {
                    vector || (type->shape <= SHAPE_TIME && type->shape != SHAPE_NUMBERS) ? "one number" : type->text);
 }
 
+// Adds how to read the state if a value looks like one of its keys.
+static void add_lookup(Text *out, const Reader *reader, Value found) {
+    if (found.len < 2 || found.len > 8 || value_at(&found, 0).type != ITEM_NUMBER ||
+        !symbol_of_number(reader->schema->symbols, value_at(&found, 0).as.number))
+        return;
+    text_add_c(out, "; to read the state, write $(");
+    format_value(out, reader->schema->symbols, found);
+    text_add_c(out, ")");
+}
+
 void reader_report_shape(const Reader *reader, const SchemaRow *row, Value found) {
     const TypeRow *type = &schema_types[row->type];
     Text out = text_new(reader->arena);
@@ -158,6 +204,7 @@ void reader_report_shape(const Reader *reader, const SchemaRow *row, Value found
         text_add_format(&out, "%u elements", found.len);
     if (type->shape == SHAPE_COLOR)
         add_colour(&out, found);
+    add_lookup(&out, reader, found);
     report_symbol(reader, "bad-attribute", reader->schema->slots[row - schema_rows].name, text_str(&out));
 }
 

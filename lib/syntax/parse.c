@@ -12,14 +12,40 @@
 
 enum { MAX_EXPECTED = 3 }; // maximum number of expected tokens in a message; if there are more, it lists none
 
-// Reports an error, unless the previous error is on the same line. Always sets context->failed.
+static uint32_t indentation(const Source *source, uint32_t line) {
+    const char *text = source->text.bytes + source->line_starts[line - 1];
+    return (uint32_t)strspn(text, " \t");
+}
+
+// Returns true if a line continues the `let` in the line of the last error: all lines after it are indented more.
+// After an error in the first line of a `let`, its further bindings are not recognised.
+static bool continues_let(ParseContext *context, uint32_t line) {
+    const Source *source = context->source;
+    uint32_t first = context->error_line;
+    if (!context->failed || line <= first)
+        return false;
+    uint32_t let = indentation(source, first);
+    const char *text = source->text.bytes + source->line_starts[first - 1] + let;
+    if (strncmp(text, "let", 3) != 0 || (text[3] != ' ' && text[3] != '\t' && text[3] != '\n'))
+        return false;
+    for (uint32_t i = first < context->let_line ? context->let_line : first; i < line; i++) {
+        uint32_t indent = indentation(source, i + 1);
+        if (indent <= let && source->text.bytes[source->line_starts[i] + indent] != '\n')
+            return false;
+    }
+    context->let_line = line;
+    return true;
+}
+
+// Reports an error, unless it follows from the previous error in the same line or statement. Always sets
+// context->failed.
 static void report_error(ParseContext *context, Span span, const char *code, Str text, Str hint) {
     uint32_t line = source_line(context->source, span.start);
-    bool follows = context->failed && line == context->error_line;
+    bool follows = (context->failed && line == context->error_line) || continues_let(context, line);
     context->failed = true;
-    context->error_line = line;
     if (follows)
         return;
+    context->error_line = line;
     diag_report(context->diags, &(Diag){DIAG_ERROR, {context->source, span}, text, .hint = hint, .code = code});
 }
 
@@ -54,8 +80,19 @@ static void add_token_name(Text *out, const char *name) {
     text_add_format(out, quote ? "'%s'" : "%s", name);
 }
 
+// Returns true if the line above a token ends with `=`.
+static bool follows_binding(const ParseContext *context, Span span) {
+    const char *text = context->source->text.bytes;
+    uint32_t at = span.start;
+    while (at > 0 && strchr(" \t\n", text[at - 1]))
+        at--;
+    return at > 0 && text[at - 1] == '=';
+}
+
 // Returns a hint for a common mistake, or an empty string.
-static Str syntax_hint(const char *found, bool needs_block) {
+static Str syntax_hint(const ParseContext *context, Span span, const char *found, bool needs_block) {
+    if (needs_block && follows_binding(context, span))
+        return STR("write a value after the '=' above, or in an indented block below it");
     if (needs_block)
         return STR("add an indented block below the line above");
     if (strcmp(found, "'='") == 0)
@@ -124,7 +161,7 @@ static void report_unexpected(ParseContext *context, const Unexpected *unexpecte
         else
             add_token_name(&text, expected[i]);
     }
-    report_token(context, span, text_str(&text), syntax_hint(found, needs_block));
+    report_token(context, span, text_str(&text), syntax_hint(context, span, found, needs_block));
 }
 
 // Reports a character that cannot start a token.

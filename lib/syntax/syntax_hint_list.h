@@ -23,6 +23,8 @@
 #define LASTING \
     "names keep their values for one frame only; for values that last, use the state, '$(:name)', or a !counter"
 #define ATTRIBUTES "write attributes as 'name=value', such as text='hello'"
+#define NO_UNIT "remove the unit; lengths are pixels, times are seconds"
+#define TURNS "write angles in turns: 90deg, or 2/tau for 2 radians"
 #define BELOW "put the node on the next line, indented"
 #define WHILE "use 'for i in ..10' to repeat, 'if' to test, or a !counter to count from frame to frame"
 
@@ -60,6 +62,7 @@ HINT(BEGIN "for" GAP WORD BLANK "$", "^,", "separate names with semicolons: for 
 HINT(BEGIN "(foreach|repeat|loop)" GAP, "", FOR)
 HINT(BEGIN "(if|elif|else|for|func|where)([ \t(].*)?$", "^:([ \t]|$)", NO_COLON)
 HINT("", "^[?]", "write 'A if TEST else B'")
+HINT(BEGIN "(if|elif)([ \t(].*)?$", "^!" BLANK "[^A-Za-z_ \t]", "write 'not x' to negate a value")
 HINT(BEGIN "(for|if|elif|else)([ \t(].*)?$", "^!", BELOW)
 
 // Files.
@@ -105,6 +108,12 @@ HINT(BEGIN "!.*" GAP WORD BLANK "$", "^:", "write attributes as 'name=value'")
 HINT(BEGIN "!" WORD BLANK "$", "^[{].*[=:]", "write attributes after the name: !name a=1 b=2")
 
 // Vectors and blocks.
+HINT("[0-9]" BLANK "(rad|degrees)" BLANK "$", "", TURNS)
+HINT("[0-9](px|em|pt|mm|cm|ms|s)" BLANK "$", "", NO_UNIT)
+HINT("", "^(\u2018|\u2019|\u201a|\u201c|\u201d|\u201e|\u00ab|\u00bb)", "write strings in straight quotes: 'text'")
+HINT("[^A-Za-z0-9_](sin|cos|tan|polar|angle|sqrt|abs|floor|ceil|round|exp|log|min|max|sum|len|hypot|hsv|uniform|normal)" GAP
+     "$", "^[-.0-9A-Za-z(:]", "write the arguments of a function in parentheses: sin(x)")
+HINT("[0-9]" GAP "$", "^[.]?[0-9]", VECTOR)
 HINT("", "^," BLANK WORD BLANK "=[^=]", "remove the comma: name=value name=value")
 HINT("", "^," BLANK "[^ \t]", VECTOR)
 HINT("[=(;,]" BLANK "$", "^[{]", VECTOR)

@@ -50,7 +50,7 @@ static void test_common_mistakes_have_hints(void **state) {
         {"let stable=1", "1:11: unexpected '=', expected name | "
                          "write '==' to compare, or 'let NAME=…' to name a value"},
         {"let", "1:4: unexpected end of line, expected name or 'stable'"},
-        {"let x=1 2", "1:9: unexpected number 2"},
+        {"let x=1 2", "1:9: unexpected number 2 | separate vector elements with semicolons: 1;2;3"},
         {"%pragma fps", "1:12: unexpected end of line, expected an expression"},
         {"%pragma fps x", "1:13: unexpected name x"},
         {"x\n%pragma fps 3", "2:1: unexpected '%'"},
@@ -119,9 +119,10 @@ static void test_each_mistake_is_reported_once(void **state) {
         {"!a +\n!b *\n!c\n!d ]\n", "1:5: unexpected end of line, expected an expression\n"
                                    "2:5: unexpected end of line, expected an expression\n"
                                    "4:4: unexpected ']', expected end of line or '<<'"},
-        {"!a x=1 2\n    !b\n        !c 3 4\n    !d\n!e 5 6\n", "1:8: unexpected number 2\n"
-                                                               "3:12: unexpected number 3\n"
-                                                               "5:4: unexpected number 5"},
+        {"!a x=1 2\n    !b\n        !c 3 4\n    !d\n!e 5 6\n",
+         "1:8: unexpected number 2 | separate vector elements with semicolons: 1;2;3\n"
+         "3:12: unexpected number 3\n"
+         "5:4: unexpected number 5"},
         // The grammar cannot recover from an error in a pragma.
         {"%pragma fps\n!a )\n", "1:12: unexpected end of line, expected an expression\n"
                                 "2:4: unexpected ')', expected end of line or '<<'"},
