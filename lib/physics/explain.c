@@ -37,9 +37,9 @@ uint64_t phys_explained_steps(const PhysSystem *system) {
 
 // --- copying the system
 
-static void copy_particles(const PhysSystem *system, PhysSystem *copy) {
+static void copy_particles(const PhysSystem *system, const double *rows, PhysSystem *copy) {
     size_t n = system->dimensions;
-    const double *rows = system->start_rows.bytes, *own = system->own_force_rows.bytes;
+    const double *own = system->own_force_rows.bytes;
     bool has_own = system->own_forces != OWN_FORCES_NONE;
     phys_expect_particles(copy, system->particle_count);
     for (uint32_t i = 0; i < system->particle_count && !copy->failed; i++) {
@@ -62,8 +62,8 @@ static void copy_forces(const PhysSystem *system, PhysSystem *copy) {
         phys_add_force(copy, ((const ForceRecord *)system->force_records.bytes)[i].group, &force);
 }
 
-// Returns a copy of the system as it was before its last frame, or NULL if out of memory.
-static PhysSystem *copy_system(const PhysSystem *system) {
+// Returns a copy of the system with the positions and velocities in `rows`, or NULL if out of memory.
+static PhysSystem *copy_system(const PhysSystem *system, const double *rows) {
     PhysSystem *copy = phys_new();
     if (!copy)
         return NULL;
@@ -78,7 +78,7 @@ static PhysSystem *copy_system(const PhysSystem *system) {
     phys_begin(copy, system->dimensions);
     for (uint32_t g = 1; g < system->group_count; g++)
         phys_add_group(copy, phys_group_parent(system, g));
-    copy_particles(system, copy);
+    copy_particles(system, rows, copy);
     copy_forces(system, copy);
     return copy;
 }
@@ -347,17 +347,32 @@ static PhysStatus explain(Probe *probe, const PhysTime *time, uint32_t particle,
     return completed && !system->failed ? PHYS_OK : system->failed ? PHYS_NO_MEMORY : PHYS_STOPPED;
 }
 
-PhysStatus phys_explain(const PhysSystem *system, uint32_t particle, uint64_t step, PhysExplanation *result) {
-    *result = (PhysExplanation){.copy = copy_system(system)};
+static PhysStatus explain_from(const PhysSystem *system, const double *rows, const PhysTime *time, uint32_t particle,
+                               uint64_t step, PhysExplanation *result) {
+    *result = (PhysExplanation){.copy = copy_system(system, rows)};
     Probe probe = {.system = result->copy, .result = result};
     if (!result->copy || !phys_prepare(result->copy) || !reserve_results(&probe, system->dimensions))
         return PHYS_NO_MEMORY;
-    result->copy->last_time = system->last_time;
-    PhysStatus status = explain(&probe, &system->last_time, particle, step);
+    result->copy->last_time = *time;
+    PhysStatus status = explain(&probe, time, particle, step);
     result->forces = probe.memory->forces.bytes;
     result->partners = probe.memory->partners.bytes;
     result->vectors = probe.memory->vectors.bytes;
     return status;
+}
+
+PhysStatus phys_explain(const PhysSystem *system, uint32_t particle, uint64_t step, PhysExplanation *result) {
+    return explain_from(system, system->start_rows.bytes, &system->last_time, particle, step, result);
+}
+
+PhysStatus phys_explain_rows(const PhysSystem *system, uint32_t particle, double clock, double delta,
+                             PhysExplanation *result) {
+    const PhysTime time = {.now = delta,
+                           .clock = clock,
+                           .resolution = delta,
+                           .lockstep = true,
+                           .speed_of_light = system->last_time.speed_of_light};
+    return explain_from(system, system->rows.bytes, &time, particle, 0, result);
 }
 
 void phys_explanation_free(PhysExplanation *explanation) {

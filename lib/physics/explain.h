@@ -33,4 +33,8 @@ uint64_t phys_explained_steps(const PhysSystem *system);
 // range. Fills `result` even on failure; the caller frees it with phys_explanation_free. Memory and work are charged to
 // the budget of the system.
 PhysStatus phys_explain(const PhysSystem *system, uint32_t particle, uint64_t step, PhysExplanation *result);
+// Explains the force on a particle in a step of `delta` from the current rows, at `clock` of the simulation clock. Does
+// not need PhysOptions.keep_forces. In other respects like phys_explain.
+PhysStatus phys_explain_rows(const PhysSystem *system, uint32_t particle, double clock, double delta,
+                             PhysExplanation *result);
 void phys_explanation_free(PhysExplanation *explanation);

@@ -150,6 +150,15 @@ typedef enum ColumnsChange {
     COLUMNS_FILLED, // all columns were filled again
 } ColumnsChange;
 
+// What the last check of divergence.h has found.
+typedef struct Watch {
+    uint64_t steps;   // PhysSystem.steps at the check
+    double energy;    // kinetic energy
+    uint32_t growths; // number of successive checks in which the energy had grown fast
+    bool huge;        // the run started with vectors above PHYS_DIVERGENT
+    bool found;       // a divergence was found in this run
+} Watch;
+
 struct PhysSystem {
     Arena home;     // holds this struct
     uint64_t bytes; // total capacity of all buffers
@@ -205,6 +214,7 @@ struct PhysSystem {
     uint64_t radius_version;      // increases when a radius may have changed
     uint64_t motion_version;      // increases when a position may have changed
     ColumnsChange columns_change; // what has changed since a hook last read this field
+    Watch watch;
     // division among processes (division.h)
     uint64_t steps;  // number of steps since phys_new
     Buffer division; // data of PhysOptions.division

@@ -8,6 +8,7 @@
 //       last = last + delta;  remaining = t − last
 //       more = remaining > 1e-9 * resolution
 //   until not (more and (lockstep or this is the frame's first step and performance > 1.5))
+#include "physics/divergence.h"
 #include "physics/division.h"
 
 #include <math.h>
@@ -40,6 +41,8 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
         result.status = PHYS_NO_MEMORY;
         return result;
     }
+    if (time->clock == 0)
+        phys_watch_start(system);
     if (system->options.division)
         system->options.division->begin_frame(system, time);
     if (system->failed) {

@@ -193,9 +193,21 @@ static double simulate_system(PhysicsTree *tree, const Reader *reader, const Sys
                       STR("the frame needs more than 1000000 steps; the rest are skipped; use a larger 'resolution'"));
     else if (result.status == PHYS_STOPPED)
         tree->scene->stopped = budget_check(tree->scene->budget);
+    else if (result.status == PHYS_OK)
+        physics_report_divergence(tree, reader, result.clock, fmin(time.resolution, time.now - time.last));
     tree->out_of_memory |= result.status == PHYS_NO_MEMORY;
     mirror_store(tree, result.status == PHYS_OK || result.status == PHYS_DROPPED_TIME);
     return result.clock;
+}
+
+// Checks the forces as soon as the length of a step is known. In the first frame, in which no time has passed, it is
+// known if the system follows the time of the script.
+static void check_stability(PhysicsTree *tree, const Reader *reader, const SystemAttrs *settings, double last) {
+    const Symbol *time = reader->schema->slots[ROW_PHYSICS_TIME].name;
+    if (settings->time > last)
+        physics_report_instability(tree, reader, fmin(settings->resolution, settings->time - last));
+    else if (node_get(reader->node, time).len == 0)
+        physics_report_instability(tree, reader, fmin(settings->resolution, 1 / tree->frame->fps));
 }
 
 // Reads a tree from scratch.
@@ -244,6 +256,7 @@ static uint64_t update_system(Scene *scene, PhysicsSystem *system, const Reader 
         read_tree(&tree);
     bool faultless = scene->schema->report_count == reports;
     uint64_t steps = 0;
+    check_stability(&tree, reader, settings, last);
     if (settings->time > last) {
         clock = simulate_system(&tree, reader, settings, last, clock, &steps);
     } else {

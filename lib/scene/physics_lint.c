@@ -91,7 +91,7 @@ static bool all_behind(const PhysicsTree *tree, uint32_t group, const PhysForce 
 
 static void lint_side(const PhysicsTree *tree, const Reader *reader, uint32_t group, const PhysForce *barrier) {
     arena_charge(reader->arena, tree->body_count);
-    if (!all_behind(tree, group, barrier))
+    if (tree->force_not_finite || !all_behind(tree, group, barrier)) // such a position has been reported
         return;
     Value normal = node_get(reader->node, reader->schema->slots[ROW_BARRIER_NORMAL].name);
     double *turned = arena_alloc_array(reader->arena, normal.len, sizeof *turned);

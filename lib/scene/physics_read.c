@@ -270,15 +270,15 @@ static void check_theta(const PhysicsTree *tree, const Reader *reader, PhysForce
 }
 
 // Reports vectors of a force that are not finite.
-static void check_vectors(const PhysicsTree *tree, const Reader *reader, const ForceAttrs *read) {
+static void check_vectors(PhysicsTree *tree, const Reader *reader, const ForceAttrs *read) {
     const char *effect = reader->kind == KIND_BARRIER ? "no positions of the particles in its group are stored"
                                                       : "no force changes the velocities of particles in its group";
     for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++) {
         const SchemaRow *row = &schema_rows[i];
         if (schema_types[row->type].shape == SHAPE_VECTOR)
-            reader_report_not_finite(reader, row->name,
-                                     *(const PhysVector *)(const void *)((const char *)read + row->field),
-                                     tree->frame->number, effect);
+            tree->force_not_finite |= reader_report_not_finite(
+                reader, row->name, *(const PhysVector *)(const void *)((const char *)read + row->field),
+                tree->frame->number, effect);
     }
 }
 

@@ -54,6 +54,8 @@ struct PhysicsSystem {
     const NodeOrigin **origins; // by number of the force; elements can be NULL
     uint32_t origin_count;
     uint32_t origin_capacity;
+    bool stability_checked;        // physics_report_instability was called
+    uint64_t stability_generation; // SceneFrame.generation of that call
     uint64_t origins_frame; // scene->frame_number of the last update that read or compared the nodes of `origins`
 };
 
@@ -102,6 +104,7 @@ struct PhysicsTree {
     bool from_state;     // true if positions and velocities are read from the state where it has them
     bool keys_collide;   // true if two particles share a key, or a particle has a key that the system itself uses
     bool out_of_memory;
+    bool force_not_finite; // a vector of a force or barrier is infinite or NaN, which was reported
     double run;            // attribute `run`
     double iteration;      // number of this frame in the run, from 0
     uint32_t random_count; // number of random forces before the one with key `random_key`
@@ -167,6 +170,12 @@ void physics_free_marks(const PhysicsTree *tree);
 bool physics_reuse(PhysicsTree *tree);
 // Stores the tree after a frame, for comparison with the next one.
 void physics_cache_tree(const PhysicsTree *tree);
+
+// physics_stability.c: reports a force that is certainly unstable with steps of `delta`. Checks each program once.
+void physics_report_instability(PhysicsTree *tree, const Reader *reader, double delta);
+// Reports once if the motion of a system has become meaningless in a frame that ended at `clock`.
+// `delta` is the length of the frame's steps.
+void physics_report_divergence(PhysicsTree *tree, const Reader *reader, double clock, double delta);
 
 // Approximate memory of a system without particles, in bytes.
 enum { PHYSICS_SYSTEM_BYTES = 24 << 10 };

@@ -97,8 +97,8 @@ bool reader_knows_attrs(const Reader *reader);
 void reader_report_inside(const Reader *reader);
 
 // Reports a vector attribute that has an infinite number or NaN in frame `frame`; `effect` says what happens instead.
-// Does nothing if all of its numbers are finite, or if the node does not have the attribute.
-void reader_report_not_finite(const Reader *reader, AttrName name, PhysVector vector, int64_t frame,
+// Returns false, and reports nothing, if all of its numbers are finite or if the node does not have the attribute.
+bool reader_report_not_finite(const Reader *reader, AttrName name, PhysVector vector, int64_t frame,
                               const char *effect);
 
 // Stores the defaults of a kind in its record. Vectors become NULL.

@@ -224,12 +224,12 @@ void reader_report_lint(const Reader *reader, const char *code, const SchemaRow 
     report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text_str(&out));
 }
 
-void reader_report_not_finite(const Reader *reader, AttrName name, PhysVector vector, int64_t frame,
+bool reader_report_not_finite(const Reader *reader, AttrName name, PhysVector vector, int64_t frame,
                               const char *effect) {
     enum { MAX_SHOWN = 8 };
     uint32_t n = reader->dimensions;
     if (!vector || numbers_finite(vector, n, 1))
-        return;
+        return false;
     Text out = text_new(reader->arena);
     text_add_format(&out, "%s", schema_names[name]);
     if (n <= MAX_SHOWN) {
@@ -238,6 +238,7 @@ void reader_report_not_finite(const Reader *reader, AttrName name, PhysVector ve
     }
     text_add_format(&out, " is not finite in frame %" PRId64 "; %s", frame, effect);
     reader_report_attr(reader, "not-finite", name, text_str(&out));
+    return true;
 }
 
 static bool has_attr(const Schema *schema, NodeKind kind, const Symbol *name) {

@@ -140,12 +140,24 @@ static bool is_complete(int status, const Text *errors) {
                                  (WEXITSTATUS(status) == STATUS_FAILED && str_ends_with(text, str_from(last))));
 }
 
+// Returns true if a run reported that its motion became meaningless, and adds this warning to error_text.
+static bool has_diverged(const Text *errors, Text *error_text) {
+    const char *code = strstr(errors->bytes, " [divergence]\n"), *line = code;
+    while (line && line > errors->bytes && line[-1] != '\n')
+        line--;
+    if (line)
+        text_add_format(error_text, "%.*s", (int)(code - line), line);
+    return line;
+}
+
 static void check_case(const Suite *suite, Case *item, int status, const Text *output, const Text *errors) {
     Result *result = &item->result;
     if (item->is_rejection)
         result->passed = rejection_check(item->recorded, item->name, status, errors, &result->error_text);
     else if (!is_complete(status, errors))
         subprocess_describe(status, errors, &result->error_text);
+    else if (has_diverged(errors, &result->error_text))
+        result->passed = false;
     else if (suite->options->update)
         result->passed = golden_update(&item->golden, item->recorded, output, &result->updated, &result->error_text);
     else

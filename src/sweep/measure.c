@@ -16,8 +16,10 @@ static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
     Measure *measure = user_data;
     // A run with the script's default must not be listed with another value.
     bool false_definition = diagnostic->code && strcmp(diagnostic->code, "false-definition") == 0;
+    bool divergence = diagnostic->code && strcmp(diagnostic->code, "divergence") == 0;
     measure->false_definition = measure->false_definition || false_definition;
-    if (diagnostic->level == PETRI_ERROR || false_definition) {
+    measure->diverged = measure->diverged || divergence;
+    if (diagnostic->level == PETRI_ERROR || false_definition || divergence) {
         text_free(&measure->error);
         if (diagnostic->file) {
             text_add_format(&measure->error, "%s:%" PRIu32 ":%" PRIu32 ": ", diagnostic->file, diagnostic->line,
@@ -96,7 +98,7 @@ static PetriStatus begin_run(Measure *measure, size_t run) {
     petri_config_apply(measure->session, measure->base);
     petri_reset(measure->session);
     text_free(&measure->error);
-    measure->false_definition = false;
+    measure->false_definition = measure->diverged = false;
     PetriStatus status = PETRI_OK;
     for (size_t i = 0; status == PETRI_OK && i < design->axis_count; i++) {
         SCOPED_TEXT definition = {0};
@@ -163,8 +165,8 @@ static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
     const Options *options = measure->sweep->options;
     PetriEvaluation until = {0};
     PetriStatus status = petri_step(measure->session);
-    if (status != PETRI_OK)
-        return status;
+    if (status != PETRI_OK || measure->diverged)
+        return status != PETRI_OK ? status : PETRI_INVALID;
     *measured = options->row_every > 0 && measure->frames % options->row_every == 0;
     measure->frames++;
     if (options->until)

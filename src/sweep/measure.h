@@ -17,6 +17,7 @@ typedef struct Measure {
     PetriConfig *base;            // configuration without the definitions of a run
     bool silent;                  // true if diagnostics are not reported
     bool invalid_definition;      // true if the script rejected a value
+    bool diverged;                // true if the motion of a system became meaningless in the run
     bool false_definition;        // true if a definition of the run has no effect, because its value is false
     int64_t frames;               // number of frames of the last run
     Text rows;                    // measurements of the last run, in the format of Result.rows

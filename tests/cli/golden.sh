@@ -279,3 +279,23 @@ check "a failure shows the entries of the state that differ" cmp -s report expec
 sed -i 's/^# run.*/&\n# tolerance 1e-12/; s/0.0666.*/0.07/' g/turns.golden
 verdict turns
 check "with a tolerance, a failure shows only the first line that differs" lines_are out 2
+
+# A run whose motion becomes meaningless fails, even if its output is as recorded.
+cat >g/explodes.fl <<'END'
+!physics state=:s dimensions=1
+    !anchor id=:wall
+    !particle id=:weight position=10
+    !distance from=:wall to=:weight fixed=8 strength=30000
+END
+echo '# run --frames 20 --print state' >g/explodes.golden
+petri test --update g/explodes.fl
+check "the first frames of an explosion can be recorded" passes
+sed -i 's/20/60/' g/explodes.golden
+petri test --update g/explodes.fl
+check "an explosion is not recorded" status_is 1
+check "the message names frame, particle and force" has out \
+    "explodes.fl:4:5: warning: !physics state=:s: the kinetic energy has grown more than a millionfold in ten steps, in frame 30 at particle :weight; the largest force on it is this !distance"
+petri run g/explodes.fl --frames 300
+check "a run with an explosion ends with status 0" status_is 0
+check "an explosion is reported once" count_is err "divergence" 1
+check "an unstable force is reported once" count_is err "unstable-force" 1

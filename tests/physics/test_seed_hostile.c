@@ -202,7 +202,7 @@ static void test_many_forces(void **state) {
         if (strstr(rows[i].node, "gravity") || strstr(rows[i].node, "electro"))
             force = copysign(1 / (4.5 * 4.5), force); // the radii overlap, so the force is constant
         EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-6 * fabs(force * 1e5), force * 1e5);
-        EXPECT_REPORTED(&world, "");
+        EXPECT_REPORTED(&world, strstr(rows[i].node, "fixed") ? "unstable-force" : ""); // a stiff bundle of springs
         world_close(&world);
         free(script);
     }
@@ -232,7 +232,7 @@ static void test_same_place(void **state) {
     for (int n = 1; n <= 5; n += 2) {
         char *script = text_of("!physics state=:s dimensions=%d\n"
                                " for i in ..40\n  !particle id=i position=3 radius=1+i charge=1 mass=2\n"
-                               " !collision strength=1e6\n !gravity\n !electrostatic\n !adhesion\n !drag\n"
+                               " !collision strength=1e3\n !gravity\n !electrostatic\n !adhesion\n !drag\n"
                                " for i in ..39\n  !distance from=i to=i+1 fixed=5\n",
                                n);
         World world;

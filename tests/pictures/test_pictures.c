@@ -4,6 +4,7 @@
 // Scripts may have these comments at their top. `-- tolerance N` allows each channel of each pixel to differ by N of
 // 255. The default of 2 allows for rounding in versions of Cairo; text needs more, because versions of FreeType and
 // fonts differ. `-- frames N` is the number of frames to draw (default: 1).
+// `-- unstable` expects reports that the script's systems are unstable.
 // Scripts that need OpenGL are skipped where it is not available. --update stores the drawn pictures; --write stores
 // them elsewhere. The scripts of the folder with gallery.fl must use all nodes.
 #include "petri-draw.h"
@@ -77,26 +78,32 @@ static void note_tree(PetriSession *session) {
     free(notes.text);
 }
 
-static bool without_gpu; // true if the script needs OpenGL, which is not available
+static bool without_gpu;        // true if the script needs OpenGL, which is not available
+static uint64_t unstable_count; // number of reports that a system of the script is unstable
 static size_t skipped;
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     without_gpu |= diagnostic->code && strcmp(diagnostic->code, "needs-gpu") == 0;
+    if (diagnostic->code &&
+        (strcmp(diagnostic->code, "unstable-force") == 0 || strcmp(diagnostic->code, "divergence") == 0))
+        unstable_count++;
     printf("%s: %s", (const char *)host, diagnostic->rendered);
 }
 
 typedef struct Options {
     int tolerance;
+    bool unstable;
     int frames;
 } Options;
 
 static Options read_options(const char *script) {
-    Options options = {USUAL_TOLERANCE, 1};
+    Options options = {.tolerance = USUAL_TOLERANCE, .frames = 1};
     char line[400];
     FILE *file = fopen(script, "r");
     while (file && fgets(line, sizeof line, file) && strncmp(line, "--", 2) == 0) {
         sscanf(line, "-- tolerance %d", &options.tolerance);
         sscanf(line, "-- frames %d", &options.frames);
+        options.unstable = options.unstable || strncmp(line, "-- unstable", 11) == 0;
     }
     if (file)
         fclose(file);
@@ -201,6 +208,7 @@ static bool check_script(const char *folder, const char *name, const char *write
     PetriPainter *painter = petri_painter_open();
     Options wanted = read_options(script);
     without_gpu = false;
+    unstable_count = 0;
     PetriPicture *picture = make_picture(session, painter, script, wanted.frames);
     bool good = picture != NULL;
     if (picture) {
@@ -217,8 +225,10 @@ static bool check_script(const char *folder, const char *name, const char *write
         printf("FAIL %s: no picture\n", name);
     if (picture)
         petri_picture_report(session, picture);
-    // All scripts are valid, so each diagnostic is a failure.
-    good = good && petri_diagnostic_count(session, PETRI_ERROR) + petri_diagnostic_count(session, PETRI_WARNING) == 0;
+    // All scripts are valid, so each other diagnostic is a failure.
+    good =
+        good && (unstable_count > 0) == wanted.unstable &&
+        petri_diagnostic_count(session, PETRI_ERROR) + petri_diagnostic_count(session, PETRI_WARNING) == unstable_count;
     petri_picture_free(&picture);
     petri_painter_close(&painter);
     petri_close(&session);

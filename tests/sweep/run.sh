@@ -24,6 +24,20 @@ refused() {
     check "$check_name: the message gives the reason" has err "$text"
 }
 
+# --- runs that explode
+
+cat >spring.fl <<'END'
+let K=K or 100
+!physics state=:s dimensions=1
+    !anchor id=:wall
+    !particle id=:weight position=10
+    !distance from=:wall to=:weight fixed=8 strength=K
+END
+sweep spring.fl -D 'K=100;30000;200' --frames 60 --metric energy
+check "a run that explodes has no result" has out "2,30000,29,,"
+check "the table says why" has out "in frame 30 at particle :weight; the largest force on it is this !distance"
+check "other runs are not affected" has out "3,200,59,"
+
 # --- archives
 
 cat >archived.fl <<'END'
