@@ -18,7 +18,7 @@ trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
 cp -R "$figures/." "$work"
 min_formulas=13
-min_facts=18
+min_facts=38
 
 # Writes each block as Flitter code to NAME.formula.
 sed -e '/^```formula/,/^```$/{
