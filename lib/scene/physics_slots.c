@@ -108,6 +108,12 @@ int64_t physics_find_body(PhysicsTree *tree, Value id) {
     return slot == STATE_NO_SLOT ? PHYSICS_NO_BODY : physics_find_slot(tree, slot);
 }
 
+void physics_own_slots(PhysicsSystem *system, StateSlot *slots[PHYSICS_OWN_SLOTS]) {
+    StateSlot *const all[PHYSICS_OWN_SLOTS] = {&system->start, &system->run, &system->iteration, &system->clock,
+                                               &system->last};
+    memcpy(slots, all, sizeof all);
+}
+
 // Returns the first slot of a system that another system owns, and enters all others in `owners`, by slot. Returns
 // STATE_NO_SLOT if there is none.
 static StateSlot enter_slots(PhysicsSystem *system, PhysicsSystem **owners) {
@@ -115,6 +121,8 @@ static StateSlot enter_slots(PhysicsSystem *system, PhysicsSystem **owners) {
     physics_own_slots(system, own);
     for (uint32_t i = 0; i < PHYSICS_OWN_SLOTS + system->mirror.slot_count; i++) {
         StateSlot slot = i < PHYSICS_OWN_SLOTS ? *own[i] : system->mirror.slots[i - PHYSICS_OWN_SLOTS];
+        if (slot == STATE_NO_SLOT) // out of memory
+            continue;
         if (owners[slot] && owners[slot] != system && shared == STATE_NO_SLOT)
             shared = slot;
         if (!owners[slot])

@@ -107,12 +107,6 @@ Input *scene_input(Scene *scene) {
     return &scene->input;
 }
 
-void physics_own_slots(PhysicsSystem *system, StateSlot *slots[PHYSICS_OWN_SLOTS]) {
-    StateSlot *const all[PHYSICS_OWN_SLOTS] = {&system->start, &system->run, &system->iteration, &system->clock,
-                                               &system->last};
-    memcpy(slots, all, sizeof all);
-}
-
 // Removes unused slots from the state if there are many. Without this, ids that come and go would fill the state.
 static void compact_state(Scene *scene, const SceneFrame *frame) {
     enum { MIN_COMPACTED = 4096 };

@@ -113,11 +113,6 @@ struct PhysicsTree {
     uint32_t next_link;    // number of the next distance force to read
 };
 
-// scene.c: sets `slots` to the addresses of the slots that a system has besides those of its particles: start, run,
-// iteration, clock and last.
-enum { PHYSICS_OWN_SLOTS = 5 };
-void physics_own_slots(PhysicsSystem *system, StateSlot *slots[PHYSICS_OWN_SLOTS]);
-
 // Returns the key prefix;id or, unless `last` is NULL, prefix;id;last.
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last);
 
@@ -160,6 +155,10 @@ int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot);
 uint32_t physics_mark(const PhysicsTree *tree, StateSlot slot);
 bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark);
 void physics_clear_marks(const PhysicsTree *tree);
+// Sets `slots` to the addresses of the slots that a system has besides those of its particles: start, run,
+// iteration, clock and last.
+enum { PHYSICS_OWN_SLOTS = 5 };
+void physics_own_slots(PhysicsSystem *system, StateSlot *slots[PHYSICS_OWN_SLOTS]);
 // After the update of all systems: reports keys that two systems share, if a tree was read in this frame.
 void physics_report_shared_keys(Scene *scene, const SceneFrame *frame);
 // Frees the marks if they are many and unlikely to be needed again.
