@@ -45,7 +45,7 @@ bool file_write(int file, const char *bytes, size_t len);
 bool file_truncate(int file, size_t len);
 // Sets `resolved` to the path with symbolic links, "." and ".." resolved. The file itself need not exist, but its
 // folder must. On failure returns false with errno set.
-bool file_resolve(const char *path, char resolved[PATH_MAX]);
+bool file_resolve(const char *path, char resolved[PATH_MAX]) PRIVATE_API(file_resolve);
 // Returns a NUL-terminated path with symbolic links, "." and ".." resolved. A path that does not exist is copied
 // unchanged. If the host provides the files (FileAccess.read_file), the path is only normalised.
 Str file_canonical(Arena *arena, const FileAccess *file_access, const char *path);

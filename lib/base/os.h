@@ -23,7 +23,7 @@ char *realpath(const char *restrict path, char *restrict resolved);
 // Returns the number of processors that this process may run on, at least 1.
 int os_processor_count(void);
 // Return the times of the last change of a file's contents, and of contents or permissions.
-struct timespec os_time_modified(const struct stat *info);
+struct timespec os_time_modified(const struct stat *info) PRIVATE_API(os_time_modified);
 struct timespec os_time_changed(const struct stat *info);
 
 // A flag of open for folders of which only files are opened, so that permission to list them is not needed. O_RDONLY

@@ -22,7 +22,7 @@ Str str_from(const char *text) PRIVATE_API(str_from);
 bool str_equal(Str a, Str b) PRIVATE_API(str_equal);
 // Returns -1, 0 or 1. Compares bytes, which for UTF-8 is the order of code points. A prefix sorts before
 // the longer string.
-int str_compare(Str a, Str b);
+int str_compare(Str a, Str b) PRIVATE_API(str_compare);
 // str_copy and str_to_c return a copy that is followed by a NUL byte.
 Str str_copy(Arena *arena, Str text) PRIVATE_API(str_copy);
 char *str_to_c(Arena *arena, Str text) PRIVATE_API(str_to_c);

@@ -50,8 +50,10 @@ PETRI_API PetriArchive *petri_archive_create(PetriSession *session, const char *
 // Returns true if a file starts like an archive. Only regular files are opened. Needs no SQLite.
 PETRI_API bool petri_archive_is(const char *file);
 
-// Opens an archive to read it. Reads at most `memory_limit` bytes of its files; 0: 2 GiB. Check petri_archive_problem
-// after the call. Returns NULL if out of memory. Free it with petri_archive_close.
+// Opens an archive to read it. Its files and texts may take `memory_limit` bytes of memory; 0: 2 GiB. Writes and locks
+// no file, and applies the journal of a killed recording in memory. If another process writes the archive later, it can
+// no longer be read. Check petri_archive_problem after the call. Returns NULL if out of memory. Free it with
+// petri_archive_close.
 PETRI_API PetriArchive *petri_archive_open(const char *file, size_t memory_limit);
 
 // Completes an archive that is written, and ends its recording. Returns PETRI_INVALID, with petri_archive_problem, if

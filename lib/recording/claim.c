@@ -3,14 +3,13 @@
 #include "base/file.h"
 #include "base/os.h"
 #include "recording/archive.h"
+#include "recording/journal.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
-
-static const unsigned char JOURNAL_MAGIC[] = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
 
 static bool check_name(PetriArchive *archive, const char *name) {
     size_t length = strlen(name);
@@ -70,7 +69,7 @@ static int create(PetriArchive *archive, const char *name) {
 // Removes the journal of a recording that was killed, because SQLite would apply it to the new archive.
 static bool remove_journal(PetriArchive *archive, const char *name) {
     char journal[PATH_MAX];
-    unsigned char magic[sizeof JOURNAL_MAGIC] = {0}, none[sizeof magic] = {0};
+    unsigned char magic[ARCHIVE_JOURNAL_MAGIC_BYTES] = {0}, none[sizeof magic] = {0};
     struct stat info;
     snprintf(journal, sizeof journal, "%s-wal", name);
     if (lstat(journal, &info) == 0)
@@ -80,7 +79,7 @@ static bool remove_journal(PetriArchive *archive, const char *name) {
         return true;
     int file = S_ISREG(info.st_mode) ? file_open_at(AT_FDCWD, journal, O_RDONLY | O_NONBLOCK | O_NOFOLLOW, 0) : -1;
     bool known = file >= 0 && file_read_some(file, magic, sizeof magic) >= 0 &&
-                 (memcmp(magic, JOURNAL_MAGIC, sizeof magic) == 0 || memcmp(magic, none, sizeof magic) == 0);
+                 (memcmp(magic, archive_journal_magic, sizeof magic) == 0 || memcmp(magic, none, sizeof magic) == 0);
     if (file >= 0)
         close(file);
     if (!known)

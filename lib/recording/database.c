@@ -38,26 +38,36 @@ static const char *const statements[SQL_COUNT] = {
     [SQL_ADD_NOTE] = "INSERT INTO note (frame, text) VALUES (?1, ?2)",
     [SQL_META] = "SELECT key, value FROM meta ORDER BY key",
     [SQL_PARAMETERS] = "SELECT name, value FROM parameter ORDER BY name",
-    [SQL_PARAMETER] = "SELECT name, value FROM parameter ORDER BY name LIMIT 1 OFFSET ?1",
+    [SQL_PARAMETER] = "SELECT name, value FROM parameter ORDER BY name",
     [SQL_FILES] = "SELECT id, frame, name, sha256, length(bytes) FROM file ORDER BY id",
     [SQL_FILE_BYTES] = "SELECT bytes FROM file WHERE id = ?1",
-    [SQL_FILES_BETWEEN] = "SELECT id, frame, name, sha256 FROM file WHERE frame > ?1 AND frame <= ?2 ORDER BY id",
-    [SQL_INPUTS] = "SELECT kind, payload FROM input WHERE frame = ?1 ORDER BY id",
-    [SQL_INPUTS_BETWEEN] = "SELECT frame, kind, payload FROM input WHERE frame > ?1 AND frame <= ?2 ORDER BY id",
-    [SQL_NOTES_BETWEEN] = "SELECT frame, text FROM note WHERE frame > ?1 AND frame <= ?2 ORDER BY id",
+    [SQL_FILE_IDS] = "SELECT id FROM file WHERE frame > ?1 AND frame <= ?2 ORDER BY id",
+    [SQL_INPUT_IDS] = "SELECT id FROM input WHERE frame > ?1 AND frame <= ?2 ORDER BY id",
+    [SQL_NOTE_IDS] = "SELECT id FROM note WHERE frame > ?1 AND frame <= ?2 ORDER BY id",
+    [SQL_FILE_FRAMES] = "SELECT id, frame FROM file ORDER BY id",
+    [SQL_INPUT_FRAMES] = "SELECT id, frame, kind = 'clock' FROM input ORDER BY id",
+    [SQL_NOTE_FRAMES] = "SELECT id, frame FROM note ORDER BY id",
+    [SQL_FILE] = "SELECT frame, name, sha256 FROM file WHERE id = ?1",
+    [SQL_INPUT] = "SELECT frame, kind, payload FROM input WHERE id = ?1",
+    [SQL_NOTE] = "SELECT frame, text FROM note WHERE id = ?1",
+    [SQL_INPUTS] = "SELECT kind, payload, id FROM input WHERE frame = ?1 ORDER BY id",
     [SQL_DIGEST] = "SELECT digest FROM digest WHERE frame = ?1",
+    [SQL_DIGEST_FRAMES] = "SELECT frame FROM digest ORDER BY frame",
     [SQL_DIGESTS_BETWEEN] = "SELECT frame, digest FROM digest WHERE frame > ?1 AND frame <= ?2 ORDER BY frame",
     [SQL_KEYFRAMES] = "SELECT frame, given FROM keyframe ORDER BY frame",
-    [SQL_KEYFRAME] = "SELECT setup, state, sha256 FROM keyframe WHERE frame = ?1",
+    [SQL_KEYFRAME_SETUP] = "SELECT setup, sha256 FROM keyframe WHERE frame = ?1",
+    [SQL_KEYFRAME_STATE] = "SELECT state FROM keyframe WHERE frame = ?1",
     [SQL_LAST_KEYFRAME] = "SELECT frame, sha256 FROM keyframe WHERE frame < ?1 ORDER BY frame DESC LIMIT 1",
-    [SQL_LAST_RECORDED] = ("SELECT max(coalesce((SELECT max(frame) FROM digest WHERE frame <= ?1), -1), "
-                           "coalesce((SELECT max(frame) FROM input WHERE frame <= ?1 AND kind = 'clock'), -1))"),
-    [SQL_COUNT_INPUTS] = "SELECT count(*), coalesce(max(frame), -1) FROM input WHERE kind = 'clock' OR ?1",
-    [SQL_COUNT_DIGESTS] = "SELECT count(*), coalesce(max(frame), -1) FROM digest",
 };
 
+// Statements that read long values. The others read names and texts for information.
+static bool is_long(ArchiveStatement number) {
+    return number == SQL_FILE_BYTES || number == SQL_INPUT || number == SQL_INPUTS || number == SQL_NOTE ||
+           number == SQL_KEYFRAME_SETUP || number == SQL_KEYFRAME_STATE;
+}
+
 bool archive_fails(const PetriArchive *archive) {
-    return archive->problem[0] != '\0';
+    return archive->problem[0] != '\0' || archive->interrupted;
 }
 
 bool archive_fail(PetriArchive *archive, const char *format, ...) {
@@ -71,8 +81,15 @@ bool archive_fail(PetriArchive *archive, const char *format, ...) {
 }
 
 bool archive_fail_sqlite(PetriArchive *archive, int result) {
-    bool damaged = (result & 0xff) == SQLITE_CORRUPT || (result & 0xff) == SQLITE_NOTADB;
+    int code = result & 0xff;
+    bool damaged = code == SQLITE_CORRUPT || code == SQLITE_NOTADB;
     const char *text = sqlite3_errstr(result);
+    if (code == SQLITE_INTERRUPT)
+        return archive_fail(archive, "the archive is damaged: reading it takes more work than its size allows");
+    if (code == SQLITE_TOOBIG && !archive->writes)
+        return archive_fail(archive, "a value exceeds the size of the archive, or the memory limit");
+    if (code == SQLITE_BUSY && !archive->writes)
+        return archive_fail(archive, "the archive is being recorded; read it when the recording has ended");
     return archive_fail(archive, damaged ? "the archive is damaged: %s" : "%s", text);
 }
 
@@ -99,6 +116,7 @@ void archive_close_database(PetriArchive *archive) {
 
 void archive_free(PetriArchive *archive) {
     archive_close_database(archive);
+    archive_free_pages(archive->pages);
     for (uint32_t i = 0; i < archive->file_count; i++) {
         heap_free(archive->files[i].name);
         heap_free(archive->files[i].bytes);
@@ -106,9 +124,33 @@ void archive_free(PetriArchive *archive) {
     for (size_t i = 0; i < sizeof archive->strings / sizeof archive->strings[0]; i++)
         heap_free(archive->strings[i]);
     heap_free(archive->files);
+    heap_free(archive->names);
     heap_free(archive->keyframes);
     pthread_mutex_destroy(&archive->mutex);
     heap_free(archive);
+}
+
+void archive_begin(PetriArchive *archive) {
+    const uint64_t least = UINT64_C(1) << 28, per_byte = 8;
+    archive->work = 0;
+    archive->work_limit = least + per_byte * archive->content_limit;
+    archive->interrupted = false;
+}
+
+bool archive_charge(PetriArchive *archive, uint64_t units) {
+    if (archive->writes)
+        return true;
+    archive->work += units;
+    if (archive->session && recorder_is_interrupted(archive->session))
+        archive->interrupted = true;
+    return !archive->interrupted && archive->work <= archive->work_limit;
+}
+
+bool archive_reserve(PetriArchive *archive, uint64_t bytes) {
+    if (!archive->writes && bytes > archive->memory_limit - archive->memory)
+        return archive_fail(archive, "the archive exceeds the memory limit of %zu MiB", archive->memory_limit >> 20);
+    archive->memory += (size_t)bytes;
+    return true;
 }
 
 bool archive_execute(PetriArchive *archive, const char *sql) {
@@ -157,26 +199,6 @@ static int read_version(sqlite3 *database) {
     return version;
 }
 
-// Completes or undoes a transaction that was interrupted, for example because its process was killed.
-static void roll_back(const char *file) {
-    sqlite3 *database = NULL;
-    if (sqlite3_open_v2(file, &database, SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX, NULL) == SQLITE_OK) {
-        protect_connection(database);
-        read_version(database);
-    }
-    sqlite3_close_v2(database);
-}
-
-static int connect_to(PetriArchive *archive, const char *file) {
-    sqlite3_close_v2(archive->database);
-    archive->database = NULL;
-    int result = sqlite3_open_v2(file, &archive->database, SQLITE_OPEN_READONLY | SQLITE_OPEN_FULLMUTEX, NULL);
-    if (result != SQLITE_OK)
-        return -result;
-    protect_connection(archive->database);
-    return read_version(archive->database);
-}
-
 // Checks that the database has exactly the tables of an archive.
 static bool check_schema(PetriArchive *archive) {
     sqlite3_stmt *statement = NULL;
@@ -203,24 +225,37 @@ static bool check_schema(PetriArchive *archive) {
 }
 
 bool archive_open_database(PetriArchive *archive, const char *file) {
-    int version = connect_to(archive, file);
-    if (version < 0) {
-        roll_back(file);
-        version = connect_to(archive, file);
-    }
+    archive_begin(archive);
+    if (!archive_connect(archive, file))
+        return false;
+    archive_begin(archive); // now the size is known
+    protect_connection(archive->database);
+    sqlite3_limit(archive->database, SQLITE_LIMIT_LENGTH, ARCHIVE_MAX_TEXT);
+    int version = read_version(archive->database);
     if (version < 0)
         return archive_fail_sqlite(archive, -version);
-    sqlite3_limit(archive->database, SQLITE_LIMIT_LENGTH,
-                  archive->memory_limit < 1000000000 ? (int)archive->memory_limit : 1000000000);
     if (version > ARCHIVE_FORMAT)
         return archive_fail(archive, "the archive was made by a newer version of petri: format %d", version);
-    return check_schema(archive);
+    archive->has_schema = check_schema(archive);
+    return archive->has_schema;
+}
+
+// Sets the maximum length of a value, so that SQLite does not allocate more than the archive can contain.
+static void limit_values(PetriArchive *archive, ArchiveStatement number) {
+    uint64_t most = 1000000000;
+    size_t left = archive->memory_limit - archive->memory;
+    most = most < archive->content_limit ? most : archive->content_limit;
+    most = most < left ? most : left;
+    most = is_long(number) || most < ARCHIVE_MAX_TEXT ? most : ARCHIVE_MAX_TEXT;
+    sqlite3_limit(archive->database, SQLITE_LIMIT_LENGTH, (int)most);
 }
 
 sqlite3_stmt *archive_statement(PetriArchive *archive, ArchiveStatement number) {
     sqlite3_stmt **statement = &archive->statements[number];
     if (archive_fails(archive))
         return NULL;
+    if (!archive->writes)
+        limit_values(archive, number);
     if (!*statement) {
         int result =
             sqlite3_prepare_v3(archive->database, statements[number], -1, SQLITE_PREPARE_PERSISTENT, statement, NULL);
@@ -233,11 +268,26 @@ sqlite3_stmt *archive_statement(PetriArchive *archive, ArchiveStatement number) 
     return *statement;
 }
 
+// Reports an invalid value, with the table that the query names.
+static bool fail_column(PetriArchive *archive, sqlite3_stmt *row, int column) {
+    const char *from = strstr(sqlite3_sql(row), "FROM "), *table = from ? from + strlen("FROM ") : "";
+    return archive_fail(archive, "the archive is damaged: table %.*s: a value of %s is not valid",
+                        (int)strcspn(table, " "), table, sqlite3_column_name(row, column));
+}
+
 bool archive_next(PetriArchive *archive, sqlite3_stmt *statement) {
-    int result = statement ? sqlite3_step(statement) : SQLITE_DONE;
+    const uint64_t units = 50;
+    int result = !statement ? SQLITE_DONE : archive_charge(archive, units) ? sqlite3_step(statement) : SQLITE_INTERRUPT;
     if (result != SQLITE_ROW && result != SQLITE_DONE)
         archive_fail_sqlite(archive, result);
     return result == SQLITE_ROW;
+}
+
+bool archive_next_in_order(PetriArchive *archive, sqlite3_stmt *statement, int column, int64_t max, int64_t *key) {
+    int64_t before = *key;
+    if (!archive_next(archive, statement) || !archive_column_integer(archive, statement, column, -1, max, key))
+        return false;
+    return *key > before || fail_column(archive, statement, column);
 }
 
 bool archive_run(PetriArchive *archive, sqlite3_stmt *statement) {
@@ -252,13 +302,6 @@ bool archive_bind_text(sqlite3_stmt *statement, int column, Str text) {
                                             SQLITE_UTF8) == SQLITE_OK;
 }
 
-// Reports an invalid value, with the table that the query names.
-static bool fail_column(PetriArchive *archive, sqlite3_stmt *row, int column) {
-    const char *from = strstr(sqlite3_sql(row), "FROM "), *table = from ? from + strlen("FROM ") : "";
-    return archive_fail(archive, "the archive is damaged: table %.*s: a value of %s is not valid",
-                        (int)strcspn(table, " "), table, sqlite3_column_name(row, column));
-}
-
 bool archive_column_integer(PetriArchive *archive, sqlite3_stmt *row, int column, int64_t min, int64_t max,
                             int64_t *x) {
     *x = sqlite3_column_int64(row, column);
@@ -266,11 +309,18 @@ bool archive_column_integer(PetriArchive *archive, sqlite3_stmt *row, int column
     return good || fail_column(archive, row, column);
 }
 
+// Charges the work of copying a value and of its SHA-256.
+static bool charge_value(PetriArchive *archive, size_t length) {
+    return archive_charge(archive, length / 4) || archive_fail_sqlite(archive, SQLITE_INTERRUPT);
+}
+
 bool archive_column_text(PetriArchive *archive, sqlite3_stmt *row, int column, Str *text) {
     bool good = sqlite3_column_type(row, column) == SQLITE_TEXT;
     text->bytes = good ? (const char *)sqlite3_column_text(row, column) : NULL;
     text->len = text->bytes ? (size_t)sqlite3_column_bytes(row, column) : 0;
-    return text->bytes || fail_column(archive, row, column);
+    if (good && !text->bytes)
+        return archive_fail(archive, "out of memory");
+    return good ? charge_value(archive, text->len) : fail_column(archive, row, column);
 }
 
 bool archive_column_blob(PetriArchive *archive, sqlite3_stmt *row, int column, Str *bytes) {
@@ -278,5 +328,5 @@ bool archive_column_blob(PetriArchive *archive, sqlite3_stmt *row, int column, S
     const void *blob = good ? sqlite3_column_blob(row, column) : NULL;
     bytes->bytes = blob ? blob : "";
     bytes->len = blob ? (size_t)sqlite3_column_bytes(row, column) : 0;
-    return good || fail_column(archive, row, column);
+    return good ? charge_value(archive, bytes->len) : fail_column(archive, row, column);
 }

@@ -2,31 +2,65 @@
 #include "base/heap.h"
 #include "recording/archive.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-ArchiveFile *archive_add_file(PetriArchive *archive, int64_t id, int64_t frame, Str name) {
-    if (!heap_reserve((void **)&archive->files, &archive->file_capacity, archive->file_count, sizeof *archive->files)) {
+static int compare_names(const void *a, const void *b) {
+    const ArchiveName *x = a, *y = b;
+    int order = strcmp(x->name, y->name);
+    return order != 0 ? order : (x->file > y->file) - (x->file < y->file);
+}
+
+// Returns the position of the first name that follows the versions of `name` at or before `frame`. The versions of a
+// name are in the order of their frames.
+static uint32_t find_name(const PetriArchive *archive, Str name, int64_t frame) {
+    uint32_t from = 0, to = archive->file_count;
+    while (from < to) {
+        uint32_t middle = from + (to - from) / 2;
+        const ArchiveName *found = &archive->names[middle];
+        int order = str_compare(str_from(found->name), name);
+        if (order < 0 || (order == 0 && archive->files[found->file].frame <= frame))
+            from = middle + 1;
+        else
+            to = middle;
+    }
+    return from;
+}
+
+// Adds a file to both lists, but to the end of the names.
+static ArchiveFile *add_file(PetriArchive *archive, int64_t id, int64_t frame, Str name) {
+    uint32_t count = archive->file_count;
+    size_t size = sizeof(ArchiveFile) + sizeof(ArchiveName) + name.len + 1;
+    if (!archive_reserve(archive, size))
+        return NULL;
+    char *copy = heap_strndup(name.bytes, name.len);
+    if (!copy || !heap_reserve((void **)&archive->files, &archive->file_capacity, count, sizeof *archive->files) ||
+        !heap_reserve((void **)&archive->names, &archive->name_capacity, count, sizeof *archive->names)) {
+        heap_free(copy);
         archive_fail(archive, "out of memory");
         return NULL;
     }
-    ArchiveFile *file = &archive->files[archive->file_count];
-    *file = (ArchiveFile){.id = id, .frame = frame, .name = heap_strndup(name.bytes, name.len)};
-    if (!file->name) {
-        archive_fail(archive, "out of memory");
-        return NULL;
-    }
+    archive->files[count] = (ArchiveFile){.id = id, .frame = frame, .name = copy};
+    archive->names[count] = (ArchiveName){copy, count};
     archive->file_count++;
+    return &archive->files[count];
+}
+
+ArchiveFile *archive_add_file(PetriArchive *archive, int64_t id, int64_t frame, Str name) {
+    uint32_t at = find_name(archive, name, INT64_MAX), after = archive->file_count - at;
+    ArchiveFile *file = add_file(archive, id, frame, name);
+    if (!file)
+        return NULL;
+    ArchiveName *place = &archive->names[at], added = place[after];
+    memmove(place + 1, place, after * sizeof *place);
+    *place = added;
     return file;
 }
 
 ArchiveFile *archive_find_file(const PetriArchive *archive, Str name, int64_t frame) {
-    ArchiveFile *found = NULL;
-    for (uint32_t i = 0; i < archive->file_count; i++) {
-        ArchiveFile *file = &archive->files[i];
-        if (file->frame <= frame && (!found || file->frame >= found->frame) && str_equal(str_from(file->name), name))
-            found = file;
-    }
-    return found;
+    uint32_t next = find_name(archive, name, frame);
+    const ArchiveName *found = next > 0 ? &archive->names[next - 1] : NULL;
+    return found && str_equal(str_from(found->name), name) ? &archive->files[found->file] : NULL;
 }
 
 static bool is_sha256(Str text) {
@@ -37,11 +71,10 @@ static bool is_sha256(Str text) {
 }
 
 // Adds the file of a row. An empty SHA-256 marks a file that was removed.
-static bool read_file_row(PetriArchive *archive, sqlite3_stmt *row) {
-    int64_t id, frame, length = 0;
+static bool read_file_row(PetriArchive *archive, sqlite3_stmt *row, int64_t id) {
+    int64_t frame, length = 0;
     Str name, sha256;
-    if (!archive_column_integer(archive, row, 0, 0, INT64_MAX, &id) ||
-        !archive_column_integer(archive, row, 1, 0, ARCHIVE_MAX_FRAME, &frame) ||
+    if (!archive_column_integer(archive, row, 1, 0, ARCHIVE_MAX_FRAME, &frame) ||
         !archive_column_text(archive, row, 2, &name) || !archive_column_text(archive, row, 3, &sha256))
         return false;
     bool removed = sqlite3_column_type(row, 4) == SQLITE_NULL;
@@ -49,7 +82,7 @@ static bool read_file_row(PetriArchive *archive, sqlite3_stmt *row) {
         return false;
     if (memchr(name.bytes, 0, name.len) || (removed ? sha256.len > 0 : !is_sha256(sha256)))
         return archive_fail(archive, "the archive is damaged: table file: row %lld is not valid", (long long)id);
-    ArchiveFile *file = archive_add_file(archive, id, frame, name);
+    ArchiveFile *file = add_file(archive, id, frame, name);
     if (!file)
         return false;
     memcpy(file->sha256, sha256.bytes, sha256.len);
@@ -57,12 +90,27 @@ static bool read_file_row(PetriArchive *archive, sqlite3_stmt *row) {
     return true;
 }
 
+// Sorts the names, and checks the order of the versions of each file.
+static bool sort_names(PetriArchive *archive) {
+    if (archive->file_count > 0)
+        qsort(archive->names, archive->file_count, sizeof *archive->names, compare_names);
+    for (uint32_t i = 1; i < archive->file_count; i++) {
+        const ArchiveFile *last = &archive->files[archive->names[i - 1].file], *file;
+        file = &archive->files[archive->names[i].file];
+        if (file->frame < last->frame && strcmp(file->name, last->name) == 0)
+            return archive_fail(archive, "the archive is damaged: table file: row %lld is older than the one before it",
+                                (long long)file->id);
+    }
+    return true;
+}
+
 bool archive_read_files(PetriArchive *archive) {
+    int64_t id = -1;
     sqlite3_stmt *rows = archive_statement(archive, SQL_FILES);
-    while (archive_next(archive, rows))
-        if (!read_file_row(archive, rows))
+    while (archive_next_in_order(archive, rows, 0, INT64_MAX, &id))
+        if (!read_file_row(archive, rows, id))
             return false;
-    return !archive_fails(archive);
+    return !archive_fails(archive) && sort_names(archive);
 }
 
 bool archive_load_file(PetriArchive *archive, ArchiveFile *file) {

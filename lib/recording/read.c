@@ -9,20 +9,18 @@
 
 #define DEFAULT_MEMORY_LIMIT ((size_t)2 << 30)
 
-// Reads the keyframes, and sets archive->recorded_end to the last one. Rows of a damaged file need not be in order.
+// Reads the keyframes, and sets archive->recorded_end to the last one.
 static bool read_keyframes(PetriArchive *archive) {
+    int64_t frame = -2, given;
     sqlite3_stmt *rows = archive_statement(archive, SQL_KEYFRAMES);
-    while (archive_next(archive, rows)) {
-        int64_t frame, given;
-        if (!archive_column_integer(archive, rows, 0, -1, ARCHIVE_MAX_FRAME, &frame) ||
-            !archive_column_integer(archive, rows, 1, 0, 1, &given))
+    while (archive_next_in_order(archive, rows, 0, ARCHIVE_MAX_FRAME, &frame)) {
+        if (!archive_column_integer(archive, rows, 1, 0, 1, &given) ||
+            !archive_reserve(archive, sizeof *archive->keyframes))
             return false;
-        if (archive->keyframe_count > 0 && frame <= archive->keyframes[archive->keyframe_count - 1].frame)
-            return archive_fail(archive, "the archive is damaged: table keyframe: the rows are not in order");
         if (!heap_reserve((void **)&archive->keyframes, &archive->keyframe_capacity, archive->keyframe_count,
                           sizeof *archive->keyframes))
             return archive_fail(archive, "out of memory");
-        archive->keyframes[archive->keyframe_count++] = (ArchiveKeyframe){frame, given};
+        archive->keyframes[archive->keyframe_count++] = (ArchiveKeyframe){.frame = frame, .end = frame, .given = given};
         archive->recorded_end = frame;
     }
     bool good = archive->keyframe_count == 0 || archive->keyframes[0].given;
@@ -30,17 +28,35 @@ static bool read_keyframes(PetriArchive *archive) {
            (good || archive_fail(archive, "the archive is damaged: table keyframe: the first row is missing"));
 }
 
-// Counts the rows of a table, and raises archive->recorded_end to their last frame.
-static int64_t count_rows(PetriArchive *archive, ArchiveStatement number, bool all) {
-    int64_t count = 0, last = -1;
-    sqlite3_stmt *row = archive_statement(archive, number);
-    if (row && sqlite3_bind_parameter_count(row) > 0)
-        sqlite3_bind_int(row, 1, all);
-    if (!archive_next(archive, row) || !archive_column_integer(archive, row, 0, 0, INT64_MAX, &count) ||
-        !archive_column_integer(archive, row, 1, -1, ARCHIVE_MAX_FRAME, &last))
-        return 0;
-    archive->recorded_end = last > archive->recorded_end ? last : archive->recorded_end;
-    return count;
+// Notes that a frame was recorded. Returns the keyframe before it, or NULL.
+static ArchiveKeyframe *note_frame(PetriArchive *archive, int64_t frame) {
+    uint32_t after = archive_keyframes_until(archive, frame - 1);
+    ArchiveKeyframe *keyframe = after > 0 ? &archive->keyframes[after - 1] : NULL;
+    if (keyframe && frame > keyframe->end)
+        keyframe->end = frame;
+    archive->recorded_end = frame > archive->recorded_end ? frame : archive->recorded_end;
+    return keyframe;
+}
+
+// Counts digests and inputs, and finds the last recorded frame after each keyframe.
+static bool read_frames(PetriArchive *archive) {
+    int64_t frame = -2, id = -1;
+    sqlite3_stmt *digests = archive_statement(archive, SQL_DIGEST_FRAMES);
+    while (archive_next_in_order(archive, digests, 0, ARCHIVE_MAX_FRAME, &frame)) {
+        ArchiveKeyframe *keyframe = note_frame(archive, frame);
+        if (keyframe)
+            keyframe->digests++;
+        archive->digest_count++;
+    }
+    sqlite3_stmt *inputs = archive_statement(archive, SQL_INPUT_FRAMES);
+    while (archive_next_in_order(archive, inputs, 0, INT64_MAX, &id)) {
+        if (!archive_column_integer(archive, inputs, 1, -1, ARCHIVE_MAX_FRAME, &frame))
+            return false;
+        if (sqlite3_column_int(inputs, 2))
+            note_frame(archive, frame);
+        archive->input_count++;
+    }
+    return !archive_fails(archive);
 }
 
 PetriArchive *petri_archive_open(const char *file, size_t memory_limit) {
@@ -49,15 +65,12 @@ PetriArchive *petri_archive_open(const char *file, size_t memory_limit) {
         return NULL;
     archive->memory_limit = memory_limit > 0 ? memory_limit : DEFAULT_MEMORY_LIMIT;
     archive->recorded_end = -1;
-    if (!petri_archive_is(file)) {
-        archive_fail(archive, "it is not an archive");
-        return archive;
-    }
+    archive->next_parameter = SIZE_MAX;
     archive->replay_frame = 0; // petri_check reads the first versions of files
-    if (archive_open_database(archive, file) && archive_read_files(archive) && read_keyframes(archive)) {
-        count_rows(archive, SQL_COUNT_DIGESTS, true);
-        count_rows(archive, SQL_COUNT_INPUTS, false);
-    }
+    if (!petri_archive_is(file))
+        archive_fail(archive, "it is not an archive");
+    else if (archive_open_database(archive, file) && archive_read_files(archive) && read_keyframes(archive))
+        read_frames(archive);
     return archive;
 }
 
@@ -88,14 +101,15 @@ static const char *store_string(PetriArchive *archive, int number, Str text) {
 static const char *read_meta(PetriArchive *archive, int number, const char *key) {
     sqlite3_stmt *rows = archive_statement(archive, SQL_META);
     Str found, value = {"", 0};
-    while (archive_next(archive, rows))
-        if (archive_column_text(archive, rows, 0, &found) && str_equal(found, str_from(key)) &&
-            archive_column_text(archive, rows, 1, &value))
+    // The keys are in order. Later ones are not read, because a damaged table can have rows without end.
+    while (archive_next(archive, rows) && archive_column_text(archive, rows, 0, &found) &&
+           str_compare(found, str_from(key)) <= 0)
+        if (str_equal(found, str_from(key)) && archive_column_text(archive, rows, 1, &value))
             return store_string(archive, number, value);
     return store_string(archive, number, STR(""));
 }
 
-static int64_t read_meta_integer(PetriArchive *archive, const char *key) {
+int64_t archive_meta_integer(PetriArchive *archive, const char *key) {
     return strtoll(read_meta(archive, 7, key), NULL, 10);
 }
 
@@ -103,16 +117,15 @@ bool petri_archive_info(PetriArchive *archive, PetriArchiveInfo *info, size_t si
     Str sha256 = {"", 0};
     if (!archive || archive->writes || !info)
         return false;
+    archive_begin(archive);
     PetriArchiveInfo data = {.keyframes = archive->keyframe_count, .files = archive->file_count, .sealed_frame = -1};
     data.script = read_meta(archive, 0, "script");
     data.command = read_meta(archive, 1, "command");
     data.version = read_meta(archive, 2, "petri");
-    data.keyframe_every = read_meta_integer(archive, "keyframe_every");
-    data.digest_every = read_meta_integer(archive, "digest_every");
-    data.digests = count_rows(archive, SQL_COUNT_DIGESTS, true);
-    int64_t end = archive->recorded_end;
-    data.inputs = count_rows(archive, SQL_COUNT_INPUTS, true);
-    archive->recorded_end = end; // inputs after the last frame do not count
+    data.keyframe_every = archive_meta_integer(archive, "keyframe_every");
+    data.digest_every = archive_meta_integer(archive, "digest_every");
+    data.digests = archive->digest_count;
+    data.inputs = archive->input_count;
     for (uint32_t i = 0; i < archive->file_count; i++)
         data.file_bytes += (int64_t)archive->files[i].length;
     data.first_frame = archive->keyframe_count > 0 ? archive->keyframes[0].frame + 1 : 0;
@@ -132,6 +145,7 @@ bool petri_archive_file(PetriArchive *archive, size_t number, PetriArchiveFile *
     if (!archive || archive->writes || !file || number >= archive->file_count)
         return false;
     ArchiveFile *found = &archive->files[number];
+    archive_begin(archive);
     if (!archive_load_file(archive, found))
         return false;
     PetriArchiveFile data = {.name = found->name,
@@ -142,38 +156,50 @@ bool petri_archive_file(PetriArchive *archive, size_t number, PetriArchiveFile *
     return host_struct_write(file, size, &data, sizeof data);
 }
 
-bool petri_archive_parameter(PetriArchive *archive, size_t number, const char **name, const char **value) {
+// Goes to the next parameter and stores its texts. The names are in order: a damaged table can have rows without end.
+static bool next_parameter(PetriArchive *archive, sqlite3_stmt *rows) {
     Str texts[2];
+    archive->next_parameter++;
+    if (!archive_next(archive, rows) || !archive_column_text(archive, rows, 0, &texts[0]) ||
+        !archive_column_text(archive, rows, 1, &texts[1]))
+        return false;
+    const char *last = archive->strings[4];
+    if (last && str_compare(texts[0], str_from(last)) <= 0)
+        return archive_fail(archive, "the archive is damaged: table parameter: the rows are not in order");
+    store_string(archive, 4, texts[0]);
+    store_string(archive, 5, texts[1]);
+    return archive->strings[4] && archive->strings[5];
+}
+
+bool petri_archive_parameter(PetriArchive *archive, size_t number, const char **name, const char **value) {
     if (!archive || archive->writes || !name || !value || number > INT32_MAX)
         return false;
-    sqlite3_stmt *row = archive_statement(archive, SQL_PARAMETER);
-    if (row)
-        sqlite3_bind_int64(row, 1, (int64_t)number);
-    if (!archive_next(archive, row) || !archive_column_text(archive, row, 0, &texts[0]) ||
-        !archive_column_text(archive, row, 1, &texts[1]))
+    archive_begin(archive);
+    sqlite3_stmt *rows = archive->statements[SQL_PARAMETER];
+    if (!rows || number != archive->next_parameter) {
+        rows = archive_statement(archive, SQL_PARAMETER);
+        heap_free(archive->strings[4]);
+        archive->strings[4] = NULL;
+        archive->next_parameter = 0;
+    }
+    bool found = !archive_fails(archive);
+    while (found && archive->next_parameter <= number)
+        found = next_parameter(archive, rows);
+    if (!found) {
+        archive->next_parameter = SIZE_MAX;
         return false;
-    *name = store_string(archive, 4, texts[0]);
-    *value = store_string(archive, 5, texts[1]);
+    }
+    *name = archive->strings[4];
+    *value = archive->strings[5];
     return true;
 }
 
 bool petri_archive_keyframe(PetriArchive *archive, size_t number, PetriArchiveKeyframe *keyframe, size_t size) {
     if (!archive || archive->writes || !keyframe || number >= archive->keyframe_count)
         return false;
-    const ArchiveKeyframe *found = &archive->keyframes[number], *next = found + 1;
-    PetriArchiveKeyframe data = {.frame = found->frame, .given = found->given, .end = archive->recorded_end};
-    if (number + 1 < archive->keyframe_count) {
-        data.end = next->frame;
-        // The frames before a given keyframe need not reach it.
-        sqlite3_stmt *rows = next->given ? archive_statement(archive, SQL_LAST_RECORDED) : NULL;
-        if (rows) {
-            sqlite3_bind_int64(rows, 1, next->frame);
-            if (!archive_next(archive, rows) ||
-                !archive_column_integer(archive, rows, 0, -1, ARCHIVE_MAX_FRAME, &data.end))
-                return false;
-            data.end = data.end < found->frame ? found->frame : data.end;
-        }
-    }
+    const ArchiveKeyframe *found = &archive->keyframes[number];
+    PetriArchiveKeyframe data = {
+        .frame = found->frame, .given = found->given, .end = archive_segment_end(archive, (uint32_t)number)};
     return host_struct_write(keyframe, size, &data, sizeof data);
 }
 
@@ -181,6 +207,7 @@ bool petri_archive_digest(PetriArchive *archive, int64_t frame, uint8_t digest[1
     Str bytes;
     if (!archive || !digest || (archive->writes && !archive->session))
         return false;
+    archive_begin(archive);
     sqlite3_stmt *row = archive_statement(archive, SQL_DIGEST);
     if (row)
         sqlite3_bind_int64(row, 1, frame);
@@ -232,6 +259,8 @@ const char *petri_archive_read(void *archive_handle, const char *name, size_t *l
     if (!archive || !name || !length)
         return NULL;
     pthread_mutex_lock(&archive->mutex);
+    if (!archive->session)
+        archive_begin(archive); // else a part of the call that computes a frame
     const char *bytes = find_bytes(archive, name, length);
     pthread_mutex_unlock(&archive->mutex);
     return bytes;

@@ -7,8 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-static PetriStatus fail(PetriArchive *archive) {
-    return archive_fails(archive) ? PETRI_INVALID : PETRI_OK;
+// Returns the status of a call after its last query. Clears an interrupt, which has ended the call.
+static PetriStatus finish(PetriArchive *archive, PetriStatus status) {
+    if (archive->interrupted) {
+        petri_clear_interrupt(archive->session);
+        return PETRI_INTERRUPTED;
+    }
+    return archive_fails(archive) && status == PETRI_OK ? PETRI_INVALID : status;
 }
 
 // A keyframe that was read. Its texts are copies, because the session can read further rows while it uses them.
@@ -20,36 +25,50 @@ typedef struct KeyframeTexts {
     char sha256[SHA256_DIGITS];
 } KeyframeTexts;
 
-static void free_keyframe(KeyframeTexts *texts) {
+static void free_keyframe(PetriArchive *archive, KeyframeTexts *texts) {
+    archive->memory -= texts->setup_text.len + texts->state_text.len;
     heap_free(texts->setup);
     heap_free(texts->state);
     *texts = (KeyframeTexts){0};
 }
 
-// Reads a keyframe, which the caller frees. Returns false after a problem.
-static bool read_keyframe(PetriArchive *archive, int64_t frame, KeyframeTexts *texts) {
-    Str setup, state, sha256;
-    *texts = (KeyframeTexts){0};
-    sqlite3_stmt *row = archive_statement(archive, SQL_KEYFRAME);
+// Reads the text in the first column of a keyframe, which the caller frees. Charges its memory. Returns NULL after a
+// problem.
+static char *read_text(PetriArchive *archive, ArchiveStatement number, int64_t frame, Str *text, char *sha256) {
+    Str value, sum;
+    char *copy = NULL;
+    sqlite3_stmt *row = archive_statement(archive, number);
     if (row)
         sqlite3_bind_int64(row, 1, frame);
-    if (!archive_next(archive, row))
-        return archive_fail(archive, "the archive is damaged: table keyframe: row %" PRId64 " is missing", frame);
-    if (!archive_column_text(archive, row, 0, &setup) || !archive_column_text(archive, row, 1, &state) ||
-        !archive_column_text(archive, row, 2, &sha256))
-        return false;
-    if (sha256.len != SHA256_DIGITS)
-        return archive_fail(archive, "the archive is damaged: table keyframe: row %" PRId64 " is not valid", frame);
-    memcpy(texts->sha256, sha256.bytes, SHA256_DIGITS);
-    texts->setup = heap_strndup(setup.bytes, setup.len);
-    texts->state = heap_strndup(state.bytes, state.len);
-    texts->setup_text = (Str){texts->setup, setup.len};
-    texts->state_text = (Str){texts->state, state.len};
-    sqlite3_reset(row);
-    if (texts->setup && texts->state)
-        return true;
-    free_keyframe(texts);
-    return archive_fail(archive, "out of memory");
+    if (!archive_next(archive, row)) {
+        archive_fail(archive, "the archive is damaged: table keyframe: row %" PRId64 " is missing", frame);
+        return NULL;
+    }
+    if (!archive_column_text(archive, row, 0, &value) || (sha256 && !archive_column_text(archive, row, 1, &sum)))
+        return NULL;
+    if (sha256 && sum.len != SHA256_DIGITS)
+        archive_fail(archive, "the archive is damaged: table keyframe: row %" PRId64 " is not valid", frame);
+    else if (sha256)
+        memcpy(sha256, sum.bytes, SHA256_DIGITS);
+    if (!archive_fails(archive) && archive_reserve(archive, value.len)) {
+        copy = heap_strndup(value.bytes, value.len);
+        archive->memory -= copy ? 0 : value.len;
+        if (!copy)
+            archive_fail(archive, "out of memory");
+    }
+    *text = (Str){copy, copy ? value.len : 0};
+    sqlite3_reset(row); // frees the value
+    return copy;
+}
+
+// Reads a keyframe, which the caller frees. Returns false after a problem.
+static bool read_keyframe(PetriArchive *archive, int64_t frame, KeyframeTexts *texts) {
+    *texts = (KeyframeTexts){0};
+    texts->setup = read_text(archive, SQL_KEYFRAME_SETUP, frame, &texts->setup_text, texts->sha256);
+    texts->state = texts->setup ? read_text(archive, SQL_KEYFRAME_STATE, frame, &texts->state_text, NULL) : NULL;
+    if (!texts->state)
+        free_keyframe(archive, texts);
+    return texts->state;
 }
 
 static PetriStatus restore_keyframe(PetriArchive *archive, PetriSession *session, int64_t frame) {
@@ -58,7 +77,7 @@ static PetriStatus restore_keyframe(PetriArchive *archive, PetriSession *session
     if (!read_keyframe(archive, frame, &texts))
         return PETRI_INVALID;
     PetriStatus status = recorder_restore(session, texts.setup_text, texts.state_text);
-    free_keyframe(&texts);
+    free_keyframe(archive, &texts);
     if (status == PETRI_OK && petri_frame_number(session) != frame)
         status = PETRI_INVALID;
     if (status == PETRI_INVALID)
@@ -66,11 +85,63 @@ static PetriStatus restore_keyframe(PetriArchive *archive, PetriSession *session
     return status;
 }
 
+uint32_t archive_keyframes_until(const PetriArchive *archive, int64_t frame) {
+    uint32_t from = 0, to = archive->keyframe_count;
+    while (from < to) {
+        uint32_t middle = from + (to - from) / 2;
+        if (archive->keyframes[middle].frame <= frame)
+            from = middle + 1;
+        else
+            to = middle;
+    }
+    return from;
+}
+
+int64_t archive_segment_end(const PetriArchive *archive, uint32_t number) {
+    if (number + 1 == archive->keyframe_count)
+        return archive->recorded_end;
+    // The frames before a given keyframe need not reach it.
+    const ArchiveKeyframe *next = &archive->keyframes[number + 1];
+    return next->given ? archive->keyframes[number].end : next->frame;
+}
+
+// Returns the last keyframe at or before `frame`, or the first one; NULL: there are none.
 static const ArchiveKeyframe *find_keyframe(const PetriArchive *archive, int64_t frame) {
-    const ArchiveKeyframe *found = archive->keyframe_count > 0 ? &archive->keyframes[0] : NULL;
-    for (uint32_t i = 0; i < archive->keyframe_count && archive->keyframes[i].frame <= frame; i++)
-        found = &archive->keyframes[i];
-    return found;
+    uint32_t count = archive_keyframes_until(archive, frame);
+    return archive->keyframe_count > 0 ? &archive->keyframes[count > 0 ? count - 1 : 0] : NULL;
+}
+
+// --- gaps
+
+// Returns how many of the frames up to `frame` have a digest; only differences of these numbers have a meaning.
+static int64_t digests_until(int64_t frame, int64_t digest_every) {
+    return frame < 0 ? -1 : frame / digest_every;
+}
+
+// Checks that no keyframes and digests are missing. Otherwise a single row of a distant frame would let a replay
+// compute all frames before it.
+static bool check_gaps(PetriArchive *archive) {
+    if (archive->keyframe_count == 0)
+        return true; // no frame was committed
+    int64_t keyframe_every = archive_meta_integer(archive, "keyframe_every");
+    int64_t digest_every = archive_meta_integer(archive, "digest_every");
+    if (archive_fails(archive) || keyframe_every < 1 || digest_every < 1)
+        return archive_fail(archive, "the archive is damaged: table meta: the number of frames is not valid");
+    for (uint32_t i = 0; i < archive->keyframe_count; i++) {
+        const ArchiveKeyframe *keyframe = &archive->keyframes[i];
+        int64_t end = archive_segment_end(archive, i);
+        int64_t missing =
+            digests_until(end, digest_every) - digests_until(keyframe->frame, digest_every) - keyframe->digests;
+        if (missing > 0)
+            return archive_fail(
+                archive, "the archive is damaged: table digest: %" PRId64 " rows are missing after frame %" PRId64,
+                missing, keyframe->frame);
+        if (end - keyframe->frame > keyframe_every)
+            return archive_fail(archive,
+                                "the archive is damaged: table keyframe: rows are missing after frame %" PRId64,
+                                keyframe->frame);
+    }
+    return true;
 }
 
 // --- frames
@@ -107,10 +178,11 @@ static bool read_clock(Str text, FrameClock *clock) {
 // Gives the inputs of a frame to the session.
 static PetriStatus apply_inputs(PetriArchive *archive, int64_t frame, FrameClock *clock) {
     Str kind, payload;
+    int64_t id = -1;
     sqlite3_stmt *rows = archive_statement(archive, SQL_INPUTS);
     if (rows)
         sqlite3_bind_int64(rows, 1, frame);
-    while (archive_next(archive, rows)) {
+    while (archive_next_in_order(archive, rows, 2, INT64_MAX, &id)) {
         if (!archive_column_text(archive, rows, 0, &kind) || !archive_column_text(archive, rows, 1, &payload))
             return PETRI_INVALID;
         PetriStatus status = str_equal(kind, STR("clock")) ? read_clock(payload, clock) ? PETRI_OK : PETRI_INVALID
@@ -121,11 +193,10 @@ static PetriStatus apply_inputs(PetriArchive *archive, int64_t frame, FrameClock
         if (status != PETRI_OK)
             return status;
     }
-    return fail(archive);
+    return PETRI_OK;
 }
 
-static PetriStatus before_frame(void *user_data, FrameClock *clock, bool *has_clock) {
-    PetriArchive *archive = user_data;
+static PetriStatus begin_frame(PetriArchive *archive, FrameClock *clock, bool *has_clock) {
     int64_t frame = petri_frame_number(archive->session);
     const ArchiveKeyframe *keyframe = find_keyframe(archive, frame);
     if (archive_fails(archive))
@@ -147,6 +218,12 @@ static PetriStatus before_frame(void *user_data, FrameClock *clock, bool *has_cl
     return status;
 }
 
+static PetriStatus before_frame(void *user_data, FrameClock *clock, bool *has_clock) {
+    PetriArchive *archive = user_data;
+    archive_begin(archive);
+    return finish(archive, begin_frame(archive, clock, has_clock));
+}
+
 // Another state was loaded: if a keyframe with a given state follows its frame, the next frame begins with that one.
 static void after_jump(void *user_data) {
     ((PetriArchive *)user_data)->at_keyframe = false;
@@ -158,17 +235,18 @@ static void on_end(void *user_data) {
 }
 
 PetriStatus petri_archive_load(PetriArchive *archive, PetriSession *session, int64_t frame) {
-    if (!archive || !session || archive->writes || archive_fails(archive))
+    if (!archive || !session || archive->writes)
         return PETRI_INVALID;
+    archive_begin(archive);
     const ArchiveKeyframe *keyframe = find_keyframe(archive, frame);
-    if (!keyframe) {
+    if (!keyframe)
         archive_fail(archive, "the archive has no frames");
+    if (archive_fails(archive) || !check_gaps(archive))
         return PETRI_INVALID;
-    }
     petri_archive_end_replay(archive);
     recorder_set(session, NULL);
-    PetriStatus status = restore_keyframe(archive, session, keyframe->frame);
     archive->session = session;
+    PetriStatus status = finish(archive, restore_keyframe(archive, session, keyframe->frame));
     archive->at_keyframe = true;
     recorder_set(session, &(Recorder){.user_data = archive,
                                       .before_frame = before_frame,
@@ -196,14 +274,17 @@ bool petri_archive_keyframe_differs(PetriArchive *archive) {
     Str setup, state;
     int64_t frame = petri_frame_number(session);
     const ArchiveKeyframe *keyframe = session && !archive->writes ? find_keyframe(archive, frame) : NULL;
-    if (!keyframe || keyframe->given || keyframe->frame != frame || !read_keyframe(archive, frame, &texts))
+    if (!keyframe || keyframe->given || keyframe->frame != frame)
+        return false;
+    archive_begin(archive);
+    if (!read_keyframe(archive, frame, &texts))
         return false;
     // Inputs that followed the last frame can have changed the setup of the last keyframe.
     bool last = keyframe == &archive->keyframes[archive->keyframe_count - 1];
     bool same = recorder_write_setup(session, &setup) == PETRI_OK &&
                 recorder_write_state(session, &state) == PETRI_OK && (last || str_equal(setup, texts.setup_text)) &&
                 recorder_states_equal(state, texts.state_text);
-    free_keyframe(&texts);
+    free_keyframe(archive, &texts);
     return !same;
 }
 
@@ -223,7 +304,7 @@ static bool check_seals(PetriArchive *archive) {
         seal.state = texts.state_text;
         bool good = archive_seal(archive, &seal, sha256), same = memcmp(sha256, texts.sha256, SHA256_DIGITS) == 0;
         memcpy(previous, texts.sha256, SHA256_DIGITS);
-        free_keyframe(&texts);
+        free_keyframe(archive, &texts);
         if (!good)
             return false;
         if (!same)
@@ -252,25 +333,33 @@ static bool check_pages(PetriArchive *archive) {
         result = sqlite3_step(statement);
     const char *text = result == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
     bool good = text && strcmp(text, "ok") == 0;
-    if (!good)
-        archive_fail(archive, "the archive is damaged: %s", text ? text : sqlite3_errstr(result));
+    const char *line = text ? strchr(text, '\n') : NULL; // the first line names the database
+    if (text && !good)
+        archive_fail(archive, "the archive is damaged: %s", line ? line + 1 : text);
+    else if (!good)
+        archive_fail_sqlite(archive, result);
     sqlite3_finalize(statement);
     return good;
 }
 
 PetriStatus petri_archive_check(PetriArchive *archive) {
-    if (!archive || archive->writes || archive_fails(archive) || !check_pages(archive))
+    if (!archive || archive->writes)
         return PETRI_INVALID;
+    archive_begin(archive);
+    if (archive_fails(archive) || !check_gaps(archive) || !check_pages(archive))
+        return finish(archive, PETRI_INVALID);
     for (uint32_t i = 0; i < archive->file_count; i++) {
         ArchiveFile *file = &archive->files[i];
         bool loaded = file->bytes;
         if (!archive_load_file(archive, file))
-            return PETRI_INVALID;
+            return finish(archive, PETRI_INVALID);
         if (loaded || !file->bytes)
             continue;
         archive->memory -= file->length; // a replay reads the file again if it needs it
         heap_free(file->bytes);
         file->bytes = NULL;
     }
-    return check_seals(archive) && check_rest(archive) ? PETRI_OK : PETRI_INVALID;
+    bool good = archive_begin_seals(archive) && check_seals(archive) && check_rest(archive);
+    archive_end_seals(archive);
+    return finish(archive, good ? PETRI_OK : PETRI_INVALID);
 }

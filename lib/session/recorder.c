@@ -27,6 +27,10 @@ void recorder_ignore_input(PetriSession *session, bool ignores) {
     session->recorder.ignores_input = ignores;
 }
 
+bool recorder_is_interrupted(const PetriSession *session) {
+    return atomic_load_explicit(session->interrupt_source, memory_order_relaxed);
+}
+
 uint32_t recorder_host_functions(const PetriSession *session) {
     return session->functions.count;
 }

@@ -73,6 +73,8 @@ bool recorder_states_equal(Str one, Str other) PRIVATE_API(recorder_states_equal
 PetriStatus recorder_apply_input(PetriSession *session, Str kind, Str payload) PRIVATE_API(recorder_apply_input);
 // Sets Recorder.ignores_input.
 void recorder_ignore_input(PetriSession *session, bool ignores) PRIVATE_API(recorder_ignore_input);
+// Returns true if petri_interrupt was called and the interrupt is pending.
+bool recorder_is_interrupted(const PetriSession *session) PRIVATE_API(recorder_is_interrupted);
 // Returns the number of functions that the host added, which a recording cannot contain.
 uint32_t recorder_host_functions(const PetriSession *session) PRIVATE_API(recorder_host_functions);
 

@@ -4,7 +4,7 @@
 #include "cli/archive.h"
 
 PetriArchive *archive_open(const Options *options, const char *file) {
-    PetriArchive *archive = petri_archive_open(file, options->memory);
+    PetriArchive *archive = replay_archive(options, file);
     if (archive_report_problem(archive, file))
         petri_archive_close(&archive);
     return archive;

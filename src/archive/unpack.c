@@ -2,9 +2,11 @@
 #include "archive/open.h"
 #include "base/file.h"
 #include "base/file_access.h"
+#include "cli/memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -59,13 +61,53 @@ static bool write_file(const char *folder, const PetriArchiveFile *file) {
     return good;
 }
 
-// Returns true if a later row has another version of the file.
-static bool is_replaced(PetriArchive *archive, size_t number, const char *name) {
-    PetriArchiveFile later;
-    while (petri_archive_file(archive, ++number, &later, sizeof later))
-        if (strcmp(later.name, name) == 0)
-            return true;
-    return false;
+// A row of the table, in the order of the names and then of the rows.
+typedef struct Version {
+    const char *name;
+    size_t number;
+} Version;
+
+static int compare_versions(const void *a, const void *b) {
+    const Version *x = a, *y = b;
+    int order = strcmp(x->name, y->name);
+    return order != 0 ? order : (x->number > y->number) - (x->number < y->number);
+}
+
+static int compare_numbers(const void *a, const void *b) {
+    size_t x = ((const Version *)a)->number, y = ((const Version *)b)->number;
+    return (x > y) - (x < y);
+}
+
+// Lists the last version of each file, in the order of the rows. The caller frees the list.
+static Version *list_last_versions(PetriArchive *archive, size_t *count) {
+    Version *list = NULL;
+    PetriArchiveFile file;
+    size_t rows = 0, capacity = 0, last = 0;
+    for (; petri_archive_file(archive, rows, &file, sizeof file); rows++) {
+        if (rows == capacity) {
+            capacity = 2 * capacity + 16;
+            list = memory_realloc(list, capacity * sizeof *list);
+        }
+        list[rows] = (Version){file.name, rows};
+    }
+    if (rows > 0)
+        qsort(list, rows, sizeof *list, compare_versions);
+    for (size_t i = 0; i < rows; i++)
+        if (i + 1 == rows || strcmp(list[i].name, list[i + 1].name) != 0)
+            list[last++] = list[i];
+    if (last > 0)
+        qsort(list, last, sizeof *list, compare_numbers);
+    *count = last;
+    return list;
+}
+
+static bool unpack_file(const char *folder, const PetriArchiveFile *file) {
+    if (str_ends_with(str_from(file->name), STR("/")) || !file->bytes)
+        return true;
+    if (is_valid_name(file->name))
+        return write_file(folder, file);
+    report_skipped(file->name);
+    return true;
 }
 
 static int unpack_files(PetriArchive *archive, const char *folder) {
@@ -74,16 +116,13 @@ static int unpack_files(PetriArchive *archive, const char *folder) {
         message("cannot create '%s': %s", folder, strerror(errno));
         return STATUS_FAILED;
     }
-    for (size_t i = 0; petri_archive_file(archive, i, &file, sizeof file); i++) {
-        bool is_folder = str_ends_with(str_from(file.name), STR("/"));
-        if (is_folder || !file.bytes || is_replaced(archive, i, file.name))
-            continue;
-        if (!is_valid_name(file.name))
-            report_skipped(file.name);
-        else if (!write_file(folder, &file))
-            return STATUS_FAILED;
-    }
-    return STATUS_DONE;
+    size_t count;
+    Version *list = list_last_versions(archive, &count);
+    bool good = !petri_archive_problem(archive);
+    for (size_t i = 0; i < count && good; i++)
+        good = petri_archive_file(archive, list[i].number, &file, sizeof file) && unpack_file(folder, &file);
+    free(list);
+    return good ? STATUS_DONE : STATUS_FAILED;
 }
 
 static int unpack_run(const CommandContext *context, Options *options) {

@@ -64,10 +64,11 @@ static int check_archives(Check *check, const CommandContext *host, Counts *coun
         const char *path = options.scripts.items[i].path;
         if (!petri_archive_is(path))
             continue;
-        options.replayed = petri_archive_open(path, options.memory);
-        if (!archive_report_problem(options.replayed, path))
+        options.replayed = replay_archive(&options, path);
+        bool opened = !archive_report_problem(options.replayed, path);
+        if (opened)
             status = check_scripts(check, host, &options, i, i + 1, counts);
-        counts->rejected += petri_archive_problem(options.replayed) != NULL;
+        counts->rejected += !opened || archive_report_problem(options.replayed, path);
         petri_archive_close(&options.replayed);
     }
     return status;

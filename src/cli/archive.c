@@ -78,6 +78,11 @@ bool archive_report_problem(const PetriArchive *archive, const char *file) {
     return problem;
 }
 
+PetriArchive *replay_archive(const Options *options, const char *file) {
+    size_t limit = options->memory > 0 ? options->memory : petri_default_options().memory_limit;
+    return petri_archive_open(file, limit / 2);
+}
+
 // Sets the default number of frames: those that are recorded.
 static void set_frames(Options *options, const Command *command) {
     PetriArchiveInfo info;
@@ -103,7 +108,7 @@ int replay_open(Options *options, const Command *command) {
                                                                            : "define");
         return STATUS_USAGE;
     }
-    options->replayed = petri_archive_open(options->script, options->memory);
+    options->replayed = replay_archive(options, options->script);
     if (archive_report_problem(options->replayed, options->script))
         return STATUS_FAILED;
     set_frames(options, command);

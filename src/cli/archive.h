@@ -29,5 +29,8 @@ int replay_open(Options *options, const Command *command);
 PetriStatus replay_load(const Options *options, PetriSession *session);
 // Checks the script of the archive, as petri_check does.
 PetriStatus replay_check(const Options *options, PetriSession *session);
+// Opens an archive. Its files and texts may take half of the memory limit, because the session that replays it also has
+// a limit. Returns NULL if out of memory; archive_report_problem prints other problems.
+PetriArchive *replay_archive(const Options *options, const char *file);
 // Prints the problem of an archive, if there is one. Returns true if there is one.
 bool archive_report_problem(const PetriArchive *archive, const char *file);

@@ -88,7 +88,7 @@ static const SideKind ARCHIVE_SIDE = {.next = next_archived, .print = print_sess
 static bool open_archive(Side *side) {
     Options options = *side->options;
     side->kind = &ARCHIVE_SIDE;
-    side->archive = petri_archive_open(side->source, options.memory);
+    side->archive = replay_archive(&options, side->source);
     if (archive_report_problem(side->archive, side->source))
         return false;
     options.replayed = side->archive;

@@ -49,7 +49,7 @@ static bool load_archive(Measure *measure) {
 // Opens an archive instead of a script. Returns false after a message.
 static bool open_archive(Measure *measure, Options *options) {
     PetriArchiveInfo info;
-    measure->archive = petri_archive_open(options->script, options->memory);
+    measure->archive = replay_archive(options, options->script);
     if (!measure->archive || !petri_archive_info(measure->archive, &info, sizeof info)) {
         archive_report_problem(measure->archive, options->script);
         return false;

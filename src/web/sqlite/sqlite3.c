@@ -1,7 +1,7 @@
 // sqlite3.c: see sqlite3.h.
 #include "sqlite3.h"
 
-#include "petri-archive.h"
+#include "recording/archive.h"
 #include "web/host.h"
 
 #include <stdio.h>
@@ -118,17 +118,6 @@ const char *sqlite3_sql(sqlite3_stmt *statement) {
     return statement->sql;
 }
 
-int sqlite3_bind_parameter_count(sqlite3_stmt *statement) {
-    int count = 0;
-    for (const char *at = strchr(statement->sql, '?'); at; at = strchr(at + 1, '?'))
-        count++;
-    return count;
-}
-
-int sqlite3_bind_int(sqlite3_stmt *statement, int parameter, int value) {
-    return sqlite3_bind_int64(statement, parameter, value);
-}
-
 int sqlite3_bind_int64(sqlite3_stmt *statement, int parameter, int64_t value) {
     host_sql_bind(statement->number, parameter, (double)value);
     return SQLITE_OK;
@@ -175,7 +164,7 @@ const char *sqlite3_column_name(sqlite3_stmt *statement, int column) {
     return statement->name;
 }
 
-// --- functions of petri-archive.h that lib/recording defines in files that the engine does not need
+// --- functions that lib/recording defines in files that the engine does not need
 
 bool petri_archive_is(const char *file) {
     (void)file;
@@ -185,4 +174,14 @@ bool petri_archive_is(const char *file) {
 PetriStatus petri_archive_complete(PetriArchive *archive) {
     (void)archive;
     return PETRI_OK; // the engine does not write archives
+}
+
+bool archive_connect(PetriArchive *archive, const char *name) {
+    // The database is in memory, so JavaScript has limited its size.
+    archive->content_limit = INT32_MAX;
+    return sqlite3_open_v2(name, &archive->database, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK;
+}
+
+void archive_free_pages(ArchivePages *pages) {
+    (void)pages;
 }

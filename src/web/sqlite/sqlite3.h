@@ -12,8 +12,11 @@ typedef struct sqlite3_stmt sqlite3_stmt;
 
 enum {
     SQLITE_OK = 0,
+    SQLITE_BUSY = 5,
     SQLITE_NOMEM = 7,
+    SQLITE_INTERRUPT = 9,
     SQLITE_CORRUPT = 11,
+    SQLITE_TOOBIG = 18,
     SQLITE_NOTADB = 26,
     SQLITE_ROW = 100,
     SQLITE_DONE = 101,
@@ -61,8 +64,6 @@ int sqlite3_step(sqlite3_stmt *statement);
 int sqlite3_reset(sqlite3_stmt *statement);
 int sqlite3_clear_bindings(sqlite3_stmt *statement);
 const char *sqlite3_sql(sqlite3_stmt *statement);
-int sqlite3_bind_parameter_count(sqlite3_stmt *statement);
-int sqlite3_bind_int(sqlite3_stmt *statement, int parameter, int value);
 int sqlite3_bind_int64(sqlite3_stmt *statement, int parameter, int64_t value);
 int sqlite3_bind_text64(sqlite3_stmt *statement, int parameter, const char *text, uint64_t length,
                         void (*destroy)(void *), unsigned char encoding);
