@@ -9,30 +9,45 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { BLOCK = 1 << 16, MAX_LINE = 256 << 20 };
+
 // A file that is read line by line.
 typedef struct Lines {
-    FILE *stream;
-    char *line; // current line with its line feed
-    size_t capacity;
-    size_t length;
-    size_t end; // offset of the line's end in the file
+    int fd;
+    Text line;    // current line with its line feed
+    size_t end;   // offset of the line's end in the file
+    int error;    // errno of a failed read; 0: none failed
+    size_t at;    // position in `block`
+    size_t count; // number of bytes in `block`
+    char block[BLOCK];
 } Lines;
 
-// Reads the next line. Returns false at the end of the file and at an incomplete last line, which has no line feed.
+// Reads the next line. Returns false at the end of the file, at an incomplete last line, which has no line feed, and at
+// a line that is too long.
 static bool next_line(Lines *lines) {
-    ssize_t length = getline(&lines->line, &lines->capacity, lines->stream);
-    if (length <= 0 || lines->line[length - 1] != '\n')
-        return false;
-    lines->length = (size_t)length;
-    lines->end += (size_t)length;
-    return true;
+    for (lines->line.len = 0; lines->line.len <= MAX_LINE;) {
+        const char *rest = lines->block + lines->at, *feed = memchr(rest, '\n', lines->count - lines->at);
+        size_t length = feed ? (size_t)(feed + 1 - rest) : lines->count - lines->at;
+        text_add(&lines->line, (Str){rest, length});
+        lines->at += length;
+        if (feed) {
+            lines->end += lines->line.len;
+            return true;
+        }
+        ssize_t got = file_read_some(lines->fd, lines->block, BLOCK);
+        lines->error = got < 0 ? errno : 0;
+        if (got <= 0)
+            return false;
+        lines->at = 0;
+        lines->count = (size_t)got;
+    }
+    return false;
 }
 
 // Parses an integer >= 0 that is followed by one of the characters in `ends`. Returns false if there is no such
@@ -50,17 +65,17 @@ static bool read_integer(const char *text, const char *ends, int64_t *number) {
 static bool read_xyz(Lines *lines, int64_t after, XyzNames *names, ResumeFile *file) {
     int64_t count = 0, frame = 0;
     while (next_line(lines)) {
-        if (!read_integer(lines->line, "\n", &count))
+        if (!read_integer(lines->line.bytes, "\n", &count))
             return false;
         if (!next_line(lines))
             return true;
-        const char *number = strstr(lines->line, " Frame=");
-        if (strncmp(lines->line, "Properties=species:S:1:pos:R:3:", 31) != 0 || !number ||
+        const char *number = strstr(lines->line.bytes, " Frame=");
+        if (strncmp(lines->line.bytes, "Properties=species:S:1:pos:R:3:", 31) != 0 || !number ||
             !read_integer(number + strlen(" Frame="), "\n", &frame))
             return false;
         if (frame > after)
             return true;
-        if (!xyz_read_names(names, lines->line))
+        if (!xyz_read_names(names, lines->line.bytes))
             return false;
         while (count > 0 && next_line(lines))
             count--;
@@ -76,11 +91,11 @@ static bool read_xyz(Lines *lines, int64_t after, XyzNames *names, ResumeFile *f
 // `kinetic_energy,potential_energy`.
 static bool read_header(const Lines *lines, ResumeFile *file) {
     static const char first[] = "frame,time,system,id,anchor,x1";
-    if (strncmp(lines->line, first, sizeof first - 1) != 0)
+    if (strncmp(lines->line.bytes, first, sizeof first - 1) != 0)
         return false;
-    for (const char *at = lines->line; (at = strstr(at, ",x")); at++)
+    for (const char *at = lines->line.bytes; (at = strstr(at, ",x")); at++)
         file->dimensions++;
-    file->energies = strstr(lines->line, ",potential_energy");
+    file->energies = strstr(lines->line.bytes, ",potential_energy");
     file->end = lines->end;
     return true;
 }
@@ -90,7 +105,7 @@ static bool read_csv(Lines *lines, int64_t after, ResumeFile *file) {
     if (next_line(lines) && !read_header(lines, file))
         return false;
     while (next_line(lines)) {
-        if (!read_integer(lines->line, ",", &frame))
+        if (!read_integer(lines->line.bytes, ",", &frame))
             return false;
         if (frame > after)
             return true;
@@ -109,17 +124,13 @@ static bool read_existing(ResumeFile *file, const char *path, XyzNames *names, i
     struct stat info;
     if (!os_lock(file->fd) && errno == EWOULDBLOCK)
         return report_error(path, "the file is in use by another petri process");
-    int again = fstat(file->fd, &info) == 0 && S_ISREG(info.st_mode) ? dup(file->fd) : -1;
-    Lines lines = {.stream = again < 0 ? NULL : fdopen(again, "r")};
-    if (!lines.stream)
-        return report_error(path, again < 0 ? "not a regular file" : strerror(errno));
+    if (fstat(file->fd, &info) != 0 || !S_ISREG(info.st_mode))
+        return report_error(path, "not a regular file");
+    Lines lines = {.fd = file->fd};
     bool known = names ? read_xyz(&lines, after, names, file) : read_csv(&lines, after, file);
-    bool read = !ferror(lines.stream);
-    int cause = errno;
-    free(lines.line);
-    fclose(lines.stream);
-    if (!read)
-        return report_error(path, strerror(cause));
+    text_free(&lines.line);
+    if (lines.error)
+        return report_error(path, strerror(lines.error));
     if (!known)
         return report_error(path, TRAJECTORY_FILE_UNKNOWN);
     return (file_truncate(file->fd, file->end) && lseek(file->fd, 0, SEEK_END) >= 0) ||

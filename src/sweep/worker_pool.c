@@ -198,9 +198,11 @@ static bool receive_messages(WorkerPool *pool) {
     return good;
 }
 
-// Handles the end of a worker. Its current run gets a row with the cause as its error. After the first SIGKILL, which
-// the kernel sends if the machine is out of memory, the run is repeated instead. Returns false after a message.
+// Handles the end of a worker, and ends it if only its pipe has failed. Its current run gets a row with the cause as
+// its error. After the first SIGKILL, which the kernel sends if the machine is out of memory, the run is repeated
+// instead. Returns false after a message.
 static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
+    kill(worker->pid, SIGKILL); // has no effect on a worker that has closed its pipe, because it is exiting
     int status = subprocess_wait_for(worker->pid);
     close(worker->run_pipe);
     close(worker->result_pipe);

@@ -90,7 +90,7 @@ if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
     sweep trajectory a.csv old.csv good_csv run w.fl --frames 2 --threads 1 --trajectory target/a.csv
     [ "${PETRI_INJECT:-}" = all ] || tried="1 3"
     kinds=$tried
-    [ "${PETRI_INJECT:-}" = all ] || tried=1
+    [ "${PETRI_INJECT:-}" = all ] || tried="1 5" # the fifth read is that of the trajectory
     # A resumed run extends its trajectory.
     resume_run() { petri run w.fl --frames "$1" --threads 1 --state old.state --trajectory "old.$2"; }
     for format in csv h5; do
@@ -111,7 +111,9 @@ if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
     tried=$kinds
     echo 'let A=A or 1' >runs.fl
     sweep golden g.golden old.golden good_golden test --update target/g.fl
+    [ "${PETRI_INJECT:-}" = all ] || tried="1 3 7" # the seventh read is that of a result
     sweep table t.csv old.csv good_table sweep runs.fl --jobs 1 -D 'A=1;2' --frames 2 --metric x=A -o target/t.csv
+    tried=$kinds
     petri render w.fl --frames 1 -o old.png
     if [ "$status" -eq 0 ]; then
         sweep picture a.png old.csv good_png render w.fl --frames 1 --threads 1 -o target/a.png
