@@ -72,6 +72,10 @@ check("diagnostics of petri check are published",
 client.change(uri, {"range": {"start": {"line": 0, "character": 8}, "end": {"line": 0, "character": 9}}, "text": "s"},
               {"range": {"start": {"line": 1, "character": 16}, "end": {"line": 1, "character": 23}}, "text": "1"})
 check("corrected diagnostics are withdrawn", client.wait(uri), [])
+client.change(uri, {"text": "!physics state=:cells dimensions=2\n    !particle id=0\n    !drag\n"
+                            "!o a=$(:cell;0) b=$:cells;0 c=$(:cells;7) d=sin(90)\n"})
+check("silent mistakes are published with codes", sorted(d["code"] for d in client.wait(uri)),
+      ["angle-unit", "loose-key", "no-radius", "unknown-id", "unknown-state"])
 client.change(uri, {"text": "!n a=)\n"})
 check("errors have severity 1", [d["severity"] for d in client.wait(uri)], [1])
 Path("part.fl").write_text("!n v=nothing\n")
