@@ -36,7 +36,7 @@ fuzz_one() {
     [ "$name" != repl ] || longest=300 # commands take long
     # `quiet` hides the output of harnesses that run commands.
     case $name in
-    archive | arguments | golden | journal | link | listen | lsp | plan | repl | resume) quiet=3 ;;
+    archive | arguments | database | golden | journal | link | listen | lsp | plan | repl | resume) quiet=3 ;;
     esac
     rm -f "$work/found-$name"-*
     cd "$work"
