@@ -89,7 +89,7 @@ static void make_torn(void) {
     journal = read_file("work-journal");
     sqlite3_close(database);
     if (journal.size < SECTOR)
-        fuzz_fail("there is no journal");
+        fuzz_fail("the journal is missing");
 }
 
 static void put_number(unsigned char *at, uint32_t x) {
