@@ -4,7 +4,6 @@
 // registers.
 #include "vm/machine.h"
 
-
 #define NOINLINE __attribute__((noinline))
 
 // --- loops and imports

@@ -6,7 +6,7 @@ cp disc.png first.png
 for many in '!ellipse point=50 radius=50 fill=true' '!ellipse point=50 radius=50 stroke=true stroke_width=50' \
     '!rect size=100 fill=true composite=:hue' '!text text="many" point=0;90 font_size=80 fill=true' \
     '!image filename="disc.png" size=100'; do
-    printf '!window size=100\n    !canvas id=:c\n        for i in ..1000\n            %s\n' "$many" >many.fl
+    printf '!window size=100\n    !canvas id=:c color=1\n        for i in ..1000\n            %s\n' "$many" >many.fl
     petri render many.fl -o many.png --work 500k --scale 5
     check "drawing is charged as work: $many" has err "drawing exceeded the work limit (--work): parts of the picture are left"
     check "the note on the limit is printed once: $many" count_is err "note: --work " 1
@@ -16,7 +16,7 @@ for many in '!ellipse point=50 radius=50 fill=true' '!ellipse point=50 radius=50
     check "cheap drawing is below the limit: $many" [ ! -s err ]
 done
 # Small shapes that are far apart cost no more than others.
-printf '!window size=1000\n    !canvas\n        for i in ..20000\n            !ellipse point=i%%2*1000;i%%3*500 radius=1 fill=true\n' >many.fl
+printf '!window size=1000\n    !canvas color=1\n        for i in ..20000\n            !ellipse point=i%%2*1000;i%%3*500 radius=1 fill=true\n' >many.fl
 petri render many.fl -o many.png --frames 1 --work 25M
 check "many small shapes that are far apart are drawn" eval 'status_is 0 && [ ! -s err ]'
 printf '!physics state=:p dimensions=2\n    for i in ..1000\n        !particle id=i position=0 radius=1\n' >many.fl
@@ -35,7 +35,7 @@ for size in 1000 999 50; do
     petri render few.fl -o many.png --frames 1 --work "$(sufficient work)"
     check "the note names a limit that suffices for compositing: size $size" eval 'status_is 0 && [ ! -s err ]'
 done
-printf '!window size=1000\n    for i in ..3\n        !canvas\n            !ellipse point=500 radius=400 fill=true\n' >many.fl
+printf '!window size=1000\n    for i in ..3\n        !canvas color=1\n            !ellipse point=500 radius=400 fill=true\n' >many.fl
 petri render many.fl -o many.png --frames 1 --memory 10M
 check "pictures above the memory limit are left out" has err "exceeds the memory limit (--memory); it is left out"
 petri render many.fl -o many.png --frames 1 --memory "$(sufficient memory)"

@@ -92,6 +92,12 @@ petri run many.fl --frames 3 --state many.state
 petri run many.fl --frames 3 --every 5 --print state --state many.state
 check "a state of many particles is restored completely" cmp -s out expected
 
+# Particles of frame 0 have keys, but no positions yet.
+printf '!physics state=:p dimensions=2\n    for i in ..20000\n        !particle id=i position=i;0\n' >many.fl
+petri run many.fl --frames 1 --state unplaced.state
+petri run many.fl --frames 1 --state unplaced.state --memory 64M
+check "particles without positions are restored in little memory" eval 'status_is 0 && [ ! -s err ]'
+
 # a module that changes while petri runs
 printf 'let size=3\n' >part.fl
 printf "import size from 'part.fl'\n!out size=size\n" >main.fl

@@ -63,8 +63,8 @@ static void test_changing_values(void **state) {
 static void test_symbols_as_numbers(void **state) {
     (void)state;
     static const Report rows[] = {
-        {P2 " !particle id=:a force=:x\n", "bad-attribute", {"!particle", ":a", "force", ":x"}},
-        {P1 " !particle id=:a force=:x\n", "bad-attribute", {"force", "one number", ":x"}},
+        {P2 " !particle id=:a force=:x\n", "bad-attribute divergence", {"!particle", ":a", "force", ":x"}},
+        {P1 " !particle id=:a force=:x\n", "bad-attribute divergence", {"force", "one number", ":x"}},
         {P3 " !particle id=:a position=1;:x;2\n", "bad-attribute", {"position", "1;:x;2"}},
         {P2 " !particle id=:a mass=:x\n", "bad-attribute", {"mass", ":x"}},
         {P2 " !anchor id=:a radius=:x\n", "bad-attribute", {"!anchor", "radius", ":x"}},
