@@ -144,7 +144,7 @@ static bool read_integer(Restore *restore, int64_t *x) {
 
 // Returns the slot of the velocity that belongs to a position.
 static StateSlot velocity_slot(Restore *restore, StateSlot position) {
-    double buffer[STATE_KEY_BUFFER]; // without it, all keys of a key range would be written to memory, for each particle
+    double buffer[STATE_KEY_BUFFER]; // without it, all keys of a range would be written to memory for each particle
     Vector key = vector_new(restore->in.arena);
     vector_add(&key, state_slot_key_in(restore->state, position, buffer));
     vector_add_number(&key, symbol_number(STR("velocity")));
