@@ -68,7 +68,8 @@ export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string,
     status === 'fine';
 
     const result = {
-        frame, parameters, systems: structuredClone(systems), picture, shown, snapshot, tokens, help, diagnostics, reported, place, state, size,
+        frame, parameters, systems: structuredClone(systems), picture, shown, snapshot, tokens, help, diagnostics, reported, place, state,
+        size,
         same: hash === again && digest.length === 32 && forces === null && table.dimensions === 2, text, number, printed, status,
         statuses: STATUS, name, kinds, wrong, part, version: engine.version,
     };

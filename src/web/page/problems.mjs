@@ -14,7 +14,8 @@ export class Problems {
     show(reported, name = this.name) {
         Object.assign(this, { reported, name });
         this.editor.show(reported.filter(({ file }) => file === name || file === null));
-        this.place.replaceChildren(...reported.filter(({ level }) => level !== 'note').slice(0, MAX_SHOWN).map(problem => this.item(problem)));
+        const problems = reported.filter(({ level }) => level !== 'note').slice(0, MAX_SHOWN);
+        this.place.replaceChildren(...problems.map(problem => this.item(problem)));
     }
 
     // Adds diagnostics that are not shown yet.

@@ -186,7 +186,8 @@ onmessage = ({ data }) => {
             const answer = await handlers[data.act](data);
             postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.image ?? answer.picture.numbers.buffer] : []);
         } catch (error) {
-            postMessage({ type: failure(error), id: data.id, message: error.message, reported: take(), diagnostics: error.diagnostics ?? [] });
+            const { message, diagnostics = [] } = error;
+            postMessage({ type: failure(error), id: data.id, message, reported: take(), diagnostics });
         }
     });
 };
