@@ -133,7 +133,7 @@ test('warnings are only shown to readers who can edit the script', options, () =
         const message = id => page.locator(`#d${id} >> #message`).textContent();
         assert.match(await message(0), /^script\.fl:3:15: warning: !rect: .*'sice'[^]*\^~~~/);
         assert.equal(await message(1), '');
-        await page.locator('#d0 >> #text').fill('!window size=9;9\n    !canvas\n        !rect size=9\n');
+        await page.locator('#d0 >> #text').fill('!window size=9;9\n    !canvas color=1\n        !rect size=9 fill=true\n');
         await page.locator('#d0 >> #text').press('Control+Enter');
         await page.waitForFunction(() => document.getElementById('d0').running);
         assert.equal(await message(0), '');

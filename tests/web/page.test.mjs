@@ -149,7 +149,7 @@ test('without WebGL 2, a 3-D script shows its particles in two dimensions', opti
 
 test('an error is marked in the text while typing', options, () => opened('', {
     use: async page => {
-        await typed(page, '!window size=100;100\n    !canvas\n        !rect size=coss(1) fill=true\n');
+        await typed(page, '!window size=100;100\n    !canvas color=1\n        !rect size=coss(1) fill=true\n');
         await page.waitForSelector('.cm-lintRange-warning');
         assert.equal(await page.textContent('.cm-lintRange-warning'), 'coss');
         assert.match(await page.textContent('#problems'), /3:20: warning: unbound name 'coss'.*did you mean 'cos'/);

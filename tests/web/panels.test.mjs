@@ -54,7 +54,7 @@ async function entered(page, line) {
 test('the prompt has the commands of petri repl', options, () => opened('', {
     use: async page => {
         await running(page, 'let SIZE=SIZE or 3 -- 1..9 how large\n!counter state=:c rate=1\n'
-            + '!physics state=:p dimensions=2\n    !particle id=7 position=0;0 velocity=SIZE;4\n    !drag strength=0\n'
+            + '!physics state=:p dimensions=2\n    !particle id=7 position=0;0 velocity=SIZE;4 radius=1\n    !drag strength=0\n'
             + '!window size=8;8\n    !canvas\n');
         assert.match(await entered(page, '.reset'), /^@0 time=0 beat=0\n$/);
         await atFrame(page, 0);

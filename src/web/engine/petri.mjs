@@ -14,7 +14,7 @@ const REASONS = {
 };
 // petri can measure only the engine's stack; JavaScript engines also use a stack of about 1 MiB. This limit allows 500 nested calls of a
 // function, and reports deeper recursion before the browser's stack overflows.
-const STACK = 1536 << 10;
+const STACK = 768 << 10;
 const MEMORY = 1 << 30;
 const CALL_WORK = 2 ** 28; // one or two seconds
 
