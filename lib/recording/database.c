@@ -131,9 +131,9 @@ void archive_free(PetriArchive *archive) {
 }
 
 void archive_begin(PetriArchive *archive) {
-    const uint64_t least = UINT64_C(1) << 28, per_byte = 8;
+    const uint64_t min = UINT64_C(1) << 28, per_byte = 8;
     archive->work = 0;
-    archive->work_limit = least + per_byte * archive->content_limit;
+    archive->work_limit = min + per_byte * archive->content_limit;
     archive->interrupted = false;
 }
 
@@ -242,12 +242,12 @@ bool archive_open_database(PetriArchive *archive, const char *file) {
 
 // Sets the maximum length of a value, so that SQLite does not allocate more than the archive can contain.
 static void limit_values(PetriArchive *archive, ArchiveStatement number) {
-    uint64_t most = 1000000000;
+    uint64_t max = 1000000000;
     size_t left = archive->memory_limit - archive->memory;
-    most = most < archive->content_limit ? most : archive->content_limit;
-    most = most < left ? most : left;
-    most = is_long(number) || most < ARCHIVE_MAX_TEXT ? most : ARCHIVE_MAX_TEXT;
-    sqlite3_limit(archive->database, SQLITE_LIMIT_LENGTH, (int)most);
+    max = max < archive->content_limit ? max : archive->content_limit;
+    max = max < left ? max : left;
+    max = is_long(number) || max < ARCHIVE_MAX_TEXT ? max : ARCHIVE_MAX_TEXT;
+    sqlite3_limit(archive->database, SQLITE_LIMIT_LENGTH, (int)max);
 }
 
 sqlite3_stmt *archive_statement(PetriArchive *archive, ArchiveStatement number) {

@@ -7,6 +7,7 @@
 #include "base/os.h"
 #include "recording/archive.h"
 #include "recording/journal.h"
+#include "recording/recognise.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -206,20 +207,11 @@ static int last_error(sqlite3_vfs *vfs, int size, char *text) {
 
 // --- opening
 
-static int open_regular(const char *path, struct stat *info) {
-    int file = file_open_at(AT_FDCWD, path, O_RDONLY | O_NONBLOCK | O_NOFOLLOW, 0);
-    if (file >= 0 && fstat(file, info) == 0 && S_ISREG(info->st_mode))
-        return file;
-    if (file >= 0)
-        close(file);
-    return -1;
-}
-
 static bool open_journal(PetriArchive *archive, ArchivePages *pages) {
     char path[PATH_MAX + sizeof "-journal"];
     struct stat info;
     snprintf(path, sizeof path, "%s-journal", pages->path);
-    pages->journal_file = open_regular(path, &info);
+    pages->journal_file = archive_open_regular(path, O_NOFOLLOW, &info);
     if (pages->journal_file < 0)
         return true;
     const char *problem = archive_journal_read(&pages->journal, pages->journal_file);
@@ -296,7 +288,7 @@ bool archive_connect(PetriArchive *archive, const char *name) {
         return archive_fail(archive, "out of memory");
     pages->file = pages->journal_file = -1;
     // The journal is beside the file to which a symbolic link leads.
-    pages->file = file_resolve(name, pages->path) ? open_regular(pages->path, &pages->opened) : -1;
+    pages->file = file_resolve(name, pages->path) ? archive_open_regular(pages->path, O_NOFOLLOW, &pages->opened) : -1;
     if (pages->file < 0)
         return archive_fail(archive, "%s", strerror(errno));
     if (!open_journal(archive, pages) || !check_header(archive, pages))

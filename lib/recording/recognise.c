@@ -7,7 +7,6 @@
 
 #include <fcntl.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 void petri_archive_options_init(PetriArchiveOptions *options, size_t size) {
@@ -15,13 +14,12 @@ void petri_archive_options_init(PetriArchiveOptions *options, size_t size) {
     host_struct_write(options, size, &usual, sizeof usual);
 }
 
-// Opens a regular file for reading. Other files are not even opened, because a pipe could block or lose its reader.
-static int open_regular(const char *path) {
-    struct stat info;
-    if (!path || stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+int archive_open_regular(const char *path, int flags, struct stat *info) {
+    if (!path || fstatat(AT_FDCWD, path, info, flags & O_NOFOLLOW ? AT_SYMLINK_NOFOLLOW : 0) != 0 ||
+        !S_ISREG(info->st_mode))
         return -1;
-    int file = file_open_at(AT_FDCWD, path, O_RDONLY | O_NONBLOCK, 0);
-    if (file >= 0 && (fstat(file, &info) != 0 || !S_ISREG(info.st_mode))) {
+    int file = file_open_at(AT_FDCWD, path, O_RDONLY | O_NONBLOCK | flags, 0);
+    if (file >= 0 && (fstat(file, info) != 0 || !S_ISREG(info->st_mode))) {
         close(file);
         return -1;
     }
@@ -38,7 +36,8 @@ bool archive_has_header(int file) {
 }
 
 bool petri_archive_is(const char *file) {
-    int opened = open_regular(file);
+    struct stat info;
+    int opened = archive_open_regular(file, 0, &info);
     bool known = opened >= 0 && archive_has_header(opened);
     if (opened >= 0)
         close(opened);

@@ -87,7 +87,7 @@ typedef struct Load {
     Str name;         // name for messages
     Str text;
     Unit *reload_of; // script whose text is compiled again, or NULL
-    bool read_again; // included files are read again, too
+    bool read_again; // included files are also read again
     // Results
     Unit *unit;
     ClockRates rates;
