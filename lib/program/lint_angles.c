@@ -115,18 +115,23 @@ void lint_call_angles(Compiler *compiler, const Ast *call) {
                          str_from(angles[i].function));
 }
 
-// Returns true if an attribute is in turns in all kinds of nodes with this name that have it.
+static bool is_in_turns(const SchemaRow *row) {
+    return row->unit[0] == 't' && strcmp(row->unit, "turns") == 0; // most rows need no call
+}
+
+static bool has_name(const SchemaRow *row, Str node, Str attr) {
+    return str_equal(attr, str_from(schema_names[row->name])) &&
+           str_equal(node, str_from(schema_kinds[row->kind].name));
+}
+
+// Returns true if an attribute is in turns in all kinds of nodes with this name that have it. First looks for it among
+// the few rows in turns, because this is done for each attribute of a script.
 static bool is_angle(Str node, Str attr) {
     bool found = false;
-    for (int i = 0; i < ROW_COUNT; i++) {
-        const SchemaRow *row = &schema_rows[i];
-        if (!str_equal(attr, str_from(schema_names[row->name])) ||
-            !str_equal(node, str_from(schema_kinds[row->kind].name)))
-            continue;
-        if (strcmp(row->unit, "turns") != 0)
-            return false;
-        found = true;
-    }
+    for (int i = 0; i < ROW_COUNT && !found; i++)
+        found = is_in_turns(&schema_rows[i]) && has_name(&schema_rows[i], node, attr);
+    for (int i = 0; i < ROW_COUNT && found; i++)
+        found = is_in_turns(&schema_rows[i]) || !has_name(&schema_rows[i], node, attr);
     return found;
 }
 
