@@ -20,12 +20,11 @@ pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
 ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows, video, plans of petri sweep, links, HDF5 files and editors:
+# For windows, video, plans of petri sweep, links, HDF5 files and archives:
 BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 pkg-config --exists yaml-0.1: libyaml-dev
-pkg-config --exists json-c: libjson-c-dev
 pkg-config --exists zlib  : zlib1g-dev
 pkg-config --exists hdf5  : libhdf5-dev
 pkg-config --exists sqlite3 : libsqlite3-dev
@@ -129,7 +128,7 @@ STATIC_NEEDS='command -v musl-gcc: musl-tools'
 WITHOUT='-Dauto_features=disabled -Dtests=false -Ddefault_library=static'
 CLEAN_INSTALL_NEEDS='command -v debootstrap: debootstrap'
 # Libraries that meson uses if they are installed. If this set changes, build folders are configured again.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 sqlite3 json-c cmocka x11 ompi-c mpfr python3 tree-sitter'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 sqlite3 cmocka x11 ompi-c mpfr python3 tree-sitter'
 
 # present_modules NAME...: prints those of the modules that the system's Python has. Does not import them, which would take
 # long. -I prevents Python from finding the folder `build` as the module `build`.
@@ -175,7 +174,6 @@ libgl1-mesa-dri      -            mesa-dri-drivers     mesa
 libgles2             -            libglvnd-gles        -
 libhdf5-dev          hdf5         hdf5-devel           hdf5
 libjpeg-dev          jpeg-turbo   libjpeg-turbo-devel  libjpeg-turbo
-libjson-c-dev        json-c       json-c-devel         json-c
 libpango1.0-dev      pango        pango-devel          pango
 libpng-dev           libpng       libpng-devel         libpng
 libsdl2-dev          sdl2         SDL2-devel           sdl2

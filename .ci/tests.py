@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 # Programs that petri starts: tests of petri may need any of them.
-HELPERS = ('petri-pictures', 'petri-hdf5', 'petri-lsp', 'petri-ranks')
+HELPERS = ('petri-pictures', 'petri-hdf5', 'petri-ranks')
 
 
 def suites_of(test):

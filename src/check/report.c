@@ -15,20 +15,18 @@ static const struct {
 };
 
 // Adds a rule of SARIF: a code, its meaning, and the page that lists all codes.
-static void add_rule(Text *out, const char *code) {
+static void put_rule(JsonWriter *json, const char *code) {
     const char *text = NULL;
     for (size_t i = 0; !text && i < sizeof rules / sizeof rules[0]; i++)
         if (strcmp(rules[i].code, code) == 0)
             text = rules[i].text;
-    text_add_c(out, "{");
-    JSON_ADD(out, "id", code);
+    json_open(json, NULL, "{");
+    json_put_text(json, "id", code);
     if (text) {
-        text_add_c(out, ", \"shortDescription\": {");
-        JSON_ADD(out, "text", text);
-        text_add_c(out, "}");
-        JSON_ADD(out, "helpUri", PETRI_HOMEPAGE "/manual/diagnostics.html");
+        JSON_PUT_OBJECT(json, "shortDescription", "text", text);
+        json_put_text(json, "helpUri", PETRI_HOMEPAGE "/manual/diagnostics.html");
     }
-    text_add_c(out, "}");
+    json_close(json, "}");
 }
 
 // Adds text and hint as one message.
@@ -49,37 +47,42 @@ static void add_gcc(Report *report, const PetriDiagnostic *diagnostic, const cha
 
 static void add_json(Report *report, const PetriDiagnostic *diagnostic) {
     text_add_c(&report->text, report->count == 0 ? "[\n  " : ",\n  ");
-    json_add_diagnostic(&report->text, diagnostic);
+    json_put_diagnostic(&(JsonWriter){.out = &report->text, .spaced = true}, diagnostic);
 }
 
 static uint32_t at_least_1(uint32_t number) {
     return number > 0 ? number : 1;
 }
 
+static void put_location(JsonWriter *json, const char *file, const PetriDiagnostic *diagnostic) {
+    SCOPED_TEXT uri = {0};
+    text_add_uri(&uri, file);
+    json_open(json, "locations", "[{");
+    json_open(json, "physicalLocation", "{");
+    JSON_PUT_OBJECT(json, "artifactLocation", "uri", uri.bytes);
+    json_open(json, "region", "{");
+    json_put_integer(json, "startLine", at_least_1(diagnostic->line));
+    json_put_integer(json, "startColumn", at_least_1(diagnostic->column));
+    json_put_integer(json, "endLine", at_least_1(diagnostic->end_line));
+    json_put_integer(json, "endColumn", at_least_1(diagnostic->end_column));
+    json_close(json, "}}}]");
+}
+
 static void add_sarif(Report *report, const PetriDiagnostic *diagnostic, const char *message_text) {
-    Text *out = &report->text;
-    text_add_format(out, "%s\n      {", report->count == 0 ? "" : ",");
-    JSON_ADD(out, "level", level_word(diagnostic->level));
+    JsonWriter json = {.out = &report->text, .spaced = true};
+    text_add_c(json.out, report->count == 0 ? "\n      " : ",\n      ");
+    json_open(&json, NULL, "{");
+    json_put_text(&json, "level", level_word(diagnostic->level));
     if (diagnostic->code) {
-        JSON_ADD(out, "ruleId", diagnostic->code);
+        json_put_text(&json, "ruleId", diagnostic->code);
         if (!texts_contain(&report->codes, diagnostic->code))
             texts_add(&report->codes, diagnostic->code);
     }
-    text_add_c(out, ", \"message\": {");
-    JSON_ADD(out, "text", message_text);
-    text_add_c(out, "}");
+    JSON_PUT_OBJECT(&json, "message", "text", message_text);
     const char *file = diagnostic->file ? diagnostic->file : report->script;
-    if (file) { // sites that show findings require a location
-        SCOPED_TEXT uri = {0};
-        text_add_uri(&uri, file);
-        text_add_c(out, ", \"locations\": [{\"physicalLocation\": {\"artifactLocation\": {");
-        JSON_ADD(out, "uri", uri.bytes);
-        text_add_format(
-            out, "}, \"region\": {\"startLine\": %u, \"startColumn\": %u, \"endLine\": %u, \"endColumn\": %u}}}]",
-            at_least_1(diagnostic->line), at_least_1(diagnostic->column), at_least_1(diagnostic->end_line),
-            at_least_1(diagnostic->end_column));
-    }
-    text_add_c(out, "}");
+    if (file) // sites that show findings require a location
+        put_location(&json, file, diagnostic);
+    json_close(&json, "}");
 }
 
 void report_add(Report *report, const PetriDiagnostic *diagnostic) {
@@ -100,10 +103,9 @@ static void frame_sarif(const Report *report, Text *out) {
         "{\n  \"$schema\": \"https://json.schemastore.org/sarif-2.1.0.json\",\n  \"version\": \"2.1.0\",\n"
         "  \"runs\": [{\n    \"tool\": {\"driver\": {\"name\": \"petri\", \"version\": \"%s\", \"rules\": [",
         petri_version());
-    for (size_t i = 0; i < report->codes.count; i++) {
-        text_add_c(out, i == 0 ? "" : ", ");
-        add_rule(out, report->codes.items[i]);
-    }
+    JsonWriter json = {.out = out, .spaced = true};
+    for (size_t i = 0; i < report->codes.count; i++)
+        put_rule(&json, report->codes.items[i]);
     text_add_format(out, "]}},\n    \"invocations\": [{\"executionSuccessful\": %s}],\n",
                     report->incomplete ? "false" : "true");
     text_add_c(out, "    \"columnKind\": \"unicodeCodePoints\",\n    \"results\": [");

@@ -57,8 +57,6 @@ struct CommandContext {
     const struct PlotSupport *plot_support; // plans and plots of petri sweep; NULL: this program has none
     // Prints the triangles of a checked script (check/meshes.c). NULL: this program cannot draw.
     void (*print_meshes)(const CommandContext *context, const struct Options *options, const char *path);
-    // Runs petri lsp. NULL in all programs except petri-lsp.
-    int (*run_lsp)(const CommandContext *context, struct Options *options);
     const struct PetriRanks *ranks;   // the processes (ranks) that mpirun has started; NULL: a single process
     const struct MpiChannel *channel; // messages between the ranks; NULL: a single process
     void (*leave_ranks)(void);        // stops waiting for the other ranks; can be called by a signal handler

@@ -97,20 +97,6 @@ int helper_exec_pictures(char **argv) {
     return STATUS_FAILED;
 }
 
-int helper_exec_lsp(char **argv) {
-#ifdef PETRI_LSP
-    (void)argv;
-    return -1;
-#else
-    char path[PATH_MAX + 64];
-    int cause = exec_helper("petri-lsp", argv, path);
-    message("cannot start petri-lsp: %s%s", strerror(cause),
-            cause == ENOENT ? "; petri was built without json-c; on Debian, install libjson-c-dev and build petri again"
-                            : "");
-    return STATUS_FAILED;
-#endif
-}
-
 // Returns a hint for a missing petri-ranks. `folder` is that of this program.
 static const char *ranks_hint(char folder[PATH_MAX + 64]) {
 #ifdef HAVE_MPI

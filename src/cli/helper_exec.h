@@ -16,9 +16,6 @@ bool helper_exec_needs_meshes(char **argv);
 bool helper_exec_forwards_unknown(void);
 // Executes petri-pictures with the same arguments. Returns only on failure: the exit status, after a message.
 int helper_exec_pictures(char **argv);
-// Executes petri-lsp, the language server. Returns -1 if this program is petri-lsp. On failure, returns the exit status
-// after a message.
-int helper_exec_lsp(char **argv);
 // Executes petri-ranks if mpirun has started several processes. Returns -1 if mpirun has not done so, or if
 // petri-ranks does not exist and `needed` is false. On other failures, returns the exit status after a message.
 int helper_exec_ranks(char **argv, bool needed);

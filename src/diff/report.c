@@ -62,65 +62,59 @@ void report_text(const DiffReport *report, Text *text) {
 
 // --- JSON
 
-static void add_string(Text *out, const char *name, Str value) {
-    SCOPED_STRING copy = value.bytes ? memory_strndup(value.bytes, value.len) : NULL;
-    text_add_format(out, ",\"%s\":", name);
-    json_add_text(out, copy);
-}
-
-static void add_ulps(Text *out, const Str *values) {
+static void put_ulps(JsonWriter *json, const Str *values) {
     SCOPED_TEXT ulps = {0};
     if (values[0].bytes && values[1].bytes)
         value_add_ulps(&ulps, values[0], values[1]);
-    add_string(out, "ulps", ulps.len > 0 ? text_str(&ulps) : (Str){NULL, 0});
+    json_put_str(json, "ulps", ulps.len > 0 ? text_str(&ulps) : (Str){NULL, 0});
 }
 
-static void add_row(Text *out, const char *name, const ForceRow *row) {
-    text_add_format(out, ",\"%s\":", name);
+static const char *word_or_null(const char *word) {
+    return strcmp(word, "-") == 0 ? NULL : word;
+}
+
+static void put_row(JsonWriter *json, const char *name, const ForceRow *row) {
     if (!row->name) {
-        text_add_c(out, "null");
+        json_put_text(json, name, NULL);
         return;
     }
-    text_add_c(out, "{\"kind\":");
-    json_add_text(out, row->name);
-    add_string(out, "from", strcmp(row->partner, "-") == 0 ? (Str){NULL, 0} : str_from(row->partner));
-    add_string(out, "contribution", str_from(row->vector));
-    add_string(out, "position", strcmp(row->position, "-") == 0 ? (Str){NULL, 0} : str_from(row->position));
-    text_add_c(out, "}");
+    JSON_PUT_OBJECT(json, name, "kind", row->name, "from", word_or_null(row->partner), "contribution", row->vector,
+                    "position", word_or_null(row->position));
+}
+
+static void put_force(JsonWriter *json, const ForceDifference *force) {
+    const Str values[] = {text_or_none(force->rows[0].vector), text_or_none(force->rows[1].vector)};
+    json_open(json, "force", "{");
+    json_put_text(json, "particle", force->particle.bytes);
+    json_put_integer(json, "step", (int64_t)force->step);
+    json_put_integer(json, "steps", (int64_t)force->steps);
+    put_row(json, "a", &force->rows[0]);
+    put_row(json, "b", &force->rows[1]);
+    put_ulps(json, values);
+    json_close(json, "}");
 }
 
 void report_json(const DiffReport *report, Text *out) {
     const Side *sides = report->sides;
     const ForceDifference *force = report->force;
     const StateDifference *first = first_entry(report);
-    double time = isnan(sides[0].time) ? sides[1].time : sides[0].time;
-    text_add_c(out, "{\"same\":false,\"a\":");
-    json_add_text(out, sides[0].label.bytes);
-    add_string(out, "b", text_str(&sides[1].label));
-    text_add_format(out, ",\"frame\":%" PRId64, sides[0].frame);
-    text_add_c(out, ",\"time\":");
-    if (isnan(time))
-        text_add_c(out, "null");
+    JsonWriter json = {.out = out};
+    json_open(&json, NULL, "{");
+    json_put_written(&json, "same", STR("false"));
+    JSON_PUT_TEXTS(&json, "a", sides[0].label.bytes, "b", sides[1].label.bytes);
+    json_put_integer(&json, "frame", sides[0].frame);
+    json_put_number(&json, "time", isnan(sides[0].time) ? sides[1].time : sides[0].time);
+    json_put_integer(&json, "entries", (int64_t)report->differences->total);
+    json_put_integer(&json, "differing", (int64_t)report->differences->count);
+    json_open(&json, "first", "{");
+    json_put_str(&json, "key", first->key);
+    json_put_str(&json, "a", first->values[0]);
+    json_put_str(&json, "b", first->values[1]);
+    put_ulps(&json, first->values);
+    json_close(&json, "}");
+    if (force->particle.len > 0 && (force->rows[0].name || force->rows[1].name))
+        put_force(&json, force);
     else
-        text_add_number(out, time);
-    text_add_format(out, ",\"entries\":%zu,\"differing\":%zu", report->differences->total, report->differences->count);
-    text_add_c(out, ",\"first\":{\"key\":");
-    SCOPED_STRING key = memory_strndup(first->key.bytes, first->key.len);
-    json_add_text(out, key);
-    add_string(out, "a", first->values[0]);
-    add_string(out, "b", first->values[1]);
-    add_ulps(out, first->values);
-    text_add_c(out, "},\"force\":");
-    if (force->particle.len == 0 || !(force->rows[0].name || force->rows[1].name)) {
-        text_add_c(out, "null}\n");
-        return;
-    }
-    text_add_c(out, "{\"particle\":");
-    json_add_text(out, force->particle.bytes);
-    text_add_format(out, ",\"step\":%" PRIu64 ",\"steps\":%" PRIu64, force->step, force->steps);
-    add_row(out, "a", &force->rows[0]);
-    add_row(out, "b", &force->rows[1]);
-    const Str values[] = {text_or_none(force->rows[0].vector), text_or_none(force->rows[1].vector)};
-    add_ulps(out, values);
-    text_add_c(out, "}}\n");
+        json_put_text(&json, "force", NULL);
+    json_close(&json, "}\n");
 }

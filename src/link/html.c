@@ -45,23 +45,24 @@ static void add_escaped(Text *out, const Text *json) {
 }
 
 static bool add_data(Text *out, const LinkSession *link_session, const char *page) {
-    SCOPED_TEXT json = {0};
+    SCOPED_TEXT text = {0};
     SCOPED_TEXT link = {0};
     if (!link_pack(&link, &link_session->linked, SIZE_MAX))
         return false;
-    text_add_c(&json, "{");
-    JSON_ADD(&json, "link", link.bytes, "page", page ? page : "http://127.0.0.1:8080/");
-    text_add_c(&json, ",\"files\":{");
+    JsonWriter json = {.out = &text, .spaced = true};
+    json_open(&json, NULL, "{");
+    JSON_PUT_TEXTS(&json, "link", link.bytes, "page", page ? page : "http://127.0.0.1:8080/");
+    json.spaced = false;
+    json_open(&json, "files", "{");
     for (size_t i = 0; i < link_session->file_count; i++) {
         const LinkedFile *file = &link_session->files[i];
-        text_add_c(&json, i == 0 ? "" : ",");
-        json_add_text(&json, file->name);
-        text_add_c(&json, ":\"");
-        link_add_base64(&json, file->bytes.bytes, file->bytes.len);
-        text_add_c(&json, "\"");
+        SCOPED_TEXT bytes = {0};
+        text_add_c(&bytes, "");
+        link_add_base64(&bytes, file->bytes.bytes, file->bytes.len);
+        json_put_text(&json, file->name, bytes.bytes);
     }
-    text_add_c(&json, "}}");
-    add_escaped(out, &json);
+    json_close(&json, "}}");
+    add_escaped(out, &text);
     return true;
 }
 

@@ -4,7 +4,6 @@
 #include "cli/cli.h"
 #include "cli/json.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,10 +34,9 @@ void link_add_base64(Text *out, const char *text, size_t length) {
 }
 
 #ifdef HAVE_LINKS
-#include <json-c/json.h>
 #include <zlib.h>
 
-enum { VERSION = 1, MAX_TEXT = 4 << 20, MAX_FRAME = 1000000, MAX_CHANGES = 10000, RAW = -MAX_WBITS };
+enum { VERSION = 1, MAX_TEXT = 4 << 20, MAX_FRAME = 1000000, MAX_CHANGES = 10000, MAX_DEPTH = 7, RAW = -MAX_WBITS };
 
 bool link_possible(void) {
     return true;
@@ -73,24 +71,24 @@ static bool read_base64(Text *out, const char *text, size_t length) {
 }
 
 static void add_json(Text *out, const Linked *linked) {
-    text_add_format(out, "{\"v\":%d,\"t\":", VERSION);
-    json_add_text(out, linked->text.bytes);
-    text_add_c(out, ",\"n\":");
-    json_add_text(out, linked->name);
-    text_add_c(out, ",\"c\":[");
+    JsonWriter json = {.out = out};
+    json_open(&json, NULL, "{");
+    json_put_integer(&json, "v", VERSION);
+    JSON_PUT_TEXTS(&json, "t", linked->text.bytes, "n", linked->name);
+    json_open(&json, "c", "[");
     for (size_t i = 0; i < linked->change_count; i++) {
-        text_add_format(out, "%s[%" PRId64 ",", i == 0 ? "" : ",", linked->changes[i].frame);
-        json_add_text(out, linked->changes[i].name);
-        text_add_c(out, ",");
-        json_add_text(out, linked->changes[i].value);
-        text_add_c(out, "]");
+        json_open(&json, NULL, "[");
+        json_put_integer(&json, NULL, linked->changes[i].frame);
+        json_put_text(&json, NULL, linked->changes[i].name);
+        json_put_text(&json, NULL, linked->changes[i].value);
+        json_close(&json, "]");
     }
-    text_add_c(out, "]");
+    json_close(&json, "]");
     if (linked->digest) {
-        text_add_format(out, ",\"f\":%" PRId64 ",\"d\":", linked->frame);
-        json_add_text(out, linked->digest);
+        json_put_integer(&json, "f", linked->frame);
+        json_put_text(&json, "d", linked->digest);
     }
-    text_add_c(out, "}");
+    json_close(&json, "}");
 }
 
 bool link_pack(Text *out, const Linked *linked, size_t max_length) {
@@ -137,10 +135,8 @@ static bool unpack(Text *json, const Text *packed, bool *too_long) {
 }
 
 // Returns the contents of a JSON string, or NULL if the value is not a string or contains NUL.
-static const char *string_value(json_object *value) {
-    bool good = json_object_is_type(value, json_type_string) &&
-                strlen(json_object_get_string(value)) == (size_t)json_object_get_string_len(value);
-    return good ? json_object_get_string(value) : NULL;
+static const char *string_value(const Json *value) {
+    return json_is(value, JSON_STRING) && strlen(value->text) == value->length ? value->text : NULL;
 }
 
 // Returns true if a name has no control characters. With a line break, a name could forge a message about the link.
@@ -159,20 +155,18 @@ static int by_frame(const void *a, const void *b) {
     return first->number < second->number ? -1 : 1;
 }
 
-static bool integer_value(json_object *value, int64_t *number) {
-    *number = json_object_get_int64(value);
-    return json_object_is_type(value, json_type_int) && *number >= -1 && *number <= MAX_FRAME;
+static bool frame_value(const Json *value, int64_t *number) {
+    return json_integer(value, number) && *number >= -1 && *number <= MAX_FRAME;
 }
 
 static const char NOT_A_LINK[] = "not a petri link";
 
-static bool parse_change(LinkedChange *change, json_object *items) {
-    if (!json_object_is_type(items, json_type_array) || json_object_array_length(items) != 3 ||
-        !integer_value(json_object_array_get_idx(items, 0), &change->frame))
+static bool parse_change(LinkedChange *change, const Json *items) {
+    if (json_length(items) != 3)
         return false;
-    const char *name = string_value(json_object_array_get_idx(items, 1));
-    const char *value = string_value(json_object_array_get_idx(items, 2));
-    if (!name || !value)
+    const Json *frame = json_next(items, NULL), *second = json_next(items, frame);
+    const char *name = string_value(second), *value = string_value(json_next(items, second));
+    if (!frame_value(frame, &change->frame) || !name || !value)
         return false;
     change->name = memory_strdup(name);
     change->value = memory_strdup(value);
@@ -180,55 +174,45 @@ static bool parse_change(LinkedChange *change, json_object *items) {
 }
 
 // Returns NULL, or the reason why the changes are invalid.
-static const char *parse_changes(Linked *linked, json_object *changes) {
+static const char *parse_changes(Linked *linked, const Json *changes) {
     if (!changes)
         return NULL;
-    size_t count = json_object_is_type(changes, json_type_array) ? json_object_array_length(changes) : SIZE_MAX;
-    if (count > MAX_CHANGES)
-        return count == SIZE_MAX ? NOT_A_LINK : "the link has more than 10000 changes of parameters";
+    size_t count = json_length(changes);
+    if (!json_is(changes, JSON_ARRAY) || count > MAX_CHANGES)
+        return count > MAX_CHANGES ? "the link has more than 10000 changes of parameters" : NOT_A_LINK;
     linked->changes = memory_calloc((count + 1) * sizeof *linked->changes);
-    for (size_t i = 0; i < count; i++) {
-        linked->changes[i].number = i;
-        if (!parse_change(&linked->changes[i], json_object_array_get_idx(changes, i)))
+    for (const Json *change = NULL; (change = json_next(changes, change)); linked->change_count++) {
+        linked->changes[linked->change_count].number = linked->change_count;
+        if (!parse_change(&linked->changes[linked->change_count], change))
             return NOT_A_LINK;
-        linked->change_count++;
     }
     qsort(linked->changes, count, sizeof *linked->changes, by_frame);
     return NULL;
 }
 
 // Returns NULL, or the reason why the link is invalid.
-static const char *parse_link(Linked *linked, json_object *all) {
-    json_object *frame = json_object_object_get(all, "f"), *name = json_object_object_get(all, "n");
-    json_object *digest = json_object_object_get(all, "d"), *hash = json_object_object_get(all, "h");
-    const char *text = string_value(json_object_object_get(all, "t"));
+static const char *parse_link(Linked *linked, const Json *all) {
+    const Json *frame = json_get(all, "f"), *name = json_get(all, "n");
+    const Json *digest = json_get(all, "d"), *hash = json_get(all, "h");
+    const char *text = string_value(json_get(all, "t"));
     if (!text || (name && (!string_value(name) || !is_printable(string_value(name)))) ||
         (digest && !string_value(digest)) || (hash && !string_value(hash)) ||
-        (frame && !integer_value(frame, &linked->frame)))
+        (frame && !frame_value(frame, &linked->frame)))
         return NOT_A_LINK;
     text_add_c(&linked->text, text);
     linked->name = memory_strdup(!name || string_value(name)[0] == '\0' ? "script.fl" : string_value(name));
     linked->digest = !digest ? NULL : memory_strdup(string_value(digest));
     linked->hash = !hash ? NULL : memory_strdup(string_value(hash));
-    return parse_changes(linked, json_object_object_get(all, "c"));
+    return parse_changes(linked, json_get(all, "c"));
 }
 
 static bool read_json(Linked *linked, const Text *text) {
-    json_tokener *tokener = json_tokener_new_ex(8);
-    if (!tokener)
-        return report_error("out of memory");
-    json_tokener_set_flags(tokener, JSON_TOKENER_STRICT);
-    // json-c itself would accept overlong encodings.
-    bool well_formed = utf8_find_error((Str){text->bytes, text->len}) == text->len;
-    json_object *all = well_formed ? json_tokener_parse_ex(tokener, text->bytes, (int)text->len) : NULL;
-    bool parsed = json_object_is_type(all, json_type_object) && json_tokener_get_parse_end(tokener) == text->len;
-    json_object *version = parsed ? json_object_object_get(all, "v") : NULL;
-    bool newer = json_object_is_type(version, json_type_int) && json_object_get_int64(version) > VERSION;
-    const char *problem = newer     ? "the link is from a newer petri; update petri to open it"
-                          : !parsed ? NOT_A_LINK
-                                    : parse_link(linked, all);
-    json_object_put(all);
-    json_tokener_free(tokener);
+    SCOPED_JSON document = {0};
+    const Json *all = json_read(&document, text_str(text), MAX_DEPTH);
+    bool newer = json_integer_or(all, "v", VERSION) > VERSION;
+    const char *problem = newer                        ? "the link is from a newer petri; update petri to open it"
+                          : !json_is(all, JSON_OBJECT) ? NOT_A_LINK
+                                                       : parse_link(linked, all);
     return !problem || report_error(problem);
 }
 
@@ -252,8 +236,7 @@ bool link_read(Linked *linked, const Text *link) {
 #else
 
 bool link_possible(void) {
-    message("cannot use links: petri was built without zlib or json-c; on Debian, install zlib1g-dev and "
-            "libjson-c-dev, and build petri again");
+    message("cannot use links: petri was built without zlib; on Debian, install zlib1g-dev and build petri again");
     return false;
 }
 

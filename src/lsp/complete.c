@@ -23,35 +23,41 @@ enum {
 // A list of completion items.
 typedef struct Offer {
     const RequestContext *request;
-    Json *items;
+    JsonWriter *items;
     size_t start;    // offset of the word being completed
     TextList labels; // labels added so far
 } Offer;
 
-// Adds an item that replaces the word with `insert`. `order` is the first character of the item's sort key. Returns the
-// item, or NULL if there is already an item with this label.
-static Json *add_candidate(Offer *all, const char *label, int kind, const char *insert, char order) {
+// Begins an item that replaces the word with its label. `order` is the first character of the item's sort key. Returns
+// false if there is already an item with this label. Otherwise, end_candidate must follow.
+static bool begin_candidate(Offer *all, const char *label, int kind, char order) {
+    const RequestContext *request = all->request;
+    JsonWriter *json = all->items;
     if (texts_contain(&all->labels, label))
-        return NULL;
+        return false;
     texts_add(&all->labels, label);
-    Json *item = json_put_number(json_put_text(json_object_new_object(), "label", label), "kind", kind);
-    Json *edit =
-        json_put(json_object_new_object(), "range",
-                 document_range(all->request->document, all->start, all->request->offset, all->request->server->utf8));
-    json_put(item, "textEdit", json_put_text(edit, "newText", insert));
-    json_put_text(item, "filterText", insert);
+    json_open(json, NULL, "{");
+    json_put_text(json, "label", label);
+    json_put_integer(json, "kind", kind);
+    request_put_edit(json, "textEdit", request, all->start, request->offset, str_from(label));
+    json_put_text(json, "filterText", label);
     SCOPED_TEXT sort = {0};
     text_add_format(&sort, "%c%s", order, label);
-    json_put_text(item, "sortText", sort.bytes);
-    json_object_array_add(all->items, item);
-    return item;
+    json_put_text(json, "sortText", sort.bytes);
+    return true;
 }
 
-static void set_detail(Json *item, const char *text, const char *help) {
-    if (item && text[0] != '\0')
-        json_put_text(item, "detail", text);
-    if (item && help[0] != '\0')
-        json_put(item, "documentation", json_markdown(help));
+static void end_candidate(Offer *all, const char *detail, const char *help) {
+    if (detail[0] != '\0')
+        json_put_text(all->items, "detail", detail);
+    if (help[0] != '\0')
+        JSON_PUT_OBJECT(all->items, "documentation", "kind", "markdown", "value", help);
+    json_close(all->items, "}");
+}
+
+static void add_candidate(Offer *all, const char *label, int kind, char order, const char *detail, const char *help) {
+    if (begin_candidate(all, label, kind, order))
+        end_candidate(all, detail, help);
 }
 
 static void offer_kinds(Offer *all) {
@@ -59,7 +65,7 @@ static void offer_kinds(Offer *all) {
     for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
         SCOPED_TEXT label = {0};
         text_add_format(&label, "!%s", kind.name);
-        set_detail(add_candidate(all, label.bytes, AS_CLASS, label.bytes, 'a'), kind.area, kind.help);
+        add_candidate(all, label.bytes, AS_CLASS, 'a', kind.area, kind.help);
     }
 }
 
@@ -70,7 +76,7 @@ static void offer_attributes(Offer *all, size_t kind) {
         SCOPED_TEXT help = {0};
         text_add_format(&label, "%s=", attribute.name);
         hover_attribute(&help, &attribute);
-        set_detail(add_candidate(all, label.bytes, AS_FIELD, label.bytes, 'a'), attribute.type, help.bytes);
+        add_candidate(all, label.bytes, AS_FIELD, 'a', attribute.type, help.bytes);
     }
 }
 
@@ -78,16 +84,15 @@ static void offer_keywords(Offer *all, const char *list) {
     SCOPED_STRING copy = memory_strdup(list);
     char *rest = copy;
     for (char *word = str_split(&rest, ' '); word; word = str_split(&rest, ' '))
-        add_candidate(all, word, AS_KEYWORD, word, 'd');
+        add_candidate(all, word, AS_KEYWORD, 'd', "", "");
 }
 
 static void offer_name(Offer *all, Document *document, const PetriBinding *name) {
     SCOPED_STRING label = memory_strndup(document->text.bytes + name->start, name->end - name->start);
     SCOPED_TEXT help = {0};
-    Json *item = add_candidate(all, label, name->kind == PETRI_NAME_FUNC ? AS_FUNCTION : AS_VARIABLE, label, 'b');
-    if (item) {
+    if (begin_candidate(all, label, name->kind == PETRI_NAME_FUNC ? AS_FUNCTION : AS_VARIABLE, 'b')) {
         hover_binding(&help, all->request->server, document, name);
-        set_detail(item, "", help.bytes);
+        end_candidate(all, "", help.bytes);
     }
 }
 
@@ -124,10 +129,10 @@ static void offer_names(Offer *all) {
     for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++) {
         SCOPED_TEXT head = {0};
         text_add_format(&head, "%s(%s)", builtin.name, builtin.parameters);
-        set_detail(add_candidate(all, builtin.name, AS_FUNCTION, builtin.name, 'c'), head.bytes, builtin.help);
+        add_candidate(all, builtin.name, AS_FUNCTION, 'c', head.bytes, builtin.help);
     }
     for (size_t i = 0; TOPICS[i].word && strcmp(TOPICS[i].word, "let") != 0; i++)
-        set_detail(add_candidate(all, TOPICS[i].word, AS_CONSTANT, TOPICS[i].word, 'c'), "", TOPICS[i].help);
+        add_candidate(all, TOPICS[i].word, AS_CONSTANT, 'c', "", TOPICS[i].help);
 }
 
 // Offers the symbols in the script. If `keys` is true, offers only the state keys of systems and symbols that are
@@ -142,10 +147,8 @@ static void offer_symbols(Offer *all, bool keys) {
         bool writes = i >= 2 && document_is(document, i - 1, "=") && document_is(document, i - 2, "state");
         bool reads = i > 0 && (document_is(document, i - 1, "$") ||
                                (i > 1 && document_is(document, i - 2, "$") && document_is(document, i - 1, "(")));
-        if (!keys || writes || reads) {
-            set_detail(add_candidate(all, label, AS_CONSTANT, label, writes ? 'a' : 'b'),
-                       writes ? "key of a system" : "", "");
-        }
+        if (!keys || writes || reads)
+            add_candidate(all, label, AS_CONSTANT, writes ? 'a' : 'b', writes ? "key of a system" : "", "");
     }
 }
 
@@ -161,7 +164,7 @@ static void offer_choices(Offer *all, size_t token) {
             continue;
         for (const char *at = strchr(attribute.type, ':'); at; at = strchr(at + 1, ':')) {
             SCOPED_STRING word = memory_strndup(at, 1 + strspn(at + 1, "abcdefghijklmnopqrstuvwxyz_0123456789"));
-            add_candidate(all, word, AS_ENUM, word, 'a');
+            add_candidate(all, word, AS_ENUM, 'a', "", "");
         }
     }
 }
@@ -178,7 +181,7 @@ static void offer_files(Offer *all, size_t string) {
     DIR *entries = document->is_file ? opendir(path.bytes) : NULL;
     for (struct dirent *entry = !entries ? NULL : readdir(entries); entry; entry = readdir(entries))
         if (entry->d_name[0] != '.' && utf8_find_error(str_from(entry->d_name)) == strlen(entry->d_name))
-            add_candidate(all, entry->d_name, entry->d_type == DT_DIR ? AS_FOLDER : AS_FILE, entry->d_name, 'a');
+            add_candidate(all, entry->d_name, entry->d_type == DT_DIR ? AS_FOLDER : AS_FILE, 'a', "", "");
     if (entries)
         closedir(entries);
 }
@@ -254,7 +257,7 @@ static void offer_arguments(Offer *all) {
         SCOPED_TEXT label = {0};
         text_add_format(&label, "%s=", word);
         if (word[0] != '\0' && word[0] != '.')
-            set_detail(add_candidate(all, label.bytes, AS_FIELD, label.bytes, 'a'), "parameter", "");
+            add_candidate(all, label.bytes, AS_FIELD, 'a', "parameter", "");
     }
 }
 
@@ -288,10 +291,11 @@ static void offer_all(Offer *all, size_t token, bool first) {
         offer_kinds(all);
 }
 
-Json *answer_completion(const RequestContext *request, const char **problem) {
+void answer_completion(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     const Document *document = request->document;
-    Offer all = {.request = request, .items = json_object_new_array(), .start = request->offset};
+    Offer all = {.request = request, .items = result, .start = request->offset};
+    json_open(result, NULL, "[");
     size_t at = request->offset > 0 ? document_token_at(document, request->offset - 1) : document->token_count;
     bool within = at < document->token_count && document->tokens[at].start < request->offset;
     PetriTokenKind kind = within ? document->tokens[at].kind : PETRI_TOKEN_OPERATOR;
@@ -316,28 +320,31 @@ Json *answer_completion(const RequestContext *request, const char **problem) {
         offer_all(&all, token, line);
     }
     texts_free(&all.labels);
-    return all.items;
+    json_close(result, "]");
 }
 
-Json *answer_signature(const RequestContext *request, const char **problem) {
+void answer_signature(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     SCOPED_TEXT parameters = {0};
     SCOPED_TEXT help = {0};
     SCOPED_TEXT label = {0};
     size_t commas, callee = call_around(request->document, request->offset, &commas);
     if (callee == SIZE_MAX || !parameters_of(request, callee, &parameters, &help))
-        return NULL;
+        return;
     Str name = document_token(request->document, callee);
     text_add_format(&label, "%.*s(%s)", STR_ARGS(name), !parameters.bytes ? "" : parameters.bytes);
-    Json *list = json_object_new_array(), *signature = json_put_text(json_object_new_object(), "label", label.bytes);
+    json_open(result, NULL, "{");
+    json_open(result, "signatures", "[{");
+    json_put_text(result, "label", label.bytes);
+    JSON_PUT_OBJECT(result, "documentation", "kind", "markdown", "value", help.bytes);
+    json_open(result, "parameters", "[");
     char *rest = parameters.bytes;
     for (char *word = str_split(&rest, ','); word; word = str_split(&rest, ',')) {
         word += strspn(word, " \n");
-        json_object_array_add(list, json_put_text(json_object_new_object(), "label", word));
+        JSON_PUT_OBJECT(result, NULL, "label", word);
     }
-    json_put(json_put(signature, "documentation", json_markdown(help.bytes)), "parameters", list);
-    Json *signatures = json_object_new_array();
-    json_object_array_add(signatures, signature);
-    Json *result = json_put(json_object_new_object(), "signatures", signatures);
-    return json_put_number(json_put_number(result, "activeSignature", 0), "activeParameter", (int64_t)commas);
+    json_close(result, "]}]");
+    json_put_integer(result, "activeSignature", 0);
+    json_put_integer(result, "activeParameter", (int64_t)commas);
+    json_close(result, "}");
 }

@@ -34,13 +34,19 @@ static void add_valid_utf8(Text *out, Str text) {
     }
 }
 
+static void forget_values(Document *document) {
+    for (size_t i = 0; document->values && i < document->name_count; i++)
+        free(document->values[i]);
+    free(document->values);
+    document->values = NULL;
+}
+
 static void text_changed(Document *document) {
     document->text.len = source_unify_lines(document->text.bytes, document->text.len);
     document->text.bytes[document->text.len] = '\0';
     document->unread = document->unchecked = true;
     document->exceeded = false;
-    json_object_put(document->values);
-    document->values = NULL;
+    forget_values(document);
     count_lines(document);
 }
 
@@ -59,7 +65,6 @@ Document *document_new(const char *uri, Str text, int64_t version) {
     document->path = document->is_file ? document->path : memory_strdup(uri);
     document->canonical = path_canonical(document->path);
     document->version = version;
-    document->published = json_object_new_object();
     document_set_text(document, text);
     return document;
 }
@@ -73,6 +78,15 @@ void diagnostic_list_free(DiagnosticList *list) {
     free(list->items);
 }
 
+void file_diagnostics_free(FileDiagnosticsList *list) {
+    for (size_t i = 0; i < list->count; i++) {
+        free(list->items[i].uri);
+        texts_free(&list->items[i].items);
+    }
+    free(list->items);
+    *list = (FileDiagnosticsList){0};
+}
+
 static void forget_links(Document *document) {
     for (size_t i = 0; i < document->link_count; i++)
         free(document->links[i].path);
@@ -83,7 +97,9 @@ static void forget_links(Document *document) {
 
 void document_free(Document *document) {
     diagnostic_list_free(&document->diagnostics);
+    file_diagnostics_free(&document->published);
     forget_links(document);
+    forget_values(document);
     texts_free(&document->used);
     free(document->uri);
     free(document->path);
@@ -93,14 +109,12 @@ void document_free(Document *document) {
     free(document->levels);
     free(document->names);
     text_free(&document->text);
-    json_object_put(document->published);
-    json_object_put(document->values);
     free(document);
 }
 
 void document_change(Document *document, const Json *change, bool utf8) {
     const char *text = json_text(change, "text");
-    Json *range = json_get(change, "range");
+    const Json *range = json_get(change, "range");
     if (!text)
         return;
     if (!range) {
@@ -215,7 +229,7 @@ void document_read(Document *document, PetriSession *session) {
 }
 
 size_t document_offset(const Document *document, const Json *position, bool utf8) {
-    int64_t line = json_number(position, "line", 0), character = json_number(position, "character", 0);
+    int64_t line = json_integer_or(position, "line", 0), character = json_integer_or(position, "character", 0);
     if (line < 0 || (uint64_t)line >= document->line_count)
         return line < 0 ? 0 : document->text.len;
     Str text = {document->text.bytes, document->text.len};
@@ -257,16 +271,21 @@ void document_position(const Document *document, size_t offset, bool utf8, size_
     }
 }
 
-static Json *position_json(const Document *document, size_t offset, bool utf8) {
+void document_put_position(JsonWriter *json, const char *name, const Document *document, size_t offset, bool utf8) {
     size_t line, character;
     document_position(document, offset, utf8, &line, &character);
-    return json_put_number(json_put_number(json_object_new_object(), "line", (int64_t)line), "character",
-                           (int64_t)character);
+    json_open(json, name, "{");
+    json_put_integer(json, "line", (int64_t)line);
+    json_put_integer(json, "character", (int64_t)character);
+    json_close(json, "}");
 }
 
-Json *document_range(const Document *document, size_t start, size_t end, bool utf8) {
-    return json_put(json_put(json_object_new_object(), "start", position_json(document, start, utf8)), "end",
-                    position_json(document, end, utf8));
+void document_put_range(JsonWriter *json, const char *name, const Document *document, size_t start, size_t end,
+                        bool utf8) {
+    json_open(json, name, "{");
+    document_put_position(json, "start", document, start, utf8);
+    document_put_position(json, "end", document, end, utf8);
+    json_close(json, "}");
 }
 
 Str document_slice(const Document *document, size_t start, size_t end) {

@@ -14,6 +14,17 @@ typedef struct DocumentDiagnostic {
     char *code; // NULL: none
 } DocumentDiagnostic;
 
+// Diagnostics of a file, as they are published.
+typedef struct FileDiagnostics {
+    char *uri;
+    TextList items; // as JSON
+} FileDiagnostics;
+
+typedef struct FileDiagnosticsList {
+    FileDiagnostics *items;
+    size_t count;
+} FileDiagnosticsList;
+
 typedef struct DiagnosticList {
     DocumentDiagnostic *items;
     size_t count;
@@ -47,9 +58,9 @@ typedef struct Document {
     Link *links;
     size_t link_count;
     DiagnosticList diagnostics;
-    TextList used;   // files that the last check read
-    Json *published; // diagnostics of the last check: maps the URI of each file to a list
-    Json *values;    // maps the names of constants to their values; NULL: not evaluated yet
+    TextList used;                 // files that the last check read
+    FileDiagnosticsList published; // diagnostics of the last check
+    char **values;                 // value of each of `names` if it is a constant, else NULL; NULL: not evaluated yet
 } Document;
 
 Document *document_new(const char *uri, Str text, int64_t version);
@@ -59,11 +70,14 @@ void document_change(Document *document, const Json *change, bool utf8);
 // Updates tokens and names if they are outdated.
 void document_read(Document *document, PetriSession *session);
 void diagnostic_list_free(DiagnosticList *list);
+void file_diagnostics_free(FileDiagnosticsList *list);
 
 // Positions. A position after the end of the text is moved to the end.
 size_t document_offset(const Document *document, const Json *position, bool utf8);
 size_t document_offset_at(const Document *document, uint32_t line, uint32_t column); // both count from 1
-Json *document_range(const Document *document, size_t start, size_t end, bool utf8);
+void document_put_position(JsonWriter *json, const char *name, const Document *document, size_t offset, bool utf8);
+void document_put_range(JsonWriter *json, const char *name, const Document *document, size_t start, size_t end,
+                        bool utf8);
 void document_position(const Document *document, size_t offset, bool utf8, size_t *line, size_t *character);
 Str document_slice(const Document *document, size_t start, size_t end);
 Str document_token(const Document *document, size_t token);

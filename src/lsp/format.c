@@ -4,9 +4,12 @@
 
 #include <string.h>
 
-Json *request_edit(const RequestContext *request, size_t start, size_t end, Str text) {
-    Json *range = document_range(request->document, start, end, request->server->utf8);
-    return json_put(json_put(json_object_new_object(), "range", range), "newText", json_from(text));
+void request_put_edit(JsonWriter *json, const char *name, const RequestContext *request, size_t start, size_t end,
+                      Str text) {
+    json_open(json, name, "{");
+    document_put_range(json, "range", request->document, start, end, request->server->utf8);
+    json_put_str(json, "newText", text);
+    json_close(json, "}");
 }
 
 size_t request_offset(const RequestContext *request, const char *position) {
@@ -24,13 +27,13 @@ static bool keeps_meaning(const RequestContext *request, Str text) {
     return layout_same(request->server->session, document->path, text_str(&document->text), text);
 }
 
-// Returns a single edit that replaces the changed lines. Does not format a script with errors.
-Json *answer_format(const RequestContext *request, const char **problem) {
+// Answers with a single edit that replaces the changed lines. Does not format a script with errors.
+void answer_format(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     Str text = text_str(&request->document->text);
     SCOPED_TEXT out = {0};
     if (!format(request, &out) || !keeps_meaning(request, text_str(&out)))
-        return NULL;
+        return;
     size_t start = 0, end = 0, max = text.len < out.len ? text.len : out.len;
     while (start < max && text.bytes[start] == out.bytes[start])
         start++;
@@ -40,12 +43,11 @@ Json *answer_format(const RequestContext *request, const char **problem) {
         end++;
     while (end > 0 && text.bytes[text.len - end] != '\n')
         end--;
-    Json *edits = json_object_new_array();
-    if (text.len != out.len || start + end < text.len) {
-        json_object_array_add(
-            edits, request_edit(request, start, text.len - end, (Str){out.bytes + start, out.len - end - start}));
-    }
-    return edits;
+    Str changed = {out.bytes + start, out.len - end - start};
+    json_open(result, NULL, "[");
+    if (text.len != out.len || start + end < text.len)
+        request_put_edit(result, NULL, request, start, text.len - end, changed);
+    json_close(result, "]");
 }
 
 // Returns the next line with characters other than blanks, and moves *rest after it. Returns an empty string at the
@@ -62,15 +64,15 @@ static Str next_line(Str *rest) {
 }
 
 // The formatter neither joins nor breaks lines, and keeps all lines that are not empty.
-Json *answer_range_format(const RequestContext *request, const char **problem) {
+void answer_range_format(const RequestContext *request, JsonWriter *result, const char **problem) {
     const Document *document = request->document;
     size_t start = request_offset(request, "range.start"), end = request_offset(request, "range.end");
     Str text = text_str(&document->text);
     SCOPED_TEXT out = {0};
     SCOPED_TEXT changed = {0};
     if (!format(request, &out))
-        return NULL;
-    Json *edits = json_object_new_array();
+        return;
+    json_open(result, NULL, "[");
     size_t done = 0;
     for (Str before = text, after = text_str(&out);;) {
         Str line = next_line(&before), wanted = next_line(&after);
@@ -78,17 +80,14 @@ Json *answer_range_format(const RequestContext *request, const char **problem) {
         if (line.len == 0 || at >= end)
             break;
         if (at + line.len >= start && !str_equal(line, wanted)) {
-            json_object_array_add(edits, request_edit(request, at, at + line.len, wanted));
+            request_put_edit(result, NULL, request, at, at + line.len, wanted);
             text_add(&changed, (Str){text.bytes + done, at - done});
             text_add(&changed, wanted);
             done = at + line.len;
         }
     }
     text_add(&changed, (Str){text.bytes + done, text.len - done});
-    if (!keeps_meaning(request, text_str(&changed))) {
+    json_close(result, "]");
+    if (!keeps_meaning(request, text_str(&changed)))
         *problem = "cannot format these lines alone, because others are indented differently: format the whole script";
-        json_object_put(edits);
-        return NULL;
-    }
-    return edits;
 }

@@ -117,7 +117,7 @@ static void find_values(Server *server, Document *document) {
     options.read_unsaved = server_unsaved;
     options.read_user_data = server;
     PetriSession *session = petri_open(&options);
-    document->values = json_object_new_object();
+    document->values = memory_calloc(document->name_count * sizeof *document->values);
     bool loaded =
         session && petri_load_text(session, document->path, document->text.bytes, document->text.len) == PETRI_OK;
     for (size_t i = 0; loaded && i < document->name_count; i++) {
@@ -131,7 +131,7 @@ static void find_values(Server *server, Document *document) {
             petri_evaluate(session, own, strlen(own), &result, sizeof result, text_collect, &value) == PETRI_OK &&
             value.len > 0) {
             Str shown = str_truncate(text_str(&value), MAX_SHOWN);
-            json_put(document->values, own, json_from(shown));
+            document->values[i] = memory_strndup(shown.bytes, shown.len);
         }
     }
     petri_close(&session);
@@ -142,8 +142,7 @@ const char *hover_value(Server *server, Document *document, const PetriBinding *
         return NULL;
     if (!document->values)
         find_values(server, document);
-    SCOPED_STRING own = memory_strndup(document->text.bytes + name->start, name->end - name->start);
-    return json_text(document->values, own);
+    return document->values[name - document->names];
 }
 
 // --- names bound in the script
@@ -235,7 +234,7 @@ static void hover_number(Text *out, Str text) {
         text_add_format(out, "= `%.17g`", x);
 }
 
-Json *answer_hover(const RequestContext *request, const char **problem) {
+void answer_hover(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     Document *document = request->document;
     size_t token = document_token_at(document, request->offset);
@@ -243,7 +242,7 @@ Json *answer_hover(const RequestContext *request, const char **problem) {
                    document->tokens[token - 1].kind != PETRI_TOKEN_OPERATOR; // the cursor is at the end of the token
     token -= touches ? 1 : 0;
     if (token >= document->token_count || document->tokens[token].start > request->offset)
-        return NULL;
+        return;
     SCOPED_TEXT out = {0};
     Str text = document_token(document, token);
     switch (document->tokens[token].kind) {
@@ -264,9 +263,10 @@ Json *answer_hover(const RequestContext *request, const char **problem) {
         break;
     }
     if (out.len == 0)
-        return NULL;
-    Json *result = json_put(json_object_new_object(), "contents", json_markdown(out.bytes));
-    return json_put(
-        result, "range",
-        document_range(document, document->tokens[token].start, document->tokens[token].end, request->server->utf8));
+        return;
+    json_open(result, NULL, "{");
+    JSON_PUT_OBJECT(result, "contents", "kind", "markdown", "value", out.bytes);
+    document_put_range(result, "range", document, document->tokens[token].start, document->tokens[token].end,
+                       request->server->utf8);
+    json_close(result, "}");
 }

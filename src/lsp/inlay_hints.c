@@ -9,11 +9,11 @@ enum { MAX_HINT = 40 };
 
 // --- values of constants
 
-Json *answer_hints(const RequestContext *request, const char **problem) {
+void answer_hints(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     Document *document = request->document;
     size_t from = request_offset(request, "range.start"), to = request_offset(request, "range.end");
-    Json *list = json_object_new_array();
+    json_open(result, NULL, "[");
     for (size_t i = 0; i < document->name_count; i++) {
         const PetriBinding *name = &document->names[i];
         if (name->kind != PETRI_NAME_LET || name->value_end < from || name->value_start > to)
@@ -26,12 +26,13 @@ Json *answer_hints(const RequestContext *request, const char **problem) {
             continue;
         SCOPED_TEXT label = {0};
         text_add_format(&label, "= %s", value);
-        Json *range = document_range(document, name->value_end, name->value_end, request->server->utf8);
-        Json *item = json_put(json_object_new_object(), "position", json_object_get(json_get(range, "end")));
-        json_object_put(range);
-        json_object_array_add(list, json_put_true(json_put_text(item, "label", label.bytes), "paddingLeft"));
+        json_open(result, NULL, "{");
+        document_put_position(result, "position", document, name->value_end, request->server->utf8);
+        json_put_text(result, "label", label.bytes);
+        json_put_true(result, "paddingLeft");
+        json_close(result, "}");
     }
-    return list;
+    json_close(result, "]");
 }
 
 // --- colours
@@ -75,22 +76,24 @@ static void to_hsv(const double *rgb, double *hsv) {
     hsv[2] = max;
 }
 
-static void add_colour(const RequestContext *request, Json *list, size_t first, size_t last, const double *rgb,
+static void add_colour(const RequestContext *request, JsonWriter *list, size_t first, size_t last, const double *rgb,
                        double alpha) {
     static const char *const names[] = {"red", "green", "blue"};
     const Document *document = request->document;
-    Json *colour = json_put(json_object_new_object(), "alpha", json_object_new_double(clamp_unit(alpha)));
+    json_open(list, NULL, "{");
+    document_put_range(list, "range", document, document->tokens[first].start, document->tokens[last].end,
+                       request->server->utf8);
+    json_open(list, "color", "{");
+    json_put_number(list, "alpha", clamp_unit(alpha));
     for (int i = 0; i < 3; i++)
-        json_put(colour, names[i], json_object_new_double(clamp_unit(rgb[i])));
-    Json *range =
-        document_range(document, document->tokens[first].start, document->tokens[last].end, request->server->utf8);
-    json_object_array_add(list, json_put(json_put(json_object_new_object(), "range", range), "color", colour));
+        json_put_number(list, names[i], clamp_unit(rgb[i]));
+    json_close(list, "}}");
 }
 
-Json *answer_colours(const RequestContext *request, const char **problem) {
+void answer_colours(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     const Document *document = request->document;
-    Json *list = json_object_new_array();
+    json_open(result, NULL, "[");
     for (size_t i = 0; i + 2 < document->token_count; i++) {
         double numbers[4] = {0, 0, 0, 1}, rgb[3];
         size_t end = 0, count;
@@ -99,26 +102,26 @@ Json *answer_colours(const RequestContext *request, const char **problem) {
             count = read_numbers(document, i + 2, numbers, 3, &end);
             if (count == 3 && document_is(document, end + 1, ")")) {
                 from_hsv(numbers, rgb);
-                add_colour(request, list, i, end + 1, hsv ? rgb : numbers, 1);
+                add_colour(request, result, i, end + 1, hsv ? rgb : numbers, 1);
             }
         } else if (document_is(document, i, "color") && document_is(document, i + 1, "=")) {
             count = read_numbers(document, i + 2, numbers, 4, &end);
             if (count >= 3)
-                add_colour(request, list, i + 2, end, numbers, numbers[3]);
+                add_colour(request, result, i + 2, end, numbers, numbers[3]);
         }
     }
-    return list;
+    json_close(result, "]");
 }
 
-Json *answer_presentations(const RequestContext *request, const char **problem) {
+void answer_presentations(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     static const char *const names[] = {"red", "green", "blue"};
     const Document *document = request->document;
     size_t start = request_offset(request, "range.start"), end = request_offset(request, "range.end");
     const Json *colour = json_get(request->params, "color");
-    double rgb[3], hsv[3], alpha = json_object_get_double(json_get(colour, "alpha"));
+    double rgb[3], hsv[3], alpha = json_number(json_get(colour, "alpha"));
     for (int i = 0; i < 3; i++)
-        rgb[i] = json_object_get_double(json_get(colour, names[i]));
+        rgb[i] = json_number(json_get(colour, names[i]));
     to_hsv(rgb, hsv);
     Str text = document_slice(document, start, end);
     bool is_hsv = str_starts_with(text, STR("hsv")), call = is_hsv || str_starts_with(text, STR("rgb"));
@@ -131,10 +134,10 @@ Json *answer_presentations(const RequestContext *request, const char **problem) 
         text_add_c(&label, ")");
     else if (alpha < 1)
         text_add_format(&label, ";%g", round(alpha * 1000) / 1000);
-    Json *item = json_put_text(json_object_new_object(), "label", label.bytes), *list = json_object_new_array();
-    json_put(item, "textEdit", request_edit(request, start, end, text_str(&label)));
-    json_object_array_add(list, item);
-    return list;
+    json_open(result, NULL, "[{");
+    json_put_text(result, "label", label.bytes);
+    request_put_edit(result, "textEdit", request, start, end, text_str(&label));
+    json_close(result, "}]");
 }
 
 // --- quick fixes
@@ -188,7 +191,7 @@ static Str replacement_of(const char *hint) {
     return (Str){word, strcspn(word, " ,;")};
 }
 
-static void add_action(const RequestContext *request, Json *list, const DocumentDiagnostic *diagnostic) {
+static void add_action(const RequestContext *request, JsonWriter *list, const DocumentDiagnostic *diagnostic) {
     size_t start = diagnostic->start, end = diagnostic->end;
     Str meant = suggested_word(diagnostic->hint);
     meant = meant.len > 0 ? meant : suggested_word(diagnostic->text);
@@ -200,23 +203,26 @@ static void add_action(const RequestContext *request, Json *list, const Document
     }
     SCOPED_TEXT title = {0};
     text_add_format(&title, "write %.*s", STR_ARGS(meant));
-    Json *edits = json_object_new_array(), *item = json_put_text(json_object_new_object(), "title", title.bytes);
-    json_object_array_add(edits, request_edit(request, start, end, meant));
-    Json *changes = json_put(json_object_new_object(), request->document->uri, edits);
-    json_put_true(json_put_text(item, "kind", "quickfix"), "isPreferred");
-    json_object_array_add(list, json_put(item, "edit", json_put(json_object_new_object(), "changes", changes)));
+    json_open(list, NULL, "{");
+    JSON_PUT_TEXTS(list, "title", title.bytes, "kind", "quickfix");
+    json_put_true(list, "isPreferred");
+    json_open(list, "edit", "{");
+    json_open(list, "changes", "{");
+    json_open(list, request->document->uri, "[");
+    request_put_edit(list, NULL, request, start, end, meant);
+    json_close(list, "]}}}");
 }
 
-Json *answer_actions(const RequestContext *request, const char **problem) {
+void answer_actions(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     Document *document = request->document;
     size_t from = request_offset(request, "range.start"), to = request_offset(request, "range.end");
-    Json *list = json_object_new_array();
+    json_open(result, NULL, "[");
     if (document->unchecked && !document->exceeded)
         diagnostics_publish(request->server, document);
     // While a full check is pending, the positions of the last diagnostics may be wrong.
     for (size_t i = 0; !document->unchecked && i < document->diagnostics.count; i++)
         if (document->diagnostics.items[i].start <= to && document->diagnostics.items[i].end >= from)
-            add_action(request, list, &document->diagnostics.items[i]);
-    return list;
+            add_action(request, result, &document->diagnostics.items[i]);
+    json_close(result, "]");
 }

@@ -1,8 +1,6 @@
 // lsp.c: `petri lsp`, a server of the Language Server Protocol 3.17.
 //
 // The server has one thread. It reads and answers messages, and checks changed documents when no message is waiting.
-#include "lsp/lsp.h"
-
 #include "base/file.h"
 #include "base/source.h"
 #include "lsp/server.h"
@@ -114,18 +112,19 @@ static void open_document(Server *server, const Json *params) {
     if (!uri || !text || server_document(server, uri))
         return;
     server->documents = memory_realloc(server->documents, (server->document_count + 1) * sizeof *server->documents);
-    server->documents[server->document_count++] = document_new(uri, str_from(text), json_number(item, "version", 0));
+    server->documents[server->document_count++] =
+        document_new(uri, str_from(text), json_integer_or(item, "version", 0));
     mark_dependents_unchecked(server, server->documents[server->document_count - 1]);
 }
 
 static void change_document(Server *server, const Json *params) {
     Document *document = server_document(server, json_text(json_get(params, "textDocument"), "uri"));
-    Json *changes = json_get(params, "contentChanges");
-    if (!document || !json_object_is_type(changes, json_type_array))
+    const Json *changes = json_get(params, "contentChanges");
+    if (!document || !json_is(changes, JSON_ARRAY))
         return;
-    document->version = json_number(json_get(params, "textDocument"), "version", document->version + 1);
-    for (size_t i = 0; i < json_object_array_length(changes); i++)
-        document_change(document, json_object_array_get_idx(changes, i), server->utf8);
+    document->version = json_integer_or(json_get(params, "textDocument"), "version", document->version + 1);
+    for (const Json *change = NULL; (change = json_next(changes, change));)
+        document_change(document, change, server->utf8);
     mark_dependents_unchecked(server, document);
 }
 
@@ -162,16 +161,15 @@ static void change_root(Server *server, const char *uri, ChangeList *change) {
     }
 }
 
-// Returns the number of folders.
-static size_t change_roots(Server *server, const Json *folders, ChangeList *change) {
-    size_t count = json_object_is_type(folders, json_type_array) ? json_object_array_length(folders) : 0;
-    for (size_t i = 0; i < count; i++)
-        change_root(server, json_text(json_object_array_get_idx(folders, i), "uri"), change);
-    return count;
+static void change_roots(Server *server, const Json *folders, ChangeList *change) {
+    for (const Json *folder = NULL; (folder = json_next(folders, folder));)
+        change_root(server, json_text(folder, "uri"), change);
 }
 
 static void add_roots(Server *server, const Json *params) {
-    if (change_roots(server, json_get(params, "workspaceFolders"), texts_add) == 0)
+    const Json *folders = json_get(params, "workspaceFolders");
+    change_roots(server, folders, texts_add);
+    if (!json_next(folders, NULL))
         change_root(server, json_text(params, "rootUri"), texts_add);
 }
 
@@ -227,76 +225,72 @@ static const struct {
     {"workspace/symbol", answer_workspace_symbols, "workspaceSymbolProvider"},
 };
 
-static Json *character_array(const char *list) {
-    Json *array = json_object_new_array();
-    for (const char *c = list; *c != '\0'; c++)
-        json_object_array_add(array, json_object_new_string_len(c, 1));
-    return array;
-}
-
-static Json *capabilities(const Server *server) {
-    Json *all = json_put_text(json_object_new_object(), "positionEncoding", server->utf8 ? "utf-8" : "utf-16");
-    Json *sync = json_put_number(json_put_true(json_object_new_object(), "openClose"), "change", 2);
-    json_put(all, "textDocumentSync", json_put_true(sync, "save"));
+static void put_capabilities(JsonWriter *json, const Server *server) {
+    json_open(json, "capabilities", "{");
+    json_put_text(json, "positionEncoding", server->utf8 ? "utf-8" : "utf-16");
+    json_put_written(json, "textDocumentSync", STR("{\"openClose\":true,\"change\":2,\"save\":true}"));
     for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++)
         if (requests[i].capability)
-            json_put_true(all, requests[i].capability);
-    json_put(all, "completionProvider",
-             json_put(json_object_new_object(), "triggerCharacters", character_array("!$:'\"/")));
-    json_put(all, "signatureHelpProvider",
-             json_put(json_object_new_object(), "triggerCharacters", character_array("(,")));
-    json_put(all, "documentLinkProvider", json_object_new_object());
-    Json *folders = json_put_true(json_put_true(json_object_new_object(), "supported"), "changeNotifications");
-    json_put(all, "workspace", json_put(json_object_new_object(), "workspaceFolders", folders));
-    json_put(all, "renameProvider", json_put_true(json_object_new_object(), "prepareProvider"));
-    return json_put(all, "semanticTokensProvider",
-                    json_put_true(json_put(json_object_new_object(), "legend", tokens_legend()), "full"));
+            json_put_true(json, requests[i].capability);
+    json_open(json, "completionProvider", "{");
+    JSON_PUT_ARRAY(json, "triggerCharacters", "!", "$", ":", "'", "\"", "/");
+    json_close(json, "}");
+    json_open(json, "signatureHelpProvider", "{");
+    JSON_PUT_ARRAY(json, "triggerCharacters", "(", ",");
+    json_close(json, "}");
+    json_put_written(json, "documentLinkProvider", STR("{}"));
+    json_put_written(json, "workspace",
+                     STR("{\"workspaceFolders\":{\"supported\":true,\"changeNotifications\":true}}"));
+    json_put_written(json, "renameProvider", STR("{\"prepareProvider\":true}"));
+    json_open(json, "semanticTokensProvider", "{");
+    tokens_put_legend(json);
+    json_put_true(json, "full");
+    json_close(json, "}}");
 }
 
-static Json *initialize(Server *server, const Json *params) {
-    Json *encodings = json_path(params, "capabilities.general.positionEncodings");
-    size_t count = json_object_is_type(encodings, json_type_array) ? json_object_array_length(encodings) : 0;
-    for (size_t i = 0; i < count; i++) {
-        const char *name = json_object_get_string(json_object_array_get_idx(encodings, i));
-        server->utf8 = server->utf8 || (name && strcmp(name, "utf-8") == 0);
-    }
+static void initialize(Server *server, const Json *params, JsonWriter *result) {
+    const Json *encodings = json_path(params, "capabilities.general.positionEncodings");
+    for (const Json *name = NULL; (name = json_next(encodings, name));)
+        server->utf8 = server->utf8 || (json_is(name, JSON_STRING) && strcmp(name->text, "utf-8") == 0);
     add_roots(server, params);
     server->initialized = true;
-    Json *about = json_put_text(json_put_text(json_object_new_object(), "name", "petri"), "version", petri_version());
-    return json_put(json_put(json_object_new_object(), "capabilities", capabilities(server)), "serverInfo", about);
+    json_open(result, NULL, "{");
+    put_capabilities(result, server);
+    JSON_PUT_OBJECT(result, "serverInfo", "name", "petri", "version", petri_version());
+    json_close(result, "}");
 }
 
-static bool answer_request(Server *server, RequestHandler *ask, Json *id, const Json *params) {
+static bool answer_request(Server *server, RequestHandler *ask, const Json *id, const Json *params) {
     RequestContext request = {.server = server,
                               .document = server_document(server, json_text(json_get(params, "textDocument"), "uri")),
                               .params = params};
     bool needs_document = ask != answer_workspace_symbols;
     const char *problem = needs_document && !request.document ? "the document is not open" : NULL;
-    Json *result = NULL;
-    if (!problem && !needs_document) {
-        result = ask(&request, &problem);
-    } else if (!problem) {
+    SCOPED_TEXT result = {0};
+    JsonWriter json = rpc_writer(&result);
+    if (!problem && needs_document) {
         server_read(server, request.document);
         request.offset = document_offset(request.document, json_get(params, "position"), server->utf8);
-        result = ask(&request, &problem);
     }
-    if (problem) {
-        json_object_put(result);
-        return rpc_send_error(id, RPC_REQUEST_FAILED, problem);
-    }
-    return rpc_answer(id, result);
+    if (!problem)
+        ask(&request, &json, &problem);
+    return problem ? rpc_send_error(id, RPC_REQUEST_FAILED, problem) : rpc_answer(id, &result);
 }
 
-static bool handle_request(Server *server, const char *method, Json *id, const Json *params) {
-    if (strcmp(method, "initialize") == 0)
-        return rpc_answer(id, initialize(server, params));
+static bool handle_request(Server *server, const char *method, const Json *id, const Json *params) {
+    SCOPED_TEXT result = {0};
+    JsonWriter json = rpc_writer(&result);
+    if (strcmp(method, "initialize") == 0) {
+        initialize(server, params, &json);
+        return rpc_answer(id, &result);
+    }
     if (!server->initialized || server->shutting_down) {
         return rpc_send_error(id, server->initialized ? RPC_INVALID_REQUEST : RPC_NOT_INITIALIZED,
                               server->initialized ? "the server is shut down" : "the server is not initialized");
     }
     if (strcmp(method, "shutdown") == 0) {
         server->shutting_down = true;
-        return rpc_answer(id, NULL);
+        return rpc_answer(id, &result);
     }
     for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++)
         if (strcmp(requests[i].method, method) == 0)
@@ -313,7 +307,7 @@ static void handle_notification(Server *server, const char *method, const Json *
 // Returns false if the editor has closed the pipe.
 static bool handle_message(Server *server, const Json *message) {
     const char *method = json_text(message, "method");
-    Json *id = json_get(message, "id");
+    const Json *id = json_get(message, "id");
     if (!method) {
         return json_get(message, "result") || json_get(message, "error") || !id
                    ? true // ignores a response, because the server sends no requests
@@ -333,14 +327,15 @@ static void check_changed_documents(Server *server) {
                 diagnostics_publish(server, server->documents[i]);
 }
 
-int lsp_serve(const CommandContext *host, Options *options) {
+static int lsp_run(const CommandContext *host, Options *options) {
     Server server = {.host = host, .options = options};
     int status = STATUS_FAILED;
     init_access(&server);
     bool reading = server_open_session(&server);
     while (reading) {
-        Json *message;
-        RpcRead came = rpc_read(&server.input, &message);
+        SCOPED_JSON document = {0};
+        const Json *message;
+        RpcRead came = rpc_read(&server.input, &document, &message);
         const char *method = json_text(message, "method");
         if (came == RPC_END || (method && strcmp(method, "exit") == 0)) {
             status = server.shutting_down ? STATUS_DONE : STATUS_FAILED;
@@ -350,7 +345,6 @@ int lsp_serve(const CommandContext *host, Options *options) {
         } else {
             reading = handle_message(&server, message);
         }
-        json_object_put(message);
         if (reading)
             check_changed_documents(&server);
     }
@@ -364,3 +358,18 @@ int lsp_serve(const CommandContext *host, Options *options) {
     petri_close(&server.quick);
     return status;
 }
+
+const Command LSP_COMMAND = {
+    .name = "lsp",
+    .operands = "",
+    .summary = "start the language server (LSP) for editors",
+    .details =
+        "Implements the Language Server Protocol on standard input and output; editors start it. Reports the errors\n"
+        "and warnings of petri check as you type, completes names, nodes, attributes and keys, shows help and values\n"
+        "of constants, goes to definitions, renames, formats, and offers quick fixes. Evaluates the first frame, as\n"
+        "petri check does, without drawing, printing or storing anything.",
+    .examples = "  vim.lsp.start({ name = 'petri', cmd = { 'petri', 'lsp' } })    -- for Neovim\n",
+    .options = FOR_LSP,
+    .second_operand_error = "too many arguments: '%s'; the editor opens the scripts",
+    .run = lsp_run,
+};

@@ -20,70 +20,70 @@ static BindingSet bindings_at(const RequestContext *request, const Workspace *wo
     return token == SIZE_MAX ? (BindingSet){.count = 0} : workspace_resolve(workspace, token);
 }
 
-static Json *location(const Server *server, const Document *document, size_t start, size_t end) {
-    return json_put(json_put_text(json_object_new_object(), "uri", document->uri), "range",
-                    document_range(document, start, end, server->utf8));
+static void put_location(JsonWriter *json, const Server *server, const Document *document, size_t start, size_t end) {
+    json_open(json, NULL, "{");
+    json_put_text(json, "uri", document->uri);
+    document_put_range(json, "range", document, start, end, server->utf8);
+    json_close(json, "}");
 }
 
-// If the position is in the file name of an import or include, returns the location of the start of that file, else
-// NULL.
-static Json *file_location(const RequestContext *request) {
+// If the position is in the file name of an import or include, adds the location of the start of that file.
+static void put_file_location(JsonWriter *json, const RequestContext *request) {
     const Link *link = document_link(request->document, request->offset);
     bool own = false;
     Document *file = !link ? NULL : server_file(request->server, link->path, request->document, &own);
-    Json *result = !file ? NULL : location(request->server, file, 0, 0);
+    if (file)
+        put_location(json, request->server, file, 0, 0);
     if (own)
         document_free(file);
-    return result;
 }
 
-// Returns the location of the definition, or a list of locations if several scripts that include this script bind the
-// name. Returns NULL if there is no definition.
-static Json *definitions(const RequestContext *request, bool whole) {
+// Adds the location of the definition, or a list of locations if several scripts that include this script bind the
+// name. Returns false if there is no definition.
+static bool put_definitions(JsonWriter *json, const RequestContext *request, bool whole) {
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, whole);
     BindingSet meant = bindings_at(request, &workspace);
-    Json *list = json_object_new_array(), *one = NULL;
+    if (meant.count > 1)
+        json_open(json, NULL, "[");
     for (size_t i = 0; i < meant.count; i++) {
         const PetriBinding *name = workspace_name(&workspace, meant.items[i]);
-        one = location(request->server, workspace.documents[meant.items[i].file], name->start, name->end);
-        json_object_array_add(list, meant.count > 1 ? one : json_object_get(one));
+        put_location(json, request->server, workspace.documents[meant.items[i].file], name->start, name->end);
     }
-    workspace_close(&workspace);
     if (meant.count > 1)
-        return list;
-    json_object_put(list);
-    return one;
+        json_close(json, "]");
+    workspace_close(&workspace);
+    return meant.count > 0;
 }
 
-Json *answer_definition(const RequestContext *request, const char **problem) {
+void answer_definition(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
-    Json *result = definitions(request, false);
-    if (!result && token_of(request) != SIZE_MAX)
-        result = definitions(request, true);
-    return !result ? file_location(request) : result;
+    if (!put_definitions(result, request, false) &&
+        (token_of(request) == SIZE_MAX || !put_definitions(result, request, true)))
+        put_file_location(result, request);
 }
 
 // --- links
 
-Json *answer_links(const RequestContext *request, const char **problem) {
+void answer_links(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     const Document *document = request->document;
-    Json *list = json_object_new_array();
+    json_open(result, NULL, "[");
     for (size_t i = 0; i < document->link_count; i++) {
         const Link *link = &document->links[i];
         const PetriToken *token = &document->tokens[link->token];
         bool own = false;
         Document *file = server_file(request->server, link->path, document, &own);
         if (file) {
-            Json *range = document_range(document, token->start, token->end, request->server->utf8);
-            Json *item = json_put(json_object_new_object(), "range", range);
-            json_object_array_add(list, json_put_text(item, "target", file->uri));
+            json_open(result, NULL, "{");
+            document_put_range(result, "range", document, token->start, token->end, request->server->utf8);
+            json_put_text(result, "target", file->uri);
+            json_close(result, "}");
         }
         if (own)
             document_free(file);
     }
-    return list;
+    json_close(result, "]");
 }
 
 // --- references
@@ -205,40 +205,39 @@ static Uses uses_of(const RequestContext *request, const Workspace *workspace) {
     return uses;
 }
 
-Json *answer_references(const RequestContext *request, const char **problem) {
+void answer_references(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
-    bool declares = json_object_get_boolean(json_path(request->params, "context.includeDeclaration"));
-    Json *list = json_object_new_array();
+    bool declares = json_is(json_path(request->params, "context.includeDeclaration"), JSON_TRUE);
+    json_open(result, NULL, "[");
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, true);
     Uses uses = uses_of(request, &workspace);
     for (size_t i = 0; i < uses.count; i++) {
         const Use *use = &uses.items[i];
-        if (declares || !use->binds) {
-            json_object_array_add(list,
-                                  location(request->server, workspace.documents[use->file], use->start, use->end));
-        }
+        if (declares || !use->binds)
+            put_location(result, request->server, workspace.documents[use->file], use->start, use->end);
     }
     free(uses.items);
     workspace_close(&workspace);
-    return list;
+    json_close(result, "]");
 }
 
-Json *answer_highlight(const RequestContext *request, const char **problem) {
+void answer_highlight(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
-    Json *list = json_object_new_array();
+    json_open(result, NULL, "[");
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, false);
     Uses uses = uses_of(request, &workspace);
     for (size_t i = 0; i < uses.count && uses.items[i].file == 0; i++) {
         const Use *use = &uses.items[i];
-        Json *range = document_range(request->document, use->start, use->end, request->server->utf8);
-        Json *item = json_put(json_object_new_object(), "range", range);
-        json_object_array_add(list, json_put_number(item, "kind", use->binds ? 3 : 2));
+        json_open(result, NULL, "{");
+        document_put_range(result, "range", request->document, use->start, use->end, request->server->utf8);
+        json_put_integer(result, "kind", use->binds ? 3 : 2);
+        json_close(result, "}");
     }
     free(uses.items);
     workspace_close(&workspace);
-    return list;
+    json_close(result, "]");
 }
 
 // --- renaming
@@ -254,13 +253,13 @@ static const PetriBinding *rename_target(const RequestContext *request, const Wo
     return !*problem ? at : NULL;
 }
 
-Json *answer_prepare_rename(const RequestContext *request, const char **problem) {
+void answer_prepare_rename(const RequestContext *request, JsonWriter *result, const char **problem) {
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, true);
     const PetriBinding *at = rename_target(request, &workspace, problem);
-    Json *range = !at ? NULL : document_range(request->document, at->start, at->end, request->server->utf8);
+    if (at)
+        document_put_range(result, NULL, request->document, at->start, at->end, request->server->utf8);
     workspace_close(&workspace);
-    return range;
 }
 
 static bool is_name(Server *server, const char *text) {
@@ -290,38 +289,40 @@ static bool binding_sets_equal(const BindingSet *a, const BindingSet *b) {
     return a->count == b->count && !binding_set_add(&both, b);
 }
 
-// Returns the edits that rename the uses in one file, and appends the new text of the file to `text`. `uses` are sorted
-// by offset.
-static Json *edits_of(const RequestContext *request, const Document *document, const Use *uses, size_t count,
+// Adds the edits that rename the uses in one file, and appends the new text of the file to `text`. `uses` are sorted by
+// offset.
+static void put_edits(JsonWriter *json, bool utf8, const Document *document, const Use *uses, size_t count,
                       const char *wanted, Text *text) {
-    Json *edits = json_object_new_array();
+    json_open(json, document->uri, "[");
     size_t done = 0;
     for (size_t i = 0; i < count; i++) {
-        Json *range = document_range(document, uses[i].start, uses[i].end, request->server->utf8);
-        Json *edit = json_put(json_object_new_object(), "range", range);
-        json_object_array_add(edits, json_put_text(edit, "newText", wanted));
+        json_open(json, NULL, "{");
+        document_put_range(json, "range", document, uses[i].start, uses[i].end, utf8);
+        json_put_text(json, "newText", wanted);
+        json_close(json, "}");
         text_add(text, (Str){document->text.bytes + done, uses[i].start - done});
         text_add_c(text, wanted);
         done = uses[i].end;
     }
     text_add(text, (Str){document->text.bytes + done, document->text.len - done});
-    return edits;
+    json_close(json, "]");
 }
 
-// Returns the edits that rename the uses, and applies them to the workspace's own copies of the documents. Sets
-// *problem if any name would refer to a different binding after renaming.
-static Json *rename_uses(const RequestContext *request, Workspace *workspace, const Uses *uses, const char *wanted,
-                         const char **problem) {
+// Adds the edits that rename the uses, and applies them to the workspace's own copies of the documents. Sets *problem
+// if any name would refer to a different binding after renaming.
+static void rename_uses(JsonWriter *json, bool utf8, Workspace *workspace, const Uses *uses, const char *wanted,
+                        const char **problem) {
     size_t count, renamed;
     BindingSet *before = all_bindings(workspace, &count);
-    Json *changes = json_object_new_object();
+    json_open(json, NULL, "{");
+    json_open(json, "changes", "{");
     for (size_t i = 0, next; i < uses->count; i = next) {
         size_t file = uses->items[i].file;
         for (next = i + 1; next < uses->count && uses->items[next].file == file;)
             next++;
         const Document *document = workspace->documents[file];
         SCOPED_TEXT text = {0};
-        json_put(changes, document->uri, edits_of(request, document, uses->items + i, next - i, wanted, &text));
+        put_edits(json, utf8, document, uses->items + i, next - i, wanted, &text);
         workspace_replace(workspace, file, &text);
     }
     BindingSet *after = all_bindings(workspace, &renamed);
@@ -331,21 +332,19 @@ static Json *rename_uses(const RequestContext *request, Workspace *workspace, co
     *problem = same ? NULL : "the name is in use: renaming would change the script's meaning";
     free(before);
     free(after);
-    return json_put(json_object_new_object(), "changes", changes);
+    json_close(json, "}}");
 }
 
-Json *answer_rename(const RequestContext *request, const char **problem) {
+void answer_rename(const RequestContext *request, JsonWriter *result, const char **problem) {
     const char *wanted = json_text(request->params, "newName");
-    Json *result = NULL;
     Workspace workspace;
     workspace_open(&workspace, request->server, request->document, true);
     if (rename_target(request, &workspace, problem) && (!wanted || !is_name(request->server, wanted)))
         *problem = "not a valid name";
     if (!*problem) {
         Uses uses = uses_of(request, &workspace);
-        result = rename_uses(request, &workspace, &uses, wanted, problem);
+        rename_uses(result, request->server->utf8, &workspace, &uses, wanted, problem);
         free(uses.items);
     }
     workspace_close(&workspace);
-    return result;
 }

@@ -23,13 +23,15 @@ static size_t block_end(const Document *document, size_t token) {
     return end;
 }
 
-static Json *symbol(const RequestContext *request, Str name, int kind, size_t start, size_t end, size_t at,
-                    size_t at_end) {
+// Adds a symbol, whose object stays open.
+static void open_symbol(JsonWriter *json, const RequestContext *request, Str name, int kind, size_t start, size_t end,
+                        size_t at, size_t at_end) {
     bool utf8 = request->server->utf8;
-    Json *item = json_put_number(json_put(json_object_new_object(), "name", json_from(name)), "kind", kind);
-    json_put(item, "range",
-             document_range(request->document, start < at ? start : at, end > at_end ? end : at_end, utf8));
-    return json_put(item, "selectionRange", document_range(request->document, at, at_end, utf8));
+    json_open(json, NULL, "{");
+    json_put_str(json, "name", name);
+    json_put_integer(json, "kind", kind);
+    document_put_range(json, "range", request->document, start < at ? start : at, end > at_end ? end : at_end, utf8);
+    document_put_range(json, "selectionRange", request->document, at, at_end, utf8);
 }
 
 // Returns the SymbolKind of a name that is bound at the top level, else 0.
@@ -42,33 +44,33 @@ static int symbol_kind(const Document *document, const PetriBinding *name) {
                                              : 0;
 }
 
-Json *answer_symbols(const RequestContext *request, const char **problem) {
+void answer_symbols(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     const Document *document = request->document;
-    Json *list = json_object_new_array();
+    json_open(result, NULL, "[");
     for (size_t i = 0; i < document->name_count; i++) {
         const PetriBinding *name = &document->names[i];
         int kind = symbol_kind(document, name);
         if (kind != 0) {
             Str text = document_slice(document, name->start, name->end);
-            json_object_array_add(
-                list, symbol(request, text, kind, name->value_start, name->value_end, name->start, name->end));
+            open_symbol(result, request, text, kind, name->value_start, name->value_end, name->start, name->end);
+            json_close(result, "}");
         }
     }
     for (size_t i = 0; i < document->token_count; i++) {
         if (document->tokens[i].kind == PETRI_TOKEN_NODE && document_begins(document, i) &&
             document_level(document, i) == 0) {
             size_t start = document->tokens[i].start, end = document->tokens[i].end;
-            Json *item =
-                symbol(request, document_token(document, i), AS_OBJECT, start, block_end(document, i), start, end);
+            open_symbol(result, request, document_token(document, i), AS_OBJECT, start, block_end(document, i), start,
+                        end);
             Str rest = document_slice(document, end, document->text.len);
             const char *line = memchr(rest.bytes, '\n', rest.len);
             Str attributes = str_trim((Str){rest.bytes, !line ? rest.len : (size_t)(line - rest.bytes)});
-            json_put(item, "detail", json_from(str_truncate(attributes, 80)));
-            json_object_array_add(list, item);
+            json_put_str(result, "detail", str_truncate(attributes, 80));
+            json_close(result, "}");
         }
     }
-    return list;
+    json_close(result, "]");
 }
 
 static char lower(char c) {
@@ -83,44 +85,52 @@ static bool matches(Str name, const char *query) {
     return *query == '\0';
 }
 
-Json *answer_workspace_symbols(const RequestContext *request, const char **problem) {
+void answer_workspace_symbols(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     const char *query = json_text(request->params, "query");
-    Json *list = json_object_new_array();
+    size_t count = 0;
+    json_open(result, NULL, "[");
     Workspace workspace;
     workspace_open_all(&workspace, request->server);
     for (size_t file = 0; file < workspace.count; file++) {
         const Document *document = workspace.documents[file];
-        for (size_t i = 0; i < document->name_count && json_object_array_length(list) < MAX_SYMBOLS; i++) {
+        for (size_t i = 0; i < document->name_count && count < MAX_SYMBOLS; i++) {
             const PetriBinding *name = &document->names[i];
             int kind = symbol_kind(document, name);
             Str text = document_slice(document, name->start, name->end);
             if (kind == 0 || kind == AS_MODULE || !matches(text, query ? query : ""))
                 continue;
-            Json *item = json_put_number(json_put(json_object_new_object(), "name", json_from(text)), "kind", kind);
-            Json *range = document_range(document, name->start, name->end, request->server->utf8);
-            Json *place = json_put(json_put_text(json_object_new_object(), "uri", document->uri), "range", range);
-            json_object_array_add(list, json_put(item, "location", place));
+            json_open(result, NULL, "{");
+            json_put_str(result, "name", text);
+            json_put_integer(result, "kind", kind);
+            json_open(result, "location", "{");
+            json_put_text(result, "uri", document->uri);
+            document_put_range(result, "range", document, name->start, name->end, request->server->utf8);
+            json_close(result, "}}");
+            count++;
         }
     }
     workspace_close(&workspace);
-    return list;
+    json_close(result, "]");
 }
 
 // --- folding
 
-static void add_fold(Json *list, size_t first, size_t last, const char *kind) {
-    if (last > first) {
-        Json *item = json_put_number(json_object_new_object(), "startLine", (int64_t)first);
-        json_put_number(item, "endLine", (int64_t)last);
-        json_object_array_add(list, !kind ? item : json_put_text(item, "kind", kind));
-    }
+static void add_fold(JsonWriter *list, size_t first, size_t last, const char *kind) {
+    if (last <= first)
+        return;
+    json_open(list, NULL, "{");
+    json_put_integer(list, "startLine", (int64_t)first);
+    json_put_integer(list, "endLine", (int64_t)last);
+    if (kind)
+        json_put_text(list, "kind", kind);
+    json_close(list, "}");
 }
 
-Json *answer_folding(const RequestContext *request, const char **problem) {
+void answer_folding(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     const Document *document = request->document;
-    Json *list = json_object_new_array();
+    json_open(result, NULL, "[");
     size_t first = SIZE_MAX, last = 0; // first and last line of the current run of consecutive comment lines
     for (size_t i = 0; i <= document->token_count; i++) {
         bool comment = i < document->token_count && document->tokens[i].kind == PETRI_TOKEN_COMMENT;
@@ -128,7 +138,7 @@ Json *answer_folding(const RequestContext *request, const char **problem) {
         if (i < document->token_count)
             document_position(document, document->tokens[i].start, true, &line, &column);
         if (first != SIZE_MAX && (!comment || line != last + 1)) {
-            add_fold(list, first, last, "comment");
+            add_fold(result, first, last, "comment");
             first = SIZE_MAX;
         }
         bool alone = comment && (i == 0 || memchr(document->text.bytes + document->tokens[i - 1].end, '\n',
@@ -139,10 +149,10 @@ Json *answer_folding(const RequestContext *request, const char **problem) {
         }
         if (i < document->token_count && !comment && document_begins(document, i)) {
             document_position(document, block_end(document, i), true, &end, &character);
-            add_fold(list, line, end, NULL);
+            add_fold(result, line, end, NULL);
         }
     }
-    return list;
+    json_close(result, "]");
 }
 
 // --- semantic tokens
@@ -164,16 +174,12 @@ typedef enum Class {
 } Class;
 enum { IS_DECLARATION = 1, IS_BUILT_IN = 2 };
 
-Json *tokens_legend(void) {
-    static const char *const types[] = {"keyword",   "comment",  "string",   "number", "operator",   "variable",
-                                        "parameter", "function", "property", "class",  "enumMember", "decorator"};
-    static const char *const modifiers[] = {"declaration", "defaultLibrary"};
-    Json *type_list = json_object_new_array(), *modifier_list = json_object_new_array();
-    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
-        json_object_array_add(type_list, json_object_new_string(types[i]));
-    for (size_t i = 0; i < sizeof modifiers / sizeof modifiers[0]; i++)
-        json_object_array_add(modifier_list, json_object_new_string(modifiers[i]));
-    return json_put(json_put(json_object_new_object(), "tokenTypes", type_list), "tokenModifiers", modifier_list);
+void tokens_put_legend(JsonWriter *json) {
+    json_open(json, "legend", "{");
+    JSON_PUT_ARRAY(json, "tokenTypes", "keyword", "comment", "string", "number", "operator", "variable", "parameter",
+                   "function", "property", "class", "enumMember", "decorator");
+    JSON_PUT_ARRAY(json, "tokenModifiers", "declaration", "defaultLibrary");
+    json_close(json, "}");
 }
 
 static Class class_of_name(const Document *document, size_t token, int *modifiers) {
@@ -208,13 +214,13 @@ static Class class_of(const Document *document, size_t token, int *modifiers) {
 // Encodes each token as five numbers: line and character relative to the previous token, length, class, modifiers. If
 // the previous token is in another line, the character counts from the start of the line.
 typedef struct Encoder {
-    Json *data;
+    JsonWriter *data;
     size_t line;
     size_t character;
 } Encoder;
 
 static void add_number(Encoder *encoder, size_t number) {
-    json_object_array_add(encoder->data, json_object_new_int64((int64_t)number));
+    json_put_integer(encoder->data, NULL, (int64_t)number);
 }
 
 // Encodes a token, with one entry per line, because tokens of the protocol must not span several lines.
@@ -240,15 +246,17 @@ static void encode(Encoder *encoder, const RequestContext *request, const PetriT
     }
 }
 
-Json *answer_tokens(const RequestContext *request, const char **problem) {
+void answer_tokens(const RequestContext *request, JsonWriter *result, const char **problem) {
     (void)problem;
     const Document *document = request->document;
-    Encoder encoder = {.data = json_object_new_array()};
+    Encoder encoder = {.data = result};
+    json_open(result, NULL, "{");
+    json_open(result, "data", "[");
     for (size_t i = 0; i < document->token_count; i++) {
         int modifiers;
         Class class = class_of(document, i, &modifiers);
         if (class != CLASS_NONE)
             encode(&encoder, request, &document->tokens[i], class, modifiers);
     }
-    return json_put(json_object_new_object(), "data", encoder.data);
+    json_close(result, "]}");
 }

@@ -7,22 +7,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-static Json *diagnostic_json(const Server *server, const Document *document, const PetriDiagnostic *diagnostic,
-                             size_t start, size_t end) {
+static void put_diagnostic(Text *out, const Server *server, const Document *document, const PetriDiagnostic *diagnostic,
+                           size_t start, size_t end) {
     SCOPED_TEXT text = {0};
     text_add_format(&text, "%s%s%s", diagnostic->text, diagnostic->hint[0] != '\0' ? "\n" : "", diagnostic->hint);
-    Json *json = json_put(json_object_new_object(), "range", document_range(document, start, end, server->utf8));
-    json_put_number(json, "severity", diagnostic->level + 1);
-    json_put_text(json_put_text(json, "source", "petri"), "message", text.bytes);
-    if (diagnostic->code) {
-        json_put_text(json, "code", diagnostic->code);
-        if (strcmp(diagnostic->code, "unused-name") == 0) { // tag 1 (unnecessary): editors grey out the name
-            Json *tags = json_object_new_array();
-            json_object_array_add(tags, json_object_new_int(1));
-            json_put(json, "tags", tags);
-        }
-    }
-    return json;
+    JsonWriter json = rpc_writer(out);
+    json_open(&json, NULL, "{");
+    document_put_range(&json, "range", document, start, end, server->utf8);
+    json_put_integer(&json, "severity", diagnostic->level + 1);
+    JSON_PUT_TEXTS(&json, "source", "petri", "message", text.bytes);
+    if (diagnostic->code)
+        json_put_text(&json, "code", diagnostic->code);
+    if (diagnostic->code && strcmp(diagnostic->code, "unused-name") == 0)
+        json_put_written(&json, "tags", STR("[1]")); // unnecessary: editors grey out the name
+    json_close(&json, "}");
 }
 
 static void store_diagnostic(Document *document, const PetriDiagnostic *diagnostic, size_t start, size_t end) {
@@ -38,11 +36,21 @@ static void store_diagnostic(Document *document, const PetriDiagnostic *diagnost
     };
 }
 
-static Json *list_for(Json *found, const char *uri) {
-    Json *list = json_get(found, uri);
-    if (!list)
-        json_put(found, uri, list = json_object_new_array());
-    return list;
+// Returns the diagnostics of a file, or NULL.
+static const TextList *find_items(const FileDiagnosticsList *list, const char *uri) {
+    for (size_t i = 0; i < list->count; i++)
+        if (strcmp(list->items[i].uri, uri) == 0)
+            return &list->items[i].items;
+    return NULL;
+}
+
+// Returns the diagnostics of a file, which are added to the list if needed.
+static TextList *items_for(FileDiagnosticsList *list, const char *uri) {
+    if (!find_items(list, uri)) {
+        list->items = memory_realloc(list->items, (list->count + 1) * sizeof *list->items);
+        list->items[list->count++] = (FileDiagnostics){.uri = memory_strdup(uri)};
+    }
+    return (TextList *)find_items(list, uri);
 }
 
 void diagnostics_collect(void *user_data, const PetriDiagnostic *diagnostic) {
@@ -57,51 +65,50 @@ void diagnostics_collect(void *user_data, const PetriDiagnostic *diagnostic) {
     size_t start = document_offset_at(other, diagnostic->line, diagnostic->column);
     size_t end = document_offset_at(other, diagnostic->end_line, diagnostic->end_column);
     end = end > start ? end : start;
-    json_object_array_add(list_for(server->found, other->uri), diagnostic_json(server, other, diagnostic, start, end));
+    SCOPED_TEXT item = {0};
+    put_diagnostic(&item, server, other, diagnostic, start, end);
+    texts_add(items_for(&server->found, other->uri), item.bytes);
     if (own)
         store_diagnostic(document, diagnostic, start, end);
     if (read)
         document_free(other);
 }
 
-static bool contains_item(const Json *list, Json *item) {
-    for (size_t i = 0; i < json_object_array_length(list); i++)
-        if (json_object_equal(json_object_array_get_idx(list, i), item))
-            return true;
-    return false;
-}
-
 // Sends the diagnostics of a file, collected from all documents.
 static void publish_file(Server *server, const char *uri) {
-    Json *all = json_object_new_array();
+    TextList all = {0};
+    SCOPED_TEXT params = {0};
+    JsonWriter json = rpc_writer(&params);
+    json_open(&json, NULL, "{");
+    json_put_text(&json, "uri", uri);
+    json_open(&json, "diagnostics", "[");
     for (size_t i = 0; i < server->document_count; i++) {
-        Json *list = json_get(server->documents[i]->published, uri);
-        for (size_t k = 0; list && k < json_object_array_length(list); k++) {
-            Json *item = json_object_array_get_idx(list, k);
-            if (!contains_item(all, item))
-                json_object_array_add(all, json_object_get(item));
+        const TextList *items = find_items(&server->documents[i]->published, uri);
+        for (size_t k = 0; items && k < items->count; k++) {
+            if (texts_contain(&all, items->items[k]))
+                continue;
+            texts_add(&all, items->items[k]);
+            json_put_written(&json, NULL, str_from(items->items[k]));
         }
     }
-    Json *params = json_put(json_put_text(json_object_new_object(), "uri", uri), "diagnostics", all);
+    json_close(&json, "]");
     const Document *document = server_document(server, uri);
     if (document)
-        json_put_number(params, "version", document->version);
-    rpc_notify("textDocument/publishDiagnostics", params);
+        json_put_integer(&json, "version", document->version);
+    json_close(&json, "}");
+    rpc_notify("textDocument/publishDiagnostics", &params);
+    texts_free(&all);
 }
 
 // Publishes each file that occurs in a document's new diagnostics (`now`) or old diagnostics (`before`). Frees
 // `before`.
-static void publish_changes(Server *server, const Json *now, Json *before) {
-    json_object_object_foreach((Json *)now, uri, list) {
-        (void)list;
-        publish_file(server, uri);
-    }
-    json_object_object_foreach(before, old_uri, old_list) {
-        (void)old_list;
-        if (!json_get(now, old_uri))
-            publish_file(server, old_uri);
-    }
-    json_object_put(before);
+static void publish_changes(Server *server, const FileDiagnosticsList *now, FileDiagnosticsList *before) {
+    for (size_t i = 0; i < now->count; i++)
+        publish_file(server, now->items[i].uri);
+    for (size_t i = 0; i < before->count; i++)
+        if (!find_items(now, before->items[i].uri))
+            publish_file(server, before->items[i].uri);
+    file_diagnostics_free(before);
 }
 
 // Checks a document and stores its diagnostics in server->found and in the document.
@@ -111,8 +118,8 @@ static PetriStatus check_document(Server *server, Document *document, PetriSessi
     document->used = (TextList){0};
     server->checking = true;
     server->checked = document;
-    server->found = json_object_new_object();
-    list_for(server->found, document->uri);
+    server->found = (FileDiagnosticsList){0};
+    items_for(&server->found, document->uri);
     PetriStatus status =
         !session ? PETRI_OK : petri_check_text(session, document->path, document->text.bytes, document->text.len);
     server->checking = false;
@@ -128,19 +135,18 @@ void diagnostics_publish(Server *server, Document *document) {
         diagnostic_list_free(&document->diagnostics);
         document->diagnostics = last;
         document->exceeded = true;
-        json_object_put(server->found);
+        file_diagnostics_free(&server->found);
         return;
     }
     diagnostic_list_free(&last);
     document->unchecked = false;
-    Json *before = document->published;
+    FileDiagnosticsList before = document->published;
     document->published = server->found;
-    publish_changes(server, document->published, before);
+    publish_changes(server, &document->published, &before);
 }
 
 void diagnostics_withdraw(Server *server, Document *document) {
-    Json *before = document->published, *nothing = json_object_new_object();
-    document->published = NULL;
-    publish_changes(server, nothing, before);
-    document->published = nothing;
+    FileDiagnosticsList before = document->published;
+    document->published = (FileDiagnosticsList){0};
+    publish_changes(server, &document->published, &before);
 }

@@ -40,7 +40,7 @@ static size_t content_length(const char *header) {
     return SIZE_MAX;
 }
 
-RpcRead rpc_read(Text *input, Json **message) {
+RpcRead rpc_read(Text *input, JsonDocument *document, const Json **message) {
     char *end = NULL;
     *message = NULL;
     while (input->len == 0 || !(end = strstr(input->bytes, "\r\n\r\n")))
@@ -53,9 +53,7 @@ RpcRead rpc_read(Text *input, Json **message) {
     while (input->len - begin < length)
         if (!read_more(input))
             return RPC_END;
-    json_tokener *tokener = json_tokener_new_ex(MAX_DEPTH);
-    *message = json_tokener_parse_ex(tokener, input->bytes + begin, (int)length);
-    json_tokener_free(tokener);
+    *message = json_read(document, (Str){input->bytes + begin, length}, MAX_DEPTH);
     drop_bytes(input, begin + length);
     return *message ? RPC_MESSAGE : RPC_INVALID;
 }
@@ -65,79 +63,41 @@ bool rpc_has_input(const Text *input) {
     return input->len > 0 || poll(&ready, 1, 0) > 0;
 }
 
-// Writes a message and frees it.
-static bool write_message(Json *message) {
-    json_put_text(message, "jsonrpc", "2.0");
-    size_t length = 0;
-    const char *text =
-        json_object_to_json_string_length(message, JSON_C_TO_STRING_PLAIN | JSON_C_TO_STRING_NOSLASHESCAPE, &length);
-    SCOPED_TEXT out = {0};
-    text_add_format(&out, "Content-Length: %zu\r\n\r\n", length);
-    text_add(&out, (Str){text, length});
-    bool written = file_write(STDOUT_FILENO, out.bytes, out.len);
-    json_object_put(message);
-    return written;
+JsonWriter rpc_writer(Text *out) {
+    return (JsonWriter){.out = out, .short_escapes = true};
 }
 
-bool rpc_answer(Json *id, Json *result) {
-    Json *message = json_put(json_object_new_object(), "id", json_object_get(id));
-    return write_message(json_put(message, "result", result));
+// Sends a message with a method or an id, and with one more member. Returns false if the editor has closed the pipe.
+static bool send(const char *method, const Json *id, const char *name, const Text *value) {
+    SCOPED_TEXT message = {0}, out = {0};
+    JsonWriter json = rpc_writer(&message);
+    json_open(&json, NULL, "{");
+    if (method)
+        json_put_text(&json, "method", method);
+    else
+        json_put(&json, "id", id);
+    json_put_written(&json, name, text_str(value));
+    json_put_text(&json, "jsonrpc", "2.0");
+    json_close(&json, "}");
+    text_add_format(&out, "Content-Length: %zu\r\n\r\n", message.len);
+    text_add(&out, text_str(&message));
+    return file_write(STDOUT_FILENO, out.bytes, out.len);
 }
 
-bool rpc_send_error(Json *id, int code, const char *text) {
-    Json *error = json_put_text(json_put_number(json_object_new_object(), "code", code), "message", text);
-    Json *message = json_put(json_object_new_object(), "id", json_object_get(id));
-    return write_message(json_put(message, "error", error));
+bool rpc_answer(const Json *id, const Text *result) {
+    return send(NULL, id, "result", result);
 }
 
-bool rpc_notify(const char *method, Json *params) {
-    return write_message(json_put(json_put_text(json_object_new_object(), "method", method), "params", params));
+bool rpc_send_error(const Json *id, int code, const char *text) {
+    SCOPED_TEXT error = {0};
+    JsonWriter json = rpc_writer(&error);
+    json_open(&json, NULL, "{");
+    json_put_integer(&json, "code", code);
+    json_put_text(&json, "message", text);
+    json_close(&json, "}");
+    return send(NULL, id, "error", &error);
 }
 
-Json *json_get(const Json *object, const char *key) {
-    return json_object_is_type(object, json_type_object) ? json_object_object_get(object, key) : NULL;
-}
-
-Json *json_path(const Json *object, const char *keys) {
-    SCOPED_STRING copy = memory_strdup(keys);
-    char *rest = copy;
-    Json *at = (Json *)object;
-    for (char *key = str_split(&rest, '.'); key; key = str_split(&rest, '.'))
-        at = json_get(at, key);
-    return at;
-}
-
-const char *json_text(const Json *object, const char *key) {
-    Json *value = json_get(object, key);
-    return json_object_is_type(value, json_type_string) ? json_object_get_string(value) : NULL;
-}
-
-int64_t json_number(const Json *object, const char *key, int64_t otherwise) {
-    Json *value = json_get(object, key);
-    return json_object_is_type(value, json_type_int) ? json_object_get_int64(value) : otherwise;
-}
-
-Json *json_put(Json *object, const char *key, Json *value) {
-    json_object_object_add(object, key, value);
-    return object;
-}
-
-Json *json_put_text(Json *object, const char *key, const char *text) {
-    return json_put(object, key, json_object_new_string(text));
-}
-
-Json *json_put_number(Json *object, const char *key, int64_t number) {
-    return json_put(object, key, json_object_new_int64(number));
-}
-
-Json *json_put_true(Json *object, const char *key) {
-    return json_put(object, key, json_object_new_boolean(true));
-}
-
-Json *json_from(Str text) {
-    return json_object_new_string_len(text.bytes, (int)text.len);
-}
-
-Json *json_markdown(const char *text) {
-    return json_put_text(json_put_text(json_object_new_object(), "kind", "markdown"), "value", text);
+bool rpc_notify(const char *method, const Text *params) {
+    return send(method, NULL, "params", params);
 }

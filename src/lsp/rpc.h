@@ -1,11 +1,7 @@
-// rpc.h: messages of the Language Server Protocol: JSON-RPC on standard input and output, and the JSON in them.
+// rpc.h: messages of the Language Server Protocol: JSON-RPC on standard input and output.
 #pragma once
 
-#include "cli/memory.h"
-
-#include <json-c/json.h>
-
-typedef struct json_object Json;
+#include "cli/json.h"
 
 // Error codes of the protocol.
 enum {
@@ -19,26 +15,15 @@ enum {
 
 typedef enum RpcRead { RPC_MESSAGE, RPC_INVALID, RPC_END } RpcRead;
 // Waits for the next message. Returns RPC_INVALID if the message is not valid JSON. Returns RPC_END at the end of the
-// input, or if the header of a message is invalid. The caller releases *message.
-RpcRead rpc_read(Text *input, Json **message);
+// input, or if the header of a message is invalid. Sets *message to NULL except for RPC_MESSAGE; it is valid until the
+// document is freed or read again.
+RpcRead rpc_read(Text *input, JsonDocument *document, const Json **message);
 // Returns true if more input can be read without waiting.
 bool rpc_has_input(const Text *input);
-// Send a message and take ownership of `result` and `params`. Return false if the editor has closed the pipe.
-bool rpc_answer(Json *id, Json *result);
-bool rpc_send_error(Json *id, int code, const char *text);
-bool rpc_notify(const char *method, Json *params);
-
-// JSON. json_put takes ownership of `value`; json_put_text copies the text. All json_put* return the object. json_get,
-// json_path and json_text return borrowed values, or NULL if there is no such member or `object` is NULL. json_text
-// also returns NULL if the member is not a string.
-Json *json_get(const Json *object, const char *key);
-Json *json_path(const Json *object, const char *keys); // keys separated by dots
-const char *json_text(const Json *object, const char *key);
-int64_t json_number(const Json *object, const char *key, int64_t otherwise);
-Json *json_put(Json *object, const char *key, Json *value);
-Json *json_put_text(Json *object, const char *key, const char *text);
-Json *json_put_number(Json *object, const char *key, int64_t number);
-Json *json_put_true(Json *object, const char *key);
-Json *json_from(Str text);
-// Returns `{"kind": "markdown", "value": text}`.
-Json *json_markdown(const char *text);
+// Returns the writer of the results and parameters of messages.
+JsonWriter rpc_writer(Text *out);
+// Send a message. `id` NULL, and an empty `result` or `params`, mean null. Return false if the editor has closed the
+// pipe.
+bool rpc_answer(const Json *id, const Text *result);
+bool rpc_send_error(const Json *id, int code, const char *text);
+bool rpc_notify(const char *method, const Text *params);

@@ -24,7 +24,7 @@ typedef struct Server {
     bool shutting_down; // true after the shutdown request
     bool checking;      // true while the document `checked` is being checked
     Document *checked;
-    Json *found; // diagnostics of the current check: maps the URI of each file to a list
+    FileDiagnosticsList found; // diagnostics of the current check
 } Server;
 
 // Returns an open document, or NULL.
@@ -57,19 +57,20 @@ typedef struct RequestContext {
     size_t offset; // offset of params.position; 0: the request has no position
 } RequestContext;
 
-// Request handlers. They return the result; NULL means the JSON value null. On failure they set *problem to a
-// message.
-typedef Json *RequestHandler(const RequestContext *request, const char **problem);
+// Request handlers. They write the result; if they write nothing, it is null. On failure they set *problem to a
+// message, and what they have written is not sent.
+typedef void RequestHandler(const RequestContext *request, JsonWriter *result, const char **problem);
 RequestHandler answer_completion, answer_hover, answer_signature, answer_definition, answer_references,
     answer_highlight, answer_prepare_rename, answer_rename, answer_symbols, answer_folding, answer_tokens, answer_hints,
     answer_colours, answer_presentations, answer_actions, answer_format, answer_range_format, answer_links,
     answer_workspace_symbols;
-// Returns a TextEdit that replaces a part of the document.
-Json *request_edit(const RequestContext *request, size_t start, size_t end, Str text);
+// Adds a TextEdit that replaces a part of the document.
+void request_put_edit(JsonWriter *json, const char *name, const RequestContext *request, size_t start, size_t end,
+                      Str text);
 // Returns the text offset of a position. `position` is the path of its JSON value in the request's parameters.
 size_t request_offset(const RequestContext *request, const char *position);
-// Returns the names of the classes and modifiers of semantic tokens, as announced in the server's capabilities.
-Json *tokens_legend(void);
+// Adds the names of the classes and modifiers of semantic tokens, as announced in the server's capabilities.
+void tokens_put_legend(JsonWriter *json);
 
 // Information about a word (hover.c).
 

@@ -8,14 +8,12 @@ const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND,   &RENDER_COMMA
                                    &TEST_COMMAND, &DIFF_COMMAND,   &CHECK_COMMAND,  &FMT_COMMAND,    &LSP_COMMAND,
                                    &SEND_COMMAND, &LINK_COMMAND,   &OPEN_COMMAND,   &VERIFY_COMMAND, &INFO_COMMAND,
                                    &CITE_COMMAND, &UNPACK_COMMAND, &NEW_COMMAND,    &HELP_COMMAND,   NULL};
-#elif defined PETRI_LSP
-const Command *const COMMANDS[] = {&LSP_COMMAND, NULL};
 #elif defined PETRI_RANKS
 const Command *const COMMANDS[] = {&RUN_COMMAND, &SWEEP_COMMAND, &TEST_COMMAND, &DIFF_COMMAND,   &CHECK_COMMAND,
                                    &FMT_COMMAND, &SEND_COMMAND,  &NEW_COMMAND,  &VERIFY_COMMAND, NULL};
 #else // petri: commands that never draw and read no archives
 const Command *const COMMANDS[] = {&RUN_COMMAND, &SWEEP_COMMAND, &TEST_COMMAND, &DIFF_COMMAND, &CHECK_COMMAND,
-                                   &FMT_COMMAND, &SEND_COMMAND,  &NEW_COMMAND,  NULL};
+                                   &FMT_COMMAND, &LSP_COMMAND,   &SEND_COMMAND, &NEW_COMMAND,  NULL};
 #endif
 
 const Command *command_find(const char *name) {

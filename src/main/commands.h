@@ -1,6 +1,6 @@
 // commands.h: the table of commands, which differs between programs. petri-pictures has all commands. petri and
-// petri-ranks have only those that need neither the drawing libraries nor the prompt nor json-c; petri executes
-// petri-pictures or petri-lsp for the others. petri-lsp has only `lsp`.
+// petri-ranks have only those that need neither the drawing libraries nor the prompt; petri executes petri-pictures for
+// the others.
 #pragma once
 
 #include "cli/cli.h"

@@ -20,9 +20,6 @@
 #include "check/meshes.h"
 #include "sweep/plot_support.h"
 #endif
-#ifdef PETRI_LSP
-#include "lsp/lsp.h"
-#endif
 
 // Returns true if the word contains a dot or a slash, or is the name of an existing file.
 static bool looks_like_file(const char *word) {
@@ -68,9 +65,6 @@ static int dispatch(const CommandContext *host, int argc, char **argv) {
 #endif
     if (helper_exec_is_pictures_command(first))
         return helper_exec_pictures(argv);
-    int served = strcmp(first, "lsp") == 0 ? helper_exec_lsp(argv) : -1;
-    if (served >= 0)
-        return served;
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
         return help_overview(COMMANDS);
     if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0 || strcmp(first, "version") == 0)
@@ -174,9 +168,6 @@ int main(int argc, char **argv) {
                .status = STATUS_FAILED};
 #ifdef PETRI_RANKS
     ranks_begin(&job.host);
-#endif
-#ifdef PETRI_LSP
-    job.host.run_lsp = lsp_serve;
 #endif
 #if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
     job.host.plot_support = &PLOT_SUPPORT;

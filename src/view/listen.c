@@ -8,7 +8,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <inttypes.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -82,26 +81,31 @@ void listener_close(Listener *listener) {
 static void add_diagnostics(PetriSession *session, Text *out) {
     PetriDiagnostic diagnostic;
     for (size_t i = 0; petri_diagnostic(session, i, &diagnostic, sizeof diagnostic); i++) {
-        json_add_diagnostic(out, &diagnostic);
+        json_put_diagnostic(&(JsonWriter){.out = out, .spaced = true}, &diagnostic);
         text_add_c(out, "\n");
     }
 }
 
 static void add_output(const Text *output, Text *out) {
+    JsonWriter json = {.out = out, .spaced = true};
     Str line;
     for (size_t at = 0; output->len > 0 && text_next_line(output, &at, &line);) {
-        SCOPED_STRING text = memory_strndup(line.bytes, line.len);
-        text_add_c(out, "{");
-        JSON_ADD(out, "text", text);
-        text_add_c(out, "}\n");
+        json_open(&json, NULL, "{");
+        json_put_str(&json, "text", line);
+        json_close(&json, "}\n");
     }
 }
 
 static void add_result_line(Text *out, bool done, int64_t frame, const PetriPromptResult *prompted) {
-    text_add_format(out, "{\"done\": %s, \"frame\": %" PRId64 ", \"values\": %u, \"bindings\": %u, \"nodes\": %u",
-                    done ? "true" : "false", frame, prompted->values, prompted->bindings, prompted->nodes);
-    JSON_ADD(out, "shadowed", prompted->shadowed);
-    text_add_c(out, "}\n");
+    JsonWriter json = {.out = out, .spaced = true};
+    json_open(&json, NULL, "{");
+    json_put_written(&json, "done", done ? STR("true") : STR("false"));
+    json_put_integer(&json, "frame", frame);
+    json_put_integer(&json, "values", prompted->values);
+    json_put_integer(&json, "bindings", prompted->bindings);
+    json_put_integer(&json, "nodes", prompted->nodes);
+    json_put_text(&json, "shadowed", prompted->shadowed);
+    json_close(&json, "}\n");
 }
 
 // Executes `.set NAME VALUE`. Modifies the text. Returns false if this fails.

@@ -2,7 +2,6 @@
 // Otherwise, the input is a list of messages, separated by a byte 30, and the headers are added here.
 #include "cli/options.h"
 #include "fuzz.h"
-#include "lsp/lsp.h"
 #include "lsp/rpc.h"
 
 #include <dirent.h>
@@ -41,15 +40,8 @@ static void add_message(FuzzText *all, const char *message, size_t length) {
     fuzz_append(all, message, length);
 }
 
-static int serve(const CommandContext *context, Options *options) {
-    options->work = 1 << 20;
-    options->memory = 64 << 20;
-    return lsp_serve(context, options);
-}
-
 FUZZ_HARNESS(lsp) {
-    static const CommandContext context = {
-        .program = "petri", .invoked_as = "petri", .stack_bytes = 1 << 20, .run_lsp = serve};
+    static const CommandContext context = {.program = "petri", .invoked_as = "petri", .stack_bytes = 1 << 20};
     static const char first[] = "{\"id\":0,\"method\":\"initialize\",\"params\":{}}";
     FuzzText messages = {0};
     if (asked == 0) {
@@ -64,10 +56,10 @@ FUZZ_HARNESS(lsp) {
         fuzz_fail("cannot redirect the input");
     close(file);
     asked = 2;
-    char *words[] = {NULL};
+    char *words[] = {"--work=1M", "--memory=64M", NULL};
     fuzz_watch(NULL);
     serving = true;
-    command_run(&LSP_COMMAND, &context, 0, words);
+    command_run(&LSP_COMMAND, &context, 2, words);
     serving = false;
     fuzz_end_watch();
     return 0;

@@ -58,9 +58,4 @@ if nm lib/draw/libpetri-draw.a 2>/dev/null | grep -q ' U cairo_create$'; then
         faults=1
     fi
 fi
-# Checks that petri-lsp needs the JSON library, for the same reason.
-if [ -e src/petri-lsp ] && ! needed src/petri-lsp | grep -q '^libjson-c\.'; then
-    echo "petri-lsp does not need json-c"
-    faults=1
-fi
 exit $faults

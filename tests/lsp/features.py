@@ -1,5 +1,6 @@
 """features.py: tests of the answers of `petri lsp`, request by request. usage: features.py PATH-OF-PETRI"""
 
+import json
 import os
 import subprocess
 import sys
@@ -401,9 +402,21 @@ check("definitions are found although a line has an error", answer_at("let a=1\n
 check("an unknown request is an error", client.reply("petri/nonsense", {})["error"]["code"], -32601)
 check("a request without a document is an error", "error" in client.reply("textDocument/hover", {}))
 check("a position after the end is accepted", client.at("hover", uri, 10**6, 10**6), None)
-client.process.stdin.write(b"Content-Length: 3\r\n\r\n{x}")
-client.process.stdin.flush()
-check("invalid JSON is an error", client.answer(None)["error"]["code"], -32700)
+
+def answer_to(body, number):
+    client.process.stdin.write(b"Content-Length: %d\r\n\r\n" % len(body) + body)
+    client.process.stdin.flush()
+    return client.answer(number)
+
+
+shutdown = b'{"id":%s,"method":"shutdown"}'
+nested = b"[" * 300 + b"]" * 300
+for body in (b"{x}", b"{} {}", b'{"id":1,}', b'{"id":1 "method":"a"}', b'{"id":1,"id":2,"method":"a"}', b'/**/{"id":1}', b"{'id':1}",
+             b'{"id":01}', b'{"id":"\xff"}', shutdown % nested):
+    check(f"invalid JSON is an error: {body[:30]}", answer_to(body, None)["error"]["code"], -32700)
+for id in (b"1.50", b'"a\\u00e4\\n\\"\xf0\x9f\x98\x80"', b"-9007199254740993", b'[{"a":[]},null]'):
+    number = json.loads(id)
+    check(f"an answer has the id of its request: {id}", answer_to(shutdown.replace(b"shutdown", b"nonsense") % id, number)["id"], number)
 client.close(uri)
 check("the server exits with 0 after shutdown", client.end(), 0)
 client = Client(petri, utf8=True)

@@ -11,7 +11,7 @@ import zipfile
 from pathlib import Path
 
 # The command in WebAssembly and the engine of the preview.
-ENGINE = ("cli.mjs", "command.mjs", "json.mjs", "links.mjs", "paths.mjs", "runtime.mjs", "system.mjs", "threads.mjs", "engine.wasm",
+ENGINE = ("cli.mjs", "command.mjs", "links.mjs", "paths.mjs", "runtime.mjs", "system.mjs", "threads.mjs", "engine.wasm",
           "petri-command.wasm", "third-party-licences.txt")
 here = Path(__file__).resolve().parent
 root = here.parents[2]

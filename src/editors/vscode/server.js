@@ -6,7 +6,7 @@ const programs = require("./programs");
 
 const MAX_RESTARTS = 4;
 
-// Returns true if the installed command has the language server. It lacks the server if it was built without json-c.
+// Returns true if the installed command has the language server. Older builds without json-c lack it.
 const hasServer = ({ command }) =>
     new Promise((resolve) => childProcess.execFile(command, ["lsp", "--help"], { timeout: 10000 }, (problem) => resolve(!problem)));
 

@@ -13,7 +13,6 @@ class Petri < Formula
   depends_on "chafa"
   depends_on "hdf5"
   depends_on "jpeg-turbo"
-  depends_on "json-c"
   depends_on "libepoxy"
   depends_on "libpng"
   depends_on "libyaml"

@@ -1,7 +1,6 @@
 // command.mjs: runs petri-command.wasm, the `petri` command, in a thread of Node.js (cli.mjs).
 import fs from 'node:fs';
 import { isMainThread, parentPort, receiveMessageOnPort, workerData } from 'node:worker_threads';
-import { jsonFunctions } from './json.mjs';
 import { linkFunctions } from './links.mjs';
 import { runtime } from './runtime.mjs';
 import { Exit, System } from './system.mjs';
@@ -15,7 +14,6 @@ export function runCommand(module, options) {
     const functions = {
         ...system.functions(),
         ...linkFunctions(system),
-        ...jsonFunctions(system),
         gl_ready: () => 0, // there is no OpenGL
         gl_has: () => 0,
     };

@@ -1,7 +1,6 @@
-// test_src_text.c: tests of messages, JSON strings and tables: src/cli/message.c, json.c and text_table.c.
+// test_src_text.c: tests of messages and tables: src/cli/message.c and text_table.c.
 #include "captured.h"
 #include "cli/cli.h"
-#include "cli/json.h"
 #include "cli/text_table.h"
 
 static void test_messages_contain_no_control_characters(void **state) {
@@ -28,25 +27,6 @@ static void test_long_messages_are_one_shortened_line(void **state) {
     assert_string_equal(end, "\npetri: next\n");
 }
 
-static void test_json_strings_are_escaped(void **state) {
-    (void)state;
-    static const char *const rows[][2] = {
-        {NULL, "null"},
-        {"", "\"\""},
-        {"a\"b\\c", "\"a\\\"b\\\\c\""},
-        {"\n\t\x01", "\"\\u000a\\u0009\\u0001\""},
-        {"ä€😀", "\"ä€😀\""},
-        {"a\xff"
-         "b\xc3",
-         "\"a\\ufffdb\\ufffd\""},
-    };
-    for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        SCOPED_TEXT out = {0};
-        json_add_text(&out, rows[i][0]);
-        assert_text(rows[i][1], out.bytes, rows[i][1]);
-    }
-}
-
 static void test_columns_are_as_wide_as_their_cells(void **state) {
     (void)state;
     SCOPED_TEXT_TABLE table = text_table_new(3);
@@ -62,7 +42,6 @@ TEST_GROUP(src_text) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_messages_contain_no_control_characters),
         cmocka_unit_test(test_long_messages_are_one_shortened_line),
-        cmocka_unit_test(test_json_strings_are_escaped),
         cmocka_unit_test(test_columns_are_as_wide_as_their_cells),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
