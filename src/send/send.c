@@ -1,5 +1,6 @@
 // send.c: the command `petri send`, which evaluates code in a running view.
 #include "base/file.h"
+#include "cli/json.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/script.h"
@@ -25,9 +26,18 @@ static int connect_to(const char *path) {
     return descriptor;
 }
 
+// Returns `done` of the reply's last line, or NULL if the reply does not end with such a line.
+static const Json *find_done(JsonDocument *document, const Text *reply) {
+    size_t end = reply->len - (reply->bytes[reply->len - 1] == '\n'), start = end;
+    while (start > 0 && reply->bytes[start - 1] != '\n')
+        start--;
+    return json_get(json_read(document, (Str){reply->bytes + start, end - start}, 1), "done");
+}
+
 static int send_text(const char *path, const Text *text) {
     int view = connect_to(path);
     SCOPED_TEXT reply = {0};
+    SCOPED_JSON document = {0};
     if (view < 0)
         return STATUS_FAILED;
     bool sent = file_write(view, text->bytes, text->len) && shutdown(view, SHUT_WR) == 0 &&
@@ -38,10 +48,10 @@ static int send_text(const char *path, const Text *text) {
         return STATUS_FAILED;
     }
     int status = output_text(reply.bytes, reply.len, STATUS_DONE);
-    return status == STATUS_DONE && !strstr(reply.bytes, "\n{\"done\": false") &&
-                   strncmp(reply.bytes, "{\"done\": false", 14) != 0
-               ? STATUS_DONE
-               : STATUS_FAILED;
+    const Json *done = find_done(&document, &reply);
+    if (!done)
+        message("the view closed the connection before the end of its answer");
+    return status == STATUS_DONE && json_is(done, JSON_TRUE) ? STATUS_DONE : STATUS_FAILED;
 }
 
 static int send_run(const CommandContext *context, Options *options) {

@@ -101,6 +101,22 @@ kill $idle
 type_keys q
 check "the view ends" soon shows "status 0"
 check "the view removes its socket" [ ! -e sock ]
+# A view that crashes while it answers.
+python3 -c '
+import socket
+view = socket.socket(socket.AF_UNIX)
+view.bind("sock")
+view.listen()
+client = view.accept()[0]
+while client.recv(1000):
+    pass
+client.send(b"{\"text\": \"4\"}\n{\"done\": tr")' &
+soon test -S sock
+send 1
+check "what came of a cut answer is printed" has out '{"text": "4"}'
+check "a cut answer is reported" has err "the view closed the connection before the end of its answer"
+check "a cut answer exits with status 1" status_is 1
+rm sock
 send 1
 check "send without a view reports it" has err "cannot reach a view at sock"
 check "send without a view exits with status 1" status_is 1
