@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""check_circles.py SOURCE_ROOT BUILD_ROOT: the files of a room call each other in one direction.
+"""check_circles.py SOURCE_ROOT BUILD_ROOT: the files of a room call each other in one direction, in few levels.
 
 A room is a folder of lib/ or src/. A circle is a set of files of which each reaches each other by calls or by data, as the
-symbols of their object files say. A circle of at most three files may be one algorithm. circles.txt lists larger ones
-with their sizes, which may only become smaller.
+symbols of their object files say. A circle of at most three files may be one algorithm. The depth of a room is the number of
+files on its longest way of calls, in which a circle counts as all of its files. circles.txt lists rooms that are beyond
+these limits, with their size of circle and depth, which may only become smaller.
 """
 import re
 import subprocess
@@ -12,6 +13,7 @@ from collections import defaultdict
 from pathlib import Path
 
 MAX_FILES = 3
+MAX_DEPTH = 8
 
 
 def object_files(build):
@@ -50,7 +52,7 @@ def read_calls(build):
 
 
 def circles(calls):
-    """Yields the strongly connected components of more than one file (Tarjan's algorithm)."""
+    """Returns the strongly connected components (Tarjan's algorithm), each after those that it calls."""
     number, low, stack, found = {}, {}, [], []
 
     def visit(file):
@@ -69,22 +71,36 @@ def circles(calls):
     for file in sorted(calls):
         if file not in number:
             visit(file)
-    return [circle for circle in found if len(circle) > 1]
+    return found
+
+
+def longest_way(calls, components):
+    """Returns the longest way of calls, as a list of files; `components` are those of `circles`, those called before others."""
+    ways = {}
+    for component in components:
+        below = [ways[other] for file in component for other in calls.get(file, ()) if other not in component]
+        for file in component:
+            ways[file] = component + max(below, key=len, default=[])
+    return max(ways.values(), key=len)
 
 
 def main():
     root, build = sys.argv[1:]
     rows = [line.split() for line in Path(root, 'tests/lint/circles.txt').read_text(encoding='utf8').splitlines()
             if line and not line.startswith('#')]
-    known = {room: int(size) for room, size in rows}
+    known = {room: (int(size), int(depth)) for room, size, depth in rows}
     calls, wrong = read_calls(build), 0
     if len(calls) < 20:
         sys.exit(f'check_circles: found only {len(calls)} rooms')
     for room in sorted(calls):
-        largest = max(circles(calls[room]), key=len, default=[])
-        size, limit = len(largest), known.get(room, MAX_FILES)
-        if size > limit:
-            print(f'{room}: {size} files call each other in a circle, and at most {limit} may:', *largest)
+        components = circles(calls[room])
+        largest, way = max(components, key=len), longest_way(calls[room], components)
+        max_files, max_depth = known.get(room, (MAX_FILES, MAX_DEPTH))
+        if len(largest) > max_files:
+            print(f'{room}: {len(largest)} files call each other in a circle, and at most {max_files} may:', *largest)
+            wrong += 1
+        if len(way) > max_depth:
+            print(f'{room}: {len(way)} files are on one way of calls, and at most {max_depth} may be:', *way)
             wrong += 1
     return 1 if wrong else 0
 
