@@ -6,28 +6,6 @@
 
 #include "program/lower.h"
 
-Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count) {
-    Expr *expr = arena_alloc(compiler->scratch, sizeof *expr);
-    *expr = (Expr){.kind = kind,
-                   .count = count,
-                   .origin = {compiler->source, ast->span},
-                   .children = arena_copy(compiler->scratch, children, count * sizeof *children)};
-    for (uint32_t i = 0; kind == EXPR_COMPOSE && i < count; i++)
-        expr->slot += !expr_only_binds(children[i]);
-    fold_set_dependencies(expr);
-    return expr;
-}
-
-Expr *compile_constant(Compiler *compiler, const Ast *ast, Value value) {
-    Expr *expr = compile_expr_new(compiler, EXPR_CONST, ast, NULL, 0);
-    expr->as.value = value;
-    return expr;
-}
-
-void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *code, Str text, Str hint) {
-    diag_report(compiler->diags, &(Diag){level, {compiler->source, span}, text, .hint = hint, .code = code});
-}
-
 // Returns true if the value of an expression is or contains the value of its child i. If the expression's value becomes
 // children of a node, so does the value of this child. `count` is the number of children.
 static bool is_part(ExprKind kind, uint32_t i, uint32_t count) {

@@ -1,4 +1,12 @@
-// compile.h: internal declarations of the compiler: expressions (compile.c) and names (scope.c).
+// compile.h: internal declarations of the compiler. Its files, from those that call to those that are called:
+//
+//   compile.c     syntax tree to expressions
+//   scope.c       scopes, and the expression that a name becomes
+//   parameters.c  what `let NAME=NAME or DEFAULT` declares
+//   lint*.c       mistakes; key_uses.c: state keys; optional.c: uses of names that may be unbound
+//   names.c       what a name is bound to, and hints about names that nothing binds
+//   fold.c        the simplifier, which calls the expressions' code: lower.c, lower_node.c, lower_batch.c
+//   expr.c        new expressions, and reports
 #pragma once
 
 #include "program/expr.h"
@@ -107,6 +115,8 @@ typedef struct ScopeMark {
 const Expr *compile_expr(Compiler *compiler, const Ast *ast);
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count);
 Expr *compile_constant(Compiler *compiler, const Ast *ast, Value value);
+// Sets the dependencies of a new expression, which follow from its kind and its children.
+void expr_set_dependencies(Expr *expr);
 void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *code, Str text, Str hint);
 
 ScopeMark compile_scope_open(Compiler *compiler);
@@ -119,6 +129,8 @@ uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *nam
 // Marks the last `count` bindings as constant, with this value. If `count` is greater than 1, the value is unpacked to
 // them.
 void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
+// Returns the innermost binding of a name from `scope` outwards, or NULL.
+Binding *scope_find(Binding *scope, const Symbol *name);
 // Returns the visible binding of a name in the current or an enclosing function, or NULL. Does not mark the binding as
 // used.
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
@@ -133,6 +145,8 @@ uint32_t compile_count_uses(Compiler *compiler, const Symbol *name);
 // Returns true if there is a hint about the probable cause of an unbound name in the value of the name `bound`, such as
 // a similar name.
 bool compile_has_hint(Compiler *compiler, const Ast *use, const Symbol *bound);
+// Returns a hint about the probable cause of an unbound name, or an empty string.
+Str compile_unbound_hint(Compiler *compiler, const Ast *ast);
 // Adds the uses of names in an included file.
 void compile_add_uses(Compiler *compiler, const Ast *ast);
 void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
@@ -140,6 +154,8 @@ void compile_function_open(Compiler *compiler, FunctionScope *function, const Sy
 void compile_function_close(Compiler *compiler, FunctionScope *function);
 // Returns the built-in or host function with this name, or NULL.
 const struct Builtin *compile_find_builtin(const Compiler *compiler, Str name);
+// Returns the EngineName that a name has in a main program, or -1. *is_static becomes whether its value never changes.
+int compile_find_engine_name(const Compiler *compiler, Str name, bool *is_static);
 // Returns true if a name can get a value only from a definition (-D) at this point of the top level.
 bool compile_is_free(const Compiler *compiler, const Symbol *name);
 
@@ -163,8 +179,6 @@ void compile_note_vector(Compiler *compiler, const Ast *vector);
 // itself. `mark` is FunctionScope.next_slot before the expression was compiled, so the names that the expression binds
 // have slots >= mark.
 const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark);
-// Sets the dependencies of a new expression, which follow from its kind and its children.
-void fold_set_dependencies(Expr *expr);
 
 // Lints of mistakes (lint.c, lint_angles.c, lint_nodes.c), which every load reports.
 // Warns if the value of `ast`, where numbers are needed, is a stream of random numbers. lint_streams checks each child.

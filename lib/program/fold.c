@@ -14,35 +14,6 @@
 // Vectors with more elements are not folded: evaluating them again costs less than keeping them in memory.
 enum { MAX_ELEMENTS = 1 << 22 };
 
-static void add_dependency(Expr *expr, const Expr *child) {
-    expr->dynamic |= child->dynamic;
-    expr->uses_closure |= child->uses_closure;
-    if (child->lowest_slot < expr->lowest_slot)
-        expr->lowest_slot = child->lowest_slot;
-}
-
-void fold_set_dependencies(Expr *expr) {
-    expr->lowest_slot = UINT32_MAX;
-    switch (expr->kind) {
-    case EXPR_SLOT:
-        expr->lowest_slot = expr->slot;
-        break;
-    case EXPR_CAPTURE:
-    case EXPR_SELF:
-        expr->uses_closure = true;
-        break;
-    case EXPR_LOOKUP:
-    case EXPR_IMPORT:
-    case EXPR_UNBOUND:
-        expr->dynamic = true;
-        break;
-    default:
-        break;
-    }
-    for (uint32_t i = 0; i < expr->count; i++)
-        add_dependency(expr, expr->children[i]);
-}
-
 // Returns false for expressions of a kind that binds names, is already constant, or is evaluated as fast as a constant.
 static bool is_candidate(const Compiler *compiler, const Expr *expr) {
     switch (expr->kind) {
@@ -101,7 +72,7 @@ static const Expr *replace_with_constant(Compiler *compiler, const Expr *expr, V
     folded->kind = EXPR_CONST;
     folded->count = 0;
     folded->as.value = value;
-    fold_set_dependencies(folded);
+    expr_set_dependencies(folded);
     value_mark_program_lifetime(value);
     return folded;
 }
@@ -135,7 +106,7 @@ static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     Expr *rest = arena_copy(compiler->scratch, expr, sizeof *expr);
     rest->children += skip;
     rest->count -= skip;
-    fold_set_dependencies(rest);
+    expr_set_dependencies(rest);
     return rest;
 }
 

@@ -2,21 +2,11 @@
 #include "builtin/builtin.h"
 #include "program/compile.h"
 
-static const struct {
-    const char *name;
-    bool is_static;
-} engine_names[] = {
-#define ENGINE_NAME(id, text, is_static) {text, is_static},
-#include "program/engine_names.h"
-#undef ENGINE_NAME
-};
-
 // Returns true for a name such as `time`, whose value changes from frame to frame.
 static bool is_clock(const Compiler *compiler, const Ast *ast) {
-    for (size_t i = 0; !compiler->options->module && i < sizeof engine_names / sizeof engine_names[0]; i++)
-        if (str_equal(ast->name->name, str_from(engine_names[i].name)))
-            return !engine_names[i].is_static && !compile_find_binding(compiler, ast->name);
-    return false;
+    bool is_static = true;
+    return compile_find_engine_name(compiler, ast->name->name, &is_static) >= 0 && !is_static &&
+           !compile_find_binding(compiler, ast->name);
 }
 
 // Returns true if the value of an expression depends on the clock.
