@@ -5,15 +5,6 @@
 
 #include <math.h>
 
-Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last) {
-    Vector key = vector_new(arena);
-    vector_add(&key, prefix);
-    vector_add(&key, id);
-    if (last)
-        vector_add_number(&key, last->number);
-    return vector_finish(&key);
-}
-
 static double scene_number(const State *state, StateSlot slot, double default_value) {
     Value v = state_slot_get(state, slot);
     return value_is_number(v) && isfinite(v.as.number) ? v.as.number : default_value;

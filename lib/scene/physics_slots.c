@@ -9,6 +9,15 @@
 
 #include <string.h>
 
+Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last) {
+    Vector key = vector_new(arena);
+    vector_add(&key, prefix);
+    vector_add(&key, id);
+    if (last)
+        vector_add_number(&key, last->number);
+    return vector_finish(&key);
+}
+
 Value physics_key(const PhysicsTree *tree, Value id, bool velocity, double numbers[PHYSICS_KEY_NUMBERS]) {
     const Symbol *last = velocity ? tree->scene->key_velocity : NULL;
     Value prefix = tree->prefix;

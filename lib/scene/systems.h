@@ -1,4 +1,11 @@
-// systems.h: internal declarations of lib/scene.
+// systems.h: internal declarations of lib/scene. Its files, from those that call to those that are called:
+//
+//   scene.c                               the tree of a frame
+//   physics_bind.c, counter_bind.c        its systems and counters; input_bind.c: its inputs
+//   physics_reuse.c, physics_read.c       particles and forces, of a tree like the last one or of any
+//   physics_lint.c                        what is probably wrong in them; physics_stability.c: in their motion
+//   mirror.c                              positions and velocities in the state
+//   physics_slots.c                       keys and slots of particles
 #pragma once
 
 #include "base/hash_index.h"

@@ -1,4 +1,10 @@
-// internal.h: internal declarations of lib/state.
+// internal.h: internal declarations of lib/state. Its files, from those that call to those that are called:
+//
+//   state.c                finds, stores and removes entries
+//   compact.c, digest.c    memory of removed keys, and the digest
+//   order.c                canonical order of keys
+//   slots.c                keys and values of slots
+//   key_range.c            entries whose keys are consecutive numbers
 #pragma once
 
 #include "base/arena.h"
