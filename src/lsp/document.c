@@ -387,3 +387,14 @@ char *path_canonical(const char *path) {
     char resolved[PATH_MAX];
     return memory_strdup(realpath(path, resolved) ? resolved : path);
 }
+
+const PetriBinding *document_export(const Document *document, Str text) {
+    const PetriBinding *found = NULL;
+    for (size_t i = 0; i < document->name_count; i++) {
+        const PetriBinding *name = &document->names[i];
+        if (name->kind != PETRI_NAME_USE && name->depth == 0 && name->kind != PETRI_NAME_LOOP &&
+            str_equal(document_slice(document, name->start, name->end), text) && name->scope_end >= document->text.len)
+            found = name;
+    }
+    return found;
+}

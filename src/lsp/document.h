@@ -80,6 +80,8 @@ void document_put_range(JsonWriter *json, const char *name, const Document *docu
                         bool utf8);
 void document_position(const Document *document, size_t offset, bool utf8, size_t *line, size_t *character);
 Str document_slice(const Document *document, size_t start, size_t end);
+// Returns the binding that scripts import under a name: the last top-level binding. Returns NULL if there is none.
+const PetriBinding *document_export(const Document *document, Str name);
 Str document_token(const Document *document, size_t token);
 bool document_is(const Document *document, size_t token, const char *text);
 bool document_begins(const Document *document, size_t token); // returns true if the token begins a statement

@@ -105,7 +105,7 @@ static bool is_parameter(const Document *document, const PetriBinding *name) {
 }
 
 static const PetriBinding *last_binding_of(const Document *document, const PetriBinding *name) {
-    const PetriBinding *last = hover_export(document, document_slice(document, name->start, name->end));
+    const PetriBinding *last = document_export(document, document_slice(document, name->start, name->end));
     return last;
 }
 
@@ -146,17 +146,6 @@ const char *hover_value(Server *server, Document *document, const PetriBinding *
 }
 
 // --- names bound in the script
-
-const PetriBinding *hover_export(const Document *document, Str text) {
-    const PetriBinding *found = NULL;
-    for (size_t i = 0; i < document->name_count; i++) {
-        const PetriBinding *name = &document->names[i];
-        if (name->kind != PETRI_NAME_USE && name->depth == 0 && name->kind != PETRI_NAME_LOOP &&
-            str_equal(document_slice(document, name->start, name->end), text) && name->scope_end >= document->text.len)
-            found = name;
-    }
-    return found;
-}
 
 // Appends the comment lines directly above a statement.
 static void add_comment_above(Text *out, const Document *document, size_t start) {

@@ -1,4 +1,11 @@
-// server.h: internal declarations of the language server.
+// server.h: internal declarations of the language server. Its files, from those that call to those that are called:
+//
+//   lsp.c              messages of the editor
+//   complete.c, navigate.c, outline.c, inlay_hints.c, format.c   answers to its requests
+//   hover.c            help and values of words; publish.c: diagnostics
+//   workspace.c        names in several files
+//   server.c           open documents, other files, sessions
+//   document.c, rpc.c  texts and positions; messages
 #pragma once
 
 #include "base/file_access.h"
@@ -10,6 +17,8 @@ enum { SERVER_MAX_FILE_BYTES = 16 << 20 }; // maximum size of a file that is not
 typedef struct Server {
     const CommandContext *host;
     Options *options;
+    // Receives the diagnostics of both sessions, with the server as user data.
+    void (*collect)(void *server, const PetriDiagnostic *diagnostic);
     PetriSession *session; // session in which documents are tokenised and checked
     PetriSession *quick;   // session for first checks, with a small work limit
     Arena arena;           // holds the folders of `access`
@@ -36,6 +45,10 @@ Document *server_file(Server *server, const char *path, const Document *main, bo
 // For PetriOptions.read_unsaved: returns the text of the file if it is open in the editor, else NULL. During a check,
 // adds the path to `used` of the document that is being checked.
 const char *server_unsaved(void *server, const char *path, size_t *length);
+// Sets Server.access: scripts may read below the current folder and the folders of --allow-read, as in a session.
+void server_init_access(Server *server);
+// Opens both sessions. Returns false, after a message, if the options are wrong.
+bool server_open_session(Server *server);
 // Updates tokens and names of a document.
 void server_read(Server *server, Document *document);
 
@@ -82,5 +95,3 @@ void hover_attribute(Text *out, const PetriNodeAttribute *attribute);
 void hover_binding(Text *out, Server *server, Document *document, const PetriBinding *name);
 // Returns the value of a constant. Returns NULL if the name is not constant or its evaluation exceeds the work limit.
 const char *hover_value(Server *server, Document *document, const PetriBinding *name);
-// Returns the binding that scripts import under a name: the last top-level binding. Returns NULL if there is none.
-const PetriBinding *hover_export(const Document *document, Str name);

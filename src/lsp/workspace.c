@@ -219,7 +219,7 @@ static BindingSet binding_definition(const Workspace *workspace, size_t file, si
     const Document *module =
         !link || link->target == SIZE_MAX || depth > MAX_LINKS ? NULL : workspace->documents[link->target];
     const PetriBinding *found =
-        !module ? NULL : hover_export(module, document_slice(document, bound->start, bound->end));
+        !module ? NULL : document_export(module, document_slice(document, bound->start, bound->end));
     return found ? binding_definition(workspace, link->target, (size_t)(found - module->names), depth + 1)
                  : (BindingSet){.items = {{file, name}}, .count = 1};
 }
