@@ -116,7 +116,7 @@ const Expr *compile_expr(Compiler *compiler, const Ast *ast);
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count);
 Expr *compile_constant(Compiler *compiler, const Ast *ast, Value value);
 // Sets the dependencies of a new expression, which follow from its kind and its children.
-void expr_set_dependencies(Expr *expr);
+void compile_set_dependencies(Expr *expr);
 void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *code, Str text, Str hint);
 
 ScopeMark compile_scope_open(Compiler *compiler);
@@ -130,7 +130,7 @@ uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *nam
 // them.
 void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
 // Returns the innermost binding of a name from `scope` outwards, or NULL.
-Binding *scope_find(Binding *scope, const Symbol *name);
+Binding *compile_scope_find(Binding *scope, const Symbol *name);
 // Returns the visible binding of a name in the current or an enclosing function, or NULL. Does not mark the binding as
 // used.
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);

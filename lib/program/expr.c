@@ -8,7 +8,7 @@ static void add_dependency(Expr *expr, const Expr *child) {
         expr->lowest_slot = child->lowest_slot;
 }
 
-void expr_set_dependencies(Expr *expr) {
+void compile_set_dependencies(Expr *expr) {
     expr->lowest_slot = UINT32_MAX;
     switch (expr->kind) {
     case EXPR_SLOT:
@@ -38,7 +38,7 @@ Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const 
                    .children = arena_copy(compiler->scratch, children, count * sizeof *children)};
     for (uint32_t i = 0; kind == EXPR_COMPOSE && i < count; i++)
         expr->slot += !expr_only_binds(children[i]);
-    expr_set_dependencies(expr);
+    compile_set_dependencies(expr);
     return expr;
 }
 

@@ -72,7 +72,7 @@ static const Expr *replace_with_constant(Compiler *compiler, const Expr *expr, V
     folded->kind = EXPR_CONST;
     folded->count = 0;
     folded->as.value = value;
-    expr_set_dependencies(folded);
+    compile_set_dependencies(folded);
     value_mark_program_lifetime(value);
     return folded;
 }
@@ -106,7 +106,7 @@ static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     Expr *rest = arena_copy(compiler->scratch, expr, sizeof *expr);
     rest->children += skip;
     rest->count -= skip;
-    expr_set_dependencies(rest);
+    compile_set_dependencies(rest);
     return rest;
 }
 

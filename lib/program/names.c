@@ -2,7 +2,7 @@
 #include "builtin/builtin.h"
 #include "program/compile.h"
 
-Binding *scope_find(Binding *scope, const Symbol *name) {
+Binding *compile_scope_find(Binding *scope, const Symbol *name) {
     while (scope && scope->name != name)
         scope = scope->outer;
     return scope;
@@ -10,7 +10,7 @@ Binding *scope_find(Binding *scope, const Symbol *name) {
 
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name) {
     for (const FunctionScope *function = compiler->function; function; function = function->outer) {
-        const Binding *binding = scope_find(function->scope, name);
+        const Binding *binding = compile_scope_find(function->scope, name);
         if (binding || function->self == name)
             return binding;
     }

@@ -56,7 +56,7 @@ void compile_function_close(Compiler *compiler, FunctionScope *function) {
 static Expr *slot_expr(Compiler *compiler, ExprKind kind, const Ast *ast, uint32_t slot) {
     Expr *expr = compile_expr_new(compiler, kind, ast, NULL, 0);
     expr->slot = slot;
-    expr_set_dependencies(expr);
+    compile_set_dependencies(expr);
     return expr;
 }
 
@@ -84,7 +84,7 @@ static const Expr *add_capture(Compiler *compiler, FunctionScope *function, cons
 static const Expr *find_in_program(Compiler *compiler, FunctionScope *function, const Ast *ast) {
     if (!function)
         return NULL;
-    Binding *binding = scope_find(function->scope, ast->name);
+    Binding *binding = compile_scope_find(function->scope, ast->name);
     if (binding) {
         binding->used = true;
         return binding->is_constant ? compile_constant(compiler, ast, binding->constant)

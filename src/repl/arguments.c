@@ -1,5 +1,4 @@
-// arguments.c: parsing the operands of commands, and commands typed without their dot.
-#include "cli/help.h"
+// arguments.c: parsing the operands of commands.
 #include "cli/progress.h"
 #include "repl/repl.h"
 
@@ -125,85 +124,4 @@ size_t argument_lines(const Repl *repl, char *text, size_t around) {
         return screen_lines(repl, around);
     *before = '\0';
     return all ? SIZE_MAX : (size_t)count;
-}
-
-// Common words for quitting and for help. `?` is never code, because the language does not use it.
-static const struct {
-    const char *word;
-    const char *command;
-} bare_words[] = {
-    {"help", ".help"}, {"?", ".help"}, {"h", ".help"}, {"quit", ".quit"}, {"exit", ".quit"}, {"q", ".quit"},
-};
-
-enum { BARE_COUNT = sizeof bare_words / sizeof bare_words[0] };
-
-static bool is_word(const char *name, const char *word, size_t length) {
-    return strlen(name) == length && memcmp(name, word, length) == 0;
-}
-
-const char *bare_alias(const char *name, size_t length) {
-    for (size_t i = 0; i < BARE_COUNT; i++)
-        if (is_word(bare_words[i].word, name, length))
-            return bare_words[i].command;
-    return NULL;
-}
-
-// Returns true if the script, the prompt or petri binds the word.
-static bool is_bound(Repl *repl, const char *word, size_t length) {
-    PetriBuiltin builtin;
-    const char *name;
-    for (size_t i = 0; (name = petri_visible_name(repl->session, i)); i++)
-        if (is_word(name, word, length))
-            return true;
-    return topic_find_builtin((Str){word, length}, &builtin);
-}
-
-static size_t word_length(const char *text) {
-    return text[0] == '?' ? 1 : strcspn(text, " \t\n(");
-}
-
-// Evaluates a trivial expression, because petri_visible_name finds names only after an evaluation.
-static void compile_names(Repl *repl) {
-    PetriEvaluation result;
-    repl_busy(repl);
-    petri_evaluate(repl->session, "0", PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
-    repl_idle(repl);
-}
-
-// Executes `help`, `quit` and their synonyms. Returns false if the text is not one of these commands or if the word is
-// bound. If the word is bound, also sets *remark.
-static bool execute_alias(Repl *repl, const char *word, size_t length, const char *rest, Text *remark) {
-    bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0;
-    const char *command = bare_alias(word, length);
-    bool topic = length > 1 || word[0] == '?'; // only `help` and `?` take an operand; `h` does not
-    if (!command || !(alone || (topic && strcmp(command, ".help") == 0)))
-        return false;
-    if (is_bound(repl, word, length)) {
-        text_add_format(remark, "'%.*s' is a name here; the command is %s", (int)length, word, command);
-        return false;
-    }
-    SCOPED_TEXT line = {0};
-    size_t inner = strlen(rest);
-    bool called = !alone && rest[0] == '(' && rest[inner - 1] == ')'; // as in help(sin)
-    text_add_format(&line, "%s %.*s", command, (int)(alone ? 0 : inner - 2 * called), rest + called);
-    repl_command(repl, line.bytes);
-    return true;
-}
-
-bool bare_execute(Repl *repl, const char *text, Text *remark) {
-    SCOPED_STRING line = argument_trimmed(text);
-    size_t length = word_length(line);
-    SCOPED_STRING rest = argument_trimmed(line + length);
-    bool alias = bare_alias(line, length), command = line[0] != '.' && repl_find_command(line, length), done = false;
-    if ((alias || command) && !strchr(line, '\n')) {
-        compile_names(repl);
-        done = execute_alias(repl, line, length, rest, remark);
-        if (!done && !alias && !is_bound(repl, line, length)) {
-            repl_fail(repl, "commands begin with a dot: did you mean .%s?", line);
-            done = true;
-        } else if (!done && command && rest[0] != '\0') {
-            text_add_format(remark, "commands begin with a dot: did you mean .%s?", line);
-        }
-    }
-    return done;
 }

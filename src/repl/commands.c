@@ -29,6 +29,23 @@ const ReplCommand *repl_find_command(const char *name, size_t length) {
     return command;
 }
 
+// Common words for quitting and for help. `?` is never code, because the language does not use it.
+static const struct {
+    const char *word;
+    const char *command;
+} bare_words[] = {
+    {"help", ".help"}, {"?", ".help"}, {"h", ".help"}, {"quit", ".quit"}, {"exit", ".quit"}, {"q", ".quit"},
+};
+
+enum { BARE_COUNT = sizeof bare_words / sizeof bare_words[0] };
+
+const char *bare_alias(const char *name, size_t length) {
+    for (size_t i = 0; i < BARE_COUNT; i++)
+        if (str_equal(str_from(bare_words[i].word), (Str){name, length}))
+            return bare_words[i].command;
+    return NULL;
+}
+
 static void list_commands(Text *text) {
     SCOPED_TEXT_TABLE table = text_table_new(2);
     const ReplCommand *command;

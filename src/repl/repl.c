@@ -10,75 +10,10 @@
 #include <inttypes.h>
 #include <langinfo.h>
 #include <locale.h>
-#include <math.h>
-#include <signal.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-// Globals, because the signal handler needs them.
-static volatile sig_atomic_t interrupted;
-static PetriSession *volatile working; // session that Ctrl-C interrupts; NULL: none
-
-static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
-    PetriSession *session = working;
-    if (session)
-        petri_interrupt(session);
-}
-
-void repl_busy(Repl *repl) {
-    interrupted = 0;
-    petri_clear_interrupt(repl->session);
-    working = repl->session;
-}
-
-bool repl_idle(Repl *repl) {
-    working = NULL;
-    petri_clear_interrupt(repl->session); // an interrupt that arrived too late must not stop the next input
-    if (interrupted && repl->terminal)
-        output_write(&repl->output, "\n", 1); // end the line on which the terminal shows ^C
-    return interrupted != 0;
-}
-
-bool repl_interrupted(void) {
-    return interrupted != 0;
-}
-
-void repl_note(Repl *repl, const char *format, ...) {
-    SCOPED_TEXT text = {0};
-    char line[1024];
-    va_list list;
-    va_start(list, format);
-    vsnprintf(line, sizeof line, format, list);
-    va_end(list);
-    text_add_format(&text, repl->options->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
-    output_write(&repl->output, text.bytes, text.len);
-}
-
-bool repl_fail(Repl *repl, const char *format, ...) {
-    char line[1024];
-    va_list list;
-    va_start(list, format);
-    vsnprintf(line, sizeof line, format, list);
-    va_end(list);
-    output_flush(&repl->output);
-    message("%s", line);
-    repl->failed = true;
-    return false;
-}
-
-bool repl_status(Repl *repl, PetriStatus status) {
-    repl->failed = repl->failed || status != PETRI_OK;
-    if (status == PETRI_INTERRUPTED)
-        return repl_fail(repl, "interrupted");
-    if (status == PETRI_OUT_OF_MEMORY)
-        return repl_fail(repl, "out of memory");
-    return status == PETRI_OK;
-}
 
 // Writes to the output; a PetriWriteCallback.
 static bool repl_write(void *host, const char *text, size_t length) {
@@ -184,7 +119,7 @@ static void run_prompt(Repl *repl) {
             repl->any_failed = true;
             break;
         }
-        interrupted = 0;
+        repl_clear_interrupt();
     }
     text_free(&next);
     line_reader_free(reader);
@@ -213,19 +148,13 @@ static void start_session(Repl *repl, const char *state) {
     repl->any_failed = repl->failed;
 }
 
-static void catch_interrupt(void) {
-    struct sigaction action = {.sa_handler = on_interrupt};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-}
-
 static int run_session(Repl *repl, const char *state) {
     // Use only the character encoding of the locale, because its number format would break the parsing of scripts.
     setlocale(LC_CTYPE, "");
     repl->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
     repl->terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
     repl->files = file_watch_new();
-    catch_interrupt();
+    repl_catch_interrupt();
     start_session(repl, state);
     if (repl->invalid_definition)
         return STATUS_USAGE;

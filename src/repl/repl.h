@@ -1,4 +1,12 @@
-// repl.h: internal declarations of `petri repl`: its state, output, commands and completion.
+// repl.h: internal declarations of `petri repl`. Its files, from those that call to those that are called:
+//
+//   repl.c                   the session: reads and executes input
+//   line.c, edit.c           reading lines, with libedit on a terminal; complete.c: completion of words
+//   bare.c                   commands typed without their dot
+//   commands.c               table of all commands, and help
+//   *_commands.c, why_command.c, plot.c, record.c, script.c   the commands
+//   arguments.c              their operands
+//   interrupt.c              Ctrl-C, notes and messages
 #pragma once
 
 #include "cli/archive.h"
@@ -44,8 +52,11 @@ bool repl_status(Repl *repl, PetriStatus status);
 // repl_busy.
 void repl_busy(Repl *repl);
 bool repl_idle(Repl *repl);
-// Returns true if Ctrl-C was typed since the last repl_busy or prompt.
+// Returns true if Ctrl-C was typed since the last repl_busy or repl_clear_interrupt.
 bool repl_interrupted(void);
+void repl_clear_interrupt(void);
+// Catches Ctrl-C from now on.
+void repl_catch_interrupt(void);
 
 // Loads a script (script.c). Returns true if this script is now running.
 bool repl_load(Repl *repl, const char *file);
@@ -88,7 +99,7 @@ const ReplCommand *repl_command_at(size_t index);
 const ReplCommand *repl_find_command(const char *name, size_t length);
 void repl_command(Repl *repl, const char *line);
 
-// Commands without a dot (arguments.c).
+// Commands without a dot (bare.c; bare_alias is in commands.c).
 // Executes the text if its first word is `help`, `?`, `h`, `quit`, `exit` or `q`. If the first word is the name of
 // another command, writes a message. Returns true in both cases.
 // Returns false if the text is code, for example because the script, the prompt or petri binds the first word. If the

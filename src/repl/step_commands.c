@@ -114,16 +114,6 @@ static bool step_frames(Repl *repl, const StepRequest *request) {
     return !repl->failed;
 }
 
-void repl_complete_frame(Repl *repl) {
-    if (!repl->incomplete)
-        return;
-    repl_busy(repl);
-    PetriStatus status = history_recompute(&repl->history, repl->session);
-    repl_idle(repl);
-    repl->incomplete = status != PETRI_OK;
-    repl_status(repl, status);
-}
-
 // Goes to a frame. Within the history, goes there directly. Beyond its end, computes frame by frame and shows a
 // progress line.
 static PetriStatus seek_frame(Repl *repl, int64_t frame, Text *why) {
