@@ -1,8 +1,10 @@
 // check.c: the command `petri check`, which reports errors in scripts without running them.
+#include "check/meshes.h"
 #include "check/report.h"
 #include "cli/archive.h"
 #include "cli/options.h"
 #include "cli/script.h"
+#include "cli/words.h"
 #include "petri.h"
 
 #include <inttypes.h>
@@ -46,8 +48,8 @@ static int check_scripts(Check *check, const CommandContext *host, const Options
             counts->rejected += replay_check(options, session) != PETRI_OK;
         else if (!petri_archive_is(path)) // check_archives checks archives
             counts->rejected += script_check(session, path) != PETRI_OK;
-        if (options->stats && host->print_meshes && (options->replayed || !petri_archive_is(path)))
-            host->print_meshes(host, options, path);
+        if (options->stats && (options->replayed || !petri_archive_is(path)))
+            check_print_meshes(host, options, path);
     }
     check->report.script = NULL;
     counts->errors += petri_diagnostic_count(session, PETRI_ERROR);
@@ -120,6 +122,10 @@ static int check_run(const CommandContext *host, Options *options) {
     return STATUS_FAILED;
 }
 
+static bool check_needs_pictures(char *const *words) {
+    return words_have_option(words, "stats") || words_name_archive(words);
+}
+
 const Command CHECK_COMMAND = {
     .name = "check",
     .operands = "PATH...",
@@ -133,6 +139,7 @@ const Command CHECK_COMMAND = {
                 "  petri check --format=sarif . >petri.sarif       a report for code hosting sites\n",
     .missing_operand = "nothing to check",
     .options = FOR_CHECK,
+    .needs_pictures = check_needs_pictures,
     .accepts_many = true,
     .run = check_run,
 };

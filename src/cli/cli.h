@@ -11,7 +11,6 @@ struct Args;
 struct MpiChannel;
 struct Options;
 struct PetriRanks;
-struct PlotSupport;
 
 // Exit codes. After a signal, the exit code is STATUS_SIGNAL plus the number of the signal.
 enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 };
@@ -48,19 +47,15 @@ typedef struct OptionSpec {
 extern const OptionSpec OPTIONS[];
 
 // The environment of a command, set up by main.
-typedef struct CommandContext CommandContext;
-struct CommandContext {
-    size_t stack_bytes;                     // size of the C stack that evaluation can use, in bytes
-    const char *program;                    // path of this program, valid in any working directory
-    const char *invoked_as;                 // argv[0], for hints that show commands
-    const char *cpu;                        // PetriOptions.cpu
-    const struct PlotSupport *plot_support; // plans and plots of petri sweep; NULL: this program has none
-    // Prints the triangles of a checked script (check/meshes.c). NULL: this program cannot draw.
-    void (*print_meshes)(const CommandContext *context, const struct Options *options, const char *path);
+typedef struct CommandContext {
+    size_t stack_bytes;               // size of the C stack that evaluation can use, in bytes
+    const char *program;              // path of this program, valid in any working directory
+    const char *invoked_as;           // argv[0], for hints that show commands
+    const char *cpu;                  // PetriOptions.cpu
     const struct PetriRanks *ranks;   // the processes (ranks) that mpirun has started; NULL: a single process
     const struct MpiChannel *channel; // messages between the ranks; NULL: a single process
     void (*leave_ranks)(void);        // stops waiting for the other ranks; can be called by a signal handler
-};
+} CommandContext;
 
 typedef struct Command {
     const char *name;
@@ -76,6 +71,9 @@ typedef struct Command {
     bool accepts_two;                 // true if the command accepts a second operand (Options.second)
     bool live;             // true if the command, by default, follows the wall clock and runs until it is stopped
     bool parses_arguments; // true if `run` parses argv itself
+    // Returns true if a command line, which ends with NULL, needs petri-pictures to read or write an archive or to
+    // draw. NULL: none does.
+    bool (*needs_pictures)(char *const *words);
     int (*run)(const CommandContext *context, struct Options *options); // returns the exit status
 } Command;
 
@@ -98,13 +96,15 @@ extern const Command CITE_COMMAND;
 extern const Command UNPACK_COMMAND;
 extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
+// Commands that help does not list: `petri complete`, for the completion scripts of shells, and the test of a shader.
+extern const Command COMPLETE_COMMAND;
+extern const Command SHADER_TEST_COMMAND;
 
 // Parses the arguments that follow the command's name and runs the command. Returns the exit status.
 int command_run(const Command *command, const CommandContext *context, int argc, char **argv);
 
 // These print help to standard output and return the exit status.
 int help_for(const Command *command);
-int help_overview(const Command *const *commands); // `commands`: ends with NULL; printed in this order
 int help_version(void);
 
 // Installs a signal handler. A SIGHUP that is ignored, as under nohup, stays ignored.

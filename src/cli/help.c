@@ -92,24 +92,12 @@ int help_print(const Text *text) {
     return help_end(output);
 }
 
-// Adds paragraphs and a newline. Joins the lines of a paragraph, but not empty lines or lines that begin with a space.
-static void help_prose(Text *text, const char *prose) {
+void help_prose(Text *text, const char *prose) {
     for (const char *at = prose; *at != '\0'; at++) {
         bool joins = at[0] == '\n' && at > prose && at[-1] != '\n' && at[1] != '\n' && at[1] != ' ' && at[1] != '\0';
         text_add(text, (Str){joins ? " " : at, 1});
     }
     text_add_c(text, "\n");
-}
-
-int help_overview(const Command *const *commands) {
-    SCOPED_TEXT text = {0};
-    text_add_format(&text, "petri %s: %s\n\n", petri_version(), HELP_TITLE);
-    text_add_format(&text, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
-    for (size_t i = 0; commands[i]; i++)
-        text_add_format(&text, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
-    text_add_c(&text, "\n");
-    help_prose(&text, HELP_BEGINNING);
-    return help_print(&text);
 }
 
 void help_option(Text *text, const OptionSpec *spec) {

@@ -16,6 +16,8 @@ int help_end(Output *output);
 void help_write(Output *output, const Text *text);
 // Writes text like help_write, to standard output. Returns the exit status.
 int help_print(const Text *text);
+// Adds paragraphs and a newline. Joins the lines of a paragraph, but not empty lines or lines that begin with a space.
+void help_prose(Text *text, const char *prose);
 // Adds a line with an option and its help.
 void help_option(Text *text, const OptionSpec *spec);
 

@@ -6,7 +6,6 @@
 #include "base/os.h"
 #include "cli/cli.h"
 #include "cli/mpirun.h"
-#include "petri-archive.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -14,49 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#ifdef PETRI_PICTURES
-enum { HAS_ALL = true };
-#else
-enum { HAS_ALL = false };
-#endif
-#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
-enum { HAS_LIBRARIES = true }; // this program draws, and reads and writes archives
-#else
-enum { HAS_LIBRARIES = false };
-#endif
-
-bool helper_exec_is_pictures_command(const char *first) {
-#ifdef PETRI_RANKS
-    if (strcmp(first, "verify") == 0)
-        return false;
-#endif
-    static const char *const words[] = {"view", "render",   "repl", "link",   "open", "verify",
-                                        "info", "complete", "help", "--help", "-h"};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-        if (strcmp(first, words[i]) == 0)
-            return !HAS_ALL;
-    return false;
-}
-
-bool helper_exec_needs_archives(char **argv) {
-    for (char **word = argv + 1; *word && !HAS_LIBRARIES; word++)
-        if (strcmp(*word, "--archive") == 0 || strncmp(*word, "--archive=", strlen("--archive=")) == 0 ||
-            petri_archive_is(*word))
-            return true;
-    return false;
-}
-
-bool helper_exec_needs_meshes(char **argv) {
-    for (char **word = argv + 1; *word && !HAS_LIBRARIES; word++)
-        if (strcmp(*word, "--stats") == 0)
-            return true;
-    return false;
-}
-
-bool helper_exec_forwards_unknown(void) {
-    return !HAS_ALL;
-}
 
 // Returns the last component of the path.
 static char *find_base_name(char *path) {
@@ -99,13 +55,10 @@ int helper_exec_pictures(char **argv) {
 
 // Returns a hint for a missing petri-ranks. `folder` is that of this program.
 static const char *ranks_hint(char folder[PATH_MAX + 64]) {
-#ifdef HAVE_MPI
+    if (!HAVE_MPI)
+        return "; petri was built without MPI; on Debian, install libopenmpi-dev and build petri again";
     strcat(folder, "../build.ninja");
     return access(folder, F_OK) == 0 ? "; run './dev build', which builds it" : "; on Debian, install petri-mpi";
-#else
-    (void)folder;
-    return "; petri was built without MPI; on Debian, install libopenmpi-dev and build petri again";
-#endif
 }
 
 int helper_exec_ranks(char **argv, bool needed) {

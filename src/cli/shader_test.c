@@ -27,8 +27,7 @@ enum { SHADER_GOOD = 0, SHADER_REJECTED = 10, SHADER_REJECTED_VERTEX = 11 };
 // Limits of a test. Common shaders take less than a second and 300 MB with llvmpipe.
 enum { MAX_SECONDS = 4, MAX_WAIT_SECONDS = 30, MAX_GIBIBYTES = 2, MAX_SOURCE = 1 << 24 };
 
-static atomic_bool interrupted;                     // see shader_test_interrupted
-static const char command_word[] = "--test-shader"; // not an option for users
+static atomic_bool interrupted; // see shader_test_interrupted
 
 static bool has_signal(const ShaderTester *tester) {
     return tester->pending_signal && tester->pending_signal() != 0;
@@ -89,7 +88,7 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
     char path[PATH_MAX];
     const char *program = os_program(path);
     pid_t pid = !program ? -1
-                         : subprocess_spawn(program, (const char *const[]){"petri", command_word, NULL},
+                         : subprocess_spawn(program, (const char *const[]){"petri", SHADER_TEST_COMMAND.name, NULL},
                                             (const int[]){input[0], output[1], -1}, 3, false);
     close(input[0]);
     close(output[1]);
@@ -128,10 +127,6 @@ bool shader_test_interrupted(void) {
     return interrupted;
 }
 
-bool shader_test_is_wanted(int argc, char **argv) {
-    return argc == 2 && strcmp(argv[1], command_word) == 0;
-}
-
 static void set_limits(void) {
     struct rlimit seconds = {MAX_SECONDS, MAX_SECONDS + 1},
                   bytes = {(rlim_t)MAX_GIBIBYTES << 30, (rlim_t)MAX_GIBIBYTES << 30};
@@ -150,7 +145,10 @@ static void set_limits(void) {
         signal(ending[i], SIG_DFL);
 }
 
-int shader_test_run(void) {
+// Tests the shader on standard input within limits. Does not return if it can be read.
+static int shader_test_run(const CommandContext *context, struct Options *options) {
+    (void)context;
+    (void)options;
     set_limits();
     SCOPED_TEXT input = {0};
     if (!text_read(&input, STDIN_FILENO, MAX_SOURCE) || input.len > MAX_SOURCE)
@@ -166,3 +164,5 @@ int shader_test_run(void) {
     fflush(stdout);
     _exit(status); // without the exit handlers of the driver, which may crash
 }
+
+const Command SHADER_TEST_COMMAND = {.name = "--test-shader", .parses_arguments = true, .run = shader_test_run};

@@ -16,7 +16,3 @@ typedef struct ShaderTester {
 struct PetriPainter *painter_open_tested(ShaderTester *tester);
 // Returns true if a signal has ended a test, so that a picture may lack a shader.
 bool shader_test_interrupted(void);
-// Returns true if this process was started to test a shader.
-bool shader_test_is_wanted(int argc, char **argv);
-// Tests the shader on standard input within limits. Returns the exit status.
-int shader_test_run(void);

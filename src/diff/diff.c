@@ -3,6 +3,7 @@
 
 #include "cli/output.h"
 #include "cli/script.h"
+#include "cli/words.h"
 #include "golden/golden.h"
 #include "petri-inspect.h"
 
@@ -233,6 +234,7 @@ const Command DIFF_COMMAND = {
     .no_stdin = "cannot read a run from standard input; give files",
     .second_operand_error = "too many arguments: '%s'; petri diff compares two runs",
     .options = FOR_DIFF,
+    .needs_pictures = words_name_archive,
     .accepts_two = true,
     .run = diff_run,
 };

@@ -27,8 +27,8 @@ static void offer(const Completion *completion, const char *name, const char *he
 }
 
 static void offer_commands(const Completion *completion) {
-    for (size_t i = 0; COMMANDS[i]; i++)
-        offer(completion, COMMANDS[i]->name, COMMANDS[i]->summary);
+    for (const CommandRow *row = COMMANDS; row->listed; row++)
+        offer(completion, row->name, row->command->summary);
 }
 
 static void offer_topics(const Completion *completion) {
@@ -129,11 +129,11 @@ static int complete_run(const CommandContext *context, Options *options) {
         message("no words given; 'petri complete' is for the completion scripts of shells");
         return STATUS_USAGE;
     }
-    const Command *named = command_find(options->argv[0]);
+    const CommandRow *named = command_find(options->argv[0]);
     bool is_first = options->argc == 1, has_command = named && !is_first;
     Completion completion = {.output = help_begin(),
                              .word = options->argv[options->argc - 1],
-                             .command = has_command ? named : &RUN_COMMAND};
+                             .command = has_command ? named->command : &RUN_COMMAND};
     if (is_first && completion.word[0] != '-')
         offer_commands(&completion);
     if (completion.command == &HELP_COMMAND)

@@ -14,6 +14,17 @@
 
 enum { ATTRIBUTE_COLUMN = 22, BUILTIN_COLUMN = 38 };
 
+static int help_overview(void) {
+    SCOPED_TEXT text = {0};
+    text_add_format(&text, "petri %s: %s\n\n", petri_version(), HELP_TITLE);
+    text_add_format(&text, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
+    for (const CommandRow *row = COMMANDS; row->listed; row++)
+        text_add_format(&text, "  %-8s %s\n", row->name, row->command->summary);
+    text_add_c(&text, "\n");
+    help_prose(&text, HELP_BEGINNING);
+    return help_print(&text);
+}
+
 static int help_builtins(void) {
     SCOPED_TEXT text = {0};
     PetriBuiltin builtin;
@@ -59,12 +70,12 @@ static int help_nodes(void) {
 // Adds the help for the option `--NAME` or `-X`, for each command that has the option. Returns false if none has it.
 static bool print_option(Text *text, const char *word) {
     bool found = false, is_long = word[1] == '-';
-    for (size_t i = 0; COMMANDS[i]; i++) {
+    for (const CommandRow *row = COMMANDS; row->listed; row++) {
         for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
-            if (!(spec->commands & COMMANDS[i]->options))
+            if (!(spec->commands & row->command->options))
                 continue;
             if (is_long ? strcmp(spec->name, word + 2) == 0 : spec->letter != '\0' && spec->letter == word[1]) {
-                text_add_format(text, "petri %s\n", COMMANDS[i]->name);
+                text_add_format(text, "petri %s\n", row->name);
                 help_option(text, spec);
                 found = true;
             }
@@ -75,8 +86,8 @@ static bool print_option(Text *text, const char *word) {
 
 static int unknown_topic(const char *topic) {
     StrNearest nearest = str_nearest(str_from(topic));
-    for (size_t i = 0; COMMANDS[i]; i++)
-        nearest_offer(&nearest, COMMANDS[i]->name);
+    for (const CommandRow *row = COMMANDS; row->listed; row++)
+        nearest_offer(&nearest, row->name);
     nearest_offer(&nearest, "builtins");
     nearest_offer(&nearest, "nodes");
     nearest_offer(&nearest, "version");
@@ -113,8 +124,8 @@ static int help_topic(const char *topic) {
         return help_nodes();
     if (strcmp(topic, "version") == 0)
         return help_version();
-    const Command *command = command_find(topic);
-    return command ? help_for(command) : help_word(topic);
+    const CommandRow *row = topic[0] == '-' ? NULL : command_find(topic);
+    return row ? help_for(row->command) : help_word(topic);
 }
 
 // Except for --help and -h, the argument is a topic, even if it has the form of an option.
@@ -127,7 +138,7 @@ static int help_run(const CommandContext *context, Options *options) {
         message("too many arguments: '%s'", words[1]);
         return STATUS_USAGE;
     }
-    return options->argc == 0 ? help_overview(COMMANDS) : help_topic(words[0]);
+    return options->argc == 0 ? help_overview() : help_topic(words[0]);
 }
 
 const Command HELP_COMMAND = {

@@ -3,23 +3,16 @@
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
 #include "cli/memory.h"
-#include "cli/shader_test.h"
 #include "main/commands.h"
+#include "main/large_stack.h"
+#include "mpi/ranks.h"
 
 #include <fcntl.h>
 #include <limits.h>
-#include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#ifdef PETRI_RANKS
-#include "mpi/ranks.h"
-#endif
-#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
-#include "check/meshes.h"
-#include "sweep/plot_support.h"
-#endif
 
 // Returns true if the word contains a dot or a slash, or is the name of an existing file.
 static bool looks_like_file(const char *word) {
@@ -35,8 +28,8 @@ static bool is_script_without_suffix(const char *word) {
 
 static int unknown_command(const char *word) {
     StrNearest nearest = str_nearest(str_from(word));
-    for (size_t i = 0; COMMANDS[i]; i++)
-        nearest_offer(&nearest, COMMANDS[i]->name);
+    for (const CommandRow *row = COMMANDS; row->listed; row++)
+        nearest_offer(&nearest, row->name);
     if (nearest_offer(&nearest, "builtins") || nearest_offer(&nearest, "nodes")) {
         message("no such command or file: '%s'; did you mean 'petri help %s'?", word, nearest.found.bytes);
         return STATUS_USAGE;
@@ -52,40 +45,33 @@ static int unknown_command(const char *word) {
     return STATUS_USAGE;
 }
 
+static bool is_version(const char *word) {
+    return strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0 || strcmp(word, "version") == 0;
+}
+
+// Runs the command if this program can. Otherwise executes the program that can.
 static int dispatch(const CommandContext *host, int argc, char **argv) {
     if (argc < 2) {
         message("no script given; try 'petri new NAME' or 'petri help'");
         return STATUS_USAGE;
     }
-    const char *first = argv[1];
-#ifndef PETRI_RANKS
-    int verified = strcmp(first, "verify") == 0 ? helper_exec_ranks(argv, false) : -1;
-    if (verified >= 0)
-        return verified;
-#endif
-    if (helper_exec_is_pictures_command(first))
-        return helper_exec_pictures(argv);
-    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
-        return help_overview(COMMANDS);
-    if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0 || strcmp(first, "version") == 0)
+    if (is_version(argv[1]))
         return help_version();
-    const Command *command = command_find(first);
-    bool is_script = !command && (first[0] == '-' || looks_like_file(first));
-#ifndef PETRI_RANKS
-    bool sweeps = command == &SWEEP_COMMAND;
-    int status = command == &RUN_COMMAND || is_script || sweeps ? helper_exec_ranks(argv, !sweeps) : -1;
+    const CommandRow *row = command_find(argv[1]);
+    bool is_script = !row && (argv[1][0] == '-' || looks_like_file(argv[1]));
+    if (is_script)
+        row = command_find(RUN_COMMAND.name);
+    if (!row)
+        return unknown_command(argv[1]);
+    bool divides = PROGRAM != RANKS && row->programs & RANKS;
+    int status = divides ? helper_exec_ranks(argv, row->programs & NEEDS_RANKS) : -1;
     if (status >= 0)
         return status;
-#endif
-    bool replays = is_script || command == &RUN_COMMAND || command == &DIFF_COMMAND || command == &CHECK_COMMAND ||
-                   command == &SWEEP_COMMAND;
-    if ((replays && helper_exec_needs_archives(argv)) || (command == &CHECK_COMMAND && helper_exec_needs_meshes(argv)))
+    const Command *command = row->command;
+    if (!command || (PROGRAM == PETRI && command->needs_pictures && command->needs_pictures(argv + 1)))
         return helper_exec_pictures(argv);
-    if (command)
-        return command_run(command, host, argc - 2, argv + 2);
-    if (is_script)
-        return command_run(&RUN_COMMAND, host, argc - 1, argv + 1);
-    return helper_exec_forwards_unknown() ? helper_exec_pictures(argv) : unknown_command(first);
+    int first = is_script ? 1 : 2;
+    return command_run(command, host, argc - first, argv + first);
 }
 
 // Opens standard descriptors that are closed. Otherwise the next file to be opened would get such a descriptor and
@@ -106,43 +92,11 @@ typedef struct Job {
     int status;
 } Job;
 
-static void *run_job(void *context) {
+static void run_job(void *context, size_t stack_bytes) {
     Job *job = context;
+    job->host.stack_bytes = stack_bytes;
     job->status = dispatch(&job->host, job->argc, job->argv);
-    return NULL;
 }
-
-#ifdef __EMSCRIPTEN__
-// In WebAssembly, the stack has a fixed size (src/web/meson.build), and there are no threads.
-static bool run_on_large_stack(Job *job) {
-    job->host.stack_bytes = (size_t)PETRI_STACK_BYTES - ((size_t)1 << 20);
-    run_job(job);
-    return true;
-}
-#else
-// Scripts can nest thousands of calls, so evaluation gets a much larger stack than the main thread has. Unused pages
-// take no memory. If the address space is limited, tries smaller stacks.
-static bool run_on_large_stack(Job *job) {
-    const size_t mebibyte = (size_t)1 << 20;
-    for (size_t size = 512 * mebibyte; size >= 8 * mebibyte; size /= 2) {
-        pthread_attr_t attributes;
-        pthread_t thread;
-        if (pthread_attr_init(&attributes) != 0)
-            return false;
-        job->host.stack_bytes = size - mebibyte;
-        bool started = pthread_attr_setstacksize(&attributes, size) == 0 &&
-                       pthread_create(&thread, &attributes, run_job, job) == 0;
-        pthread_attr_destroy(&attributes);
-        if (started) {
-            sigset_t all; // all signals, blocked in this thread so that the new thread receives them
-            sigfillset(&all);
-            pthread_sigmask(SIG_BLOCK, &all, NULL);
-            return pthread_join(thread, NULL) == 0;
-        }
-    }
-    return false;
-}
-#endif
 
 // Returns the path of this program. argv[0] is only a fallback, because it may be a name that the shell found in PATH.
 static const char *program_path(const char *name, char *resolved) {
@@ -156,29 +110,17 @@ int main(int argc, char **argv) {
     // continues.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
-#ifdef PETRI_PICTURES
-    if (shader_test_is_wanted(argc, argv))
-        return shader_test_run();
-#endif
     char resolved[PATH_MAX];
     Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
                .host.invoked_as = argc > 0 ? argv[0] : "petri",
                .argc = argc,
                .argv = argv,
                .status = STATUS_FAILED};
-#ifdef PETRI_RANKS
     ranks_begin(&job.host);
-#endif
-#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
-    job.host.plot_support = &PLOT_SUPPORT;
-    job.host.print_meshes = check_print_meshes;
-#endif
-    if (!run_on_large_stack(&job)) {
+    if (!large_stack_run(run_job, &job)) {
         message("cannot start a thread");
         return STATUS_FAILED;
     }
-#ifdef PETRI_RANKS
     ranks_end(job.status);
-#endif
     return job.status;
 }

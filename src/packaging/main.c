@@ -21,11 +21,11 @@ static bool write_page(Output *output, const char *name) {
         page_of_language(output);
         return true;
     }
-    for (size_t i = 0; COMMANDS[i]; i++) {
+    for (const CommandRow *row = COMMANDS; row->listed; row++) {
         char page[32];
-        snprintf(page, sizeof page, "petri-%s.1", COMMANDS[i]->name);
+        snprintf(page, sizeof page, "petri-%s.1", row->name);
         if (strcmp(page, name) == 0) {
-            page_of_command(output, COMMANDS[i]);
+            page_of_command(output, row->command);
             return true;
         }
     }

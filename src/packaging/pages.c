@@ -44,9 +44,9 @@ void page_of_petri(Output *output) {
     roff_heading(output, "DESCRIPTION");
     roff_paragraphs(output, HELP_BEGINNING);
     roff_heading(output, "COMMANDS");
-    for (size_t i = 0; COMMANDS[i]; i++) {
-        output_format(output, ".TP\n.BR petri\\-%s (1)\n", COMMANDS[i]->name);
-        roff_text(output, COMMANDS[i]->summary);
+    for (const CommandRow *row = COMMANDS; row->listed; row++) {
+        output_format(output, ".TP\n.BR petri\\-%s (1)\n", row->name);
+        roff_text(output, row->command->summary);
         output_format(output, "\n");
     }
     roff_heading(output, "EXIT STATUS");

@@ -20,8 +20,8 @@ static const char *or_none(const char *text) {
 }
 
 static void add_commands(JsonWriter *json) {
-    for (size_t i = 0; COMMANDS[i]; i++) {
-        const Command *command = COMMANDS[i];
+    for (const CommandRow *row = COMMANDS; row->listed; row++) {
+        const Command *command = row->command;
         OPEN_ROW(json, "name", command->name, "operands", command->operands, "summary", command->summary, "details",
                  command->details, "examples", or_none(command->examples));
         json_open(json, "options", "[");

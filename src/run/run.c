@@ -7,6 +7,7 @@
 #include "cli/output.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
+#include "cli/words.h"
 #include "petri-edit.h"
 #include "petri-inspect.h"
 #include "petri-ranks.h"
@@ -232,18 +233,13 @@ static int run_session(Run *run) {
     return run_frames(run);
 }
 
-static bool is_named(const char *word, const char *name) {
-    size_t length = strlen(name);
-    return strncmp(word, "--", 2) == 0 && strncmp(word + 2, name, length) == 0 && strchr("=", word[2 + length]);
-}
-
 // Returns true for an option that `petri view` accepts, for --show, and for a word that is not an option. All other
 // options request text or files.
 static bool is_view_option(const char *word) {
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
-        if (spec->commands & FOR_VIEW && is_named(word, spec->name))
+        if (spec->commands & FOR_VIEW && word_is_option(word, spec->name))
             return true;
-    return strncmp(word, "--", 2) != 0 || is_named(word, "show");
+    return strncmp(word, "--", 2) != 0 || word_is_option(word, "show");
 }
 
 // Returns true if the picture must be shown. This is the case if --show was given, input and output are terminals, and
@@ -259,14 +255,6 @@ static bool should_show(const Options *options) {
             return false;
     return options->show && at_terminal && !script_is_stdin(options->script) &&
            (options->verbosity == LOG_NORMAL || options->verbosity == LOG_VERBOSE);
-}
-
-// Returns true if --frames or --runtime was given.
-static bool has_end(const Options *options) {
-    bool has = false;
-    for (int i = 0; i < options->argc; i++)
-        has = has || is_named(options->argv[i], "frames") || is_named(options->argv[i], "runtime");
-    return has;
 }
 
 // Ignores diagnostics, because the later run or view reports them.
@@ -292,13 +280,14 @@ static void exec_view(const Options *options, const CommandContext *host) {
     if (!is_drawable(options, host))
         return;
     char **words = memory_calloc(((size_t)options->argc + 6) * sizeof *words);
+    bool has_end = words_have_option(options->argv, "frames") || words_have_option(options->argv, "runtime");
     char called[] = "view", terminal[] = "--terminal", verbose[] = "--verbose", runtime[] = "--runtime=10";
     SCOPED_STRING program = memory_strdup(host->invoked_as);
     char *const first[] = {program, called, terminal, verbose, runtime};
-    int count = (int)(sizeof first / sizeof first[0]) - (has_end(options) ? 1 : 0);
+    int count = (int)(sizeof first / sizeof first[0]) - (has_end ? 1 : 0);
     memcpy(words, first, (size_t)count * sizeof *first);
     for (int i = 0; i < options->argc; i++)
-        if (!is_named(options->argv[i], "show"))
+        if (!word_is_option(options->argv[i], "show"))
             words[count++] = options->argv[i];
     fflush(NULL);
     helper_exec_pictures(words);
@@ -360,5 +349,6 @@ const Command RUN_COMMAND = {
                 "  petri run dish.fl --trajectory dish.csv         write all positions as a table\n",
     .missing_operand = "no script given",
     .options = FOR_RUN,
+    .needs_pictures = words_name_archive,
     .run = run_run,
 };

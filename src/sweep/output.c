@@ -3,7 +3,7 @@
 
 #include "base/file.h"
 #include "cli/hdf5.h"
-#include "sweep/plot_support.h"
+#include "sweep/plots.h"
 #include "sweep/sweep.h"
 #include "sweep/table.h"
 #include "sweep/worker_pool.h"
@@ -36,6 +36,6 @@ bool sweep_write_all(const Sweep *sweep) {
         summary_make(sweep, &summary);
         good = output_file(sweep->options->summary, text_str(&summary));
     }
-    good = (!sweep->options->plot || sweep->host->plot_support->plot_grid_draw(sweep, sweep->options->plot)) && good;
+    good = (!sweep->options->plot || plot_grid_draw(sweep, sweep->options->plot)) && good;
     return write_table(sweep) && good;
 }

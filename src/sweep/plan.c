@@ -2,7 +2,7 @@
 #include "base/file.h"
 #include "base/source.h"
 #include "cli/script.h"
-#include "sweep/plot_support.h"
+#include "sweep/plots.h"
 
 #include <stdio.h>
 #include <string.h>

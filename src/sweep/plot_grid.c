@@ -2,7 +2,7 @@
 // per name with several values and, with --every, one for the frame.
 #include "petri-draw.h"
 #include "petri-edit.h"
-#include "sweep/plot_support.h"
+#include "sweep/plots.h"
 #include "sweep/table.h"
 
 #include <math.h>
@@ -205,6 +205,10 @@ static void write_script(const Sweep *sweep, Text *out) {
 static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
     (void)user_data;
     fputs(diagnostic->rendered, stderr);
+}
+
+bool plot_grid_fits(const char *path) {
+    return petri_picture_can_save(path);
 }
 
 bool plot_grid_draw(const Sweep *sweep, const char *path) {

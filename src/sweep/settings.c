@@ -3,7 +3,7 @@
 #include "cli/mpirun.h"
 #include "cli/script.h"
 #include "petri-archive.h"
-#include "sweep/plot_support.h"
+#include "sweep/plots.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -88,7 +88,7 @@ static void read_shared_options(Sweep *sweep, const Command *command) {
 
 static bool check_plot(const Sweep *sweep) {
     const char *plot = sweep->options->plot;
-    if (!plot || sweep->host->plot_support->plot_fits(plot))
+    if (!plot || plot_grid_fits(plot))
         return true;
     message("option '--plot' expects a file name that ends in .svg, .png or .pdf, not '%s'", plot);
     return false;

@@ -2,46 +2,19 @@
 #include "sweep/sweep.h"
 
 #include "base/clock.h"
-#include "cli/helper_exec.h"
 #include "cli/mpi_channel.h"
 #include "cli/subprocess.h"
+#include "cli/words.h"
 #include "petri.h"
 #include "sweep/cache.h"
 #include "sweep/measure.h"
-#include "sweep/plot_support.h"
+#include "sweep/plots.h"
 #include "sweep/worker_pool.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-bool sweep_owns_run(const Sweep *sweep, size_t run) {
-    return run % sweep->shards == sweep->shard;
-}
-
-void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, const char *rows, size_t length) {
-    Result *result = &sweep->results[run];
-    if (!result->rows) {
-        result->rows = memory_strndup(rows, length);
-        result->frames = frames;
-    }
-}
-
-// A run has failed if its last row has an error.
-bool sweep_is_failed(const Result *result) {
-    size_t length = strlen(result->rows);
-    return length > 1 && result->rows[length - 2] != '\t';
-}
-
-void sweep_report(Sweep *sweep, PetriLevel level, const char *rendered) {
-    enum { MAX_REPORTED = 100 };
-    bool wanted = level == PETRI_ERROR || sweep->options->verbosity > LOG_QUIET;
-    if (wanted && sweep->reported.count < MAX_REPORTED && !texts_contain(&sweep->reported, rendered)) {
-        texts_add(&sweep->reported, rendered);
-        fputs(rendered, stderr);
-    }
-}
 
 static void report_diagnostic(void *context, PetriLevel level, const char *rendered) {
     sweep_report(context, level, rendered);
@@ -198,7 +171,7 @@ static void free_sweep(Sweep *sweep) {
 static int run_plan(const CommandContext *host, const Options *options) {
     TextList words = {0};
     int status = STATUS_USAGE;
-    if (host->plot_support->plan_read(options->plan, &words)) {
+    if (plan_read(options->plan, &words)) {
         for (int i = 0; i < options->argc; i++) {
             bool is_plan = strcmp(options->argv[i], "--plan") == 0;
             if (!is_plan && strncmp(options->argv[i], "--plan=", 7) != 0)
@@ -211,21 +184,11 @@ static int run_plan(const CommandContext *host, const Options *options) {
     return status;
 }
 
-// Replaces the process with petri-pictures and passes the same arguments. On failure, returns the exit status.
-static int exec_pictures(const CommandContext *host, const Options *options) {
-    TextList words = {0};
-    texts_add(&words, host->invoked_as);
-    texts_add(&words, SWEEP_COMMAND.name);
-    for (int i = 0; i < options->argc; i++)
-        texts_add(&words, options->argv[i]);
-    int status = helper_exec_pictures(words.items);
-    texts_free(&words);
-    return status;
+static bool sweep_needs_pictures(char *const *words) {
+    return words_have_option(words, "plan") || words_have_option(words, "plot") || words_name_archive(words);
 }
 
 static int sweep_run(const CommandContext *host, Options *options) {
-    if (!host->plot_support && (options->plan || options->plot))
-        return exec_pictures(host, options);
     if (options->plan)
         return run_plan(host, options);
     if (!options->script) {
@@ -276,5 +239,6 @@ const Command SWEEP_COMMAND = {
         "  parallel petri sweep --plan dish.yaml -o dish.csv --jobs 1 --shard {}/4 ::: 1 2 3 4\n",
     .no_stdin = "cannot read the script from standard input: each process loads it; use a file",
     .options = FOR_SWEEP,
+    .needs_pictures = sweep_needs_pictures,
     .run = sweep_run,
 };

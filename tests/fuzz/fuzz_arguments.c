@@ -8,15 +8,6 @@
 #include <string.h>
 
 static Command commands[4]; // copies of the real commands that only open a session and step one frame
-const Command *const COMMANDS[] = {&commands[0], &commands[1], &commands[2], &commands[3], NULL};
-
-const Command *command_find(const char *name) {
-    for (size_t i = 0; COMMANDS[i]; i++)
-        if (strcmp(COMMANDS[i]->name, name) == 0)
-            return COMMANDS[i];
-    return NULL;
-}
-
 static int run_command(const CommandContext *host, Options *options) {
     PetriSession *session = NULL;
     int status = options_open(options, host, fuzz_options().on_diagnostic, NULL, &session);
@@ -49,7 +40,7 @@ FUZZ_HARNESS(arguments) {
         memcpy(text, data, size);
     for (char *at = text; count < MAX_WORDS && at < text + size; at += strlen(at) + 1)
         words[count++] = at;
-    command_run(COMMANDS[count % 4], &host, count, words);
+    command_run(&commands[count % 4], &host, count, words);
     free(text);
     return 0;
 }

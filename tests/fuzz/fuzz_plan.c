@@ -2,7 +2,7 @@
 // sweep`. The runs are planned but not executed.
 #include "cli/options.h"
 #include "fuzz.h"
-#include "sweep/plot_support.h"
+#include "sweep/plots.h"
 
 #include <string.h>
 

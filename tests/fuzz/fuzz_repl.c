@@ -9,12 +9,6 @@
 #include <string.h>
 #include <unistd.h>
 
-const Command *const COMMANDS[] = {&REPL_COMMAND, NULL};
-
-const Command *command_find(const char *name) {
-    return strcmp(name, REPL_COMMAND.name) == 0 ? &REPL_COMMAND : NULL;
-}
-
 // The linker uses this function instead of clock_seconds (meson.build). Its time passes quickly, because `.time`
 // repeats an expression for a while.
 double __wrap_clock_seconds(void);
