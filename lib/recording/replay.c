@@ -281,9 +281,9 @@ bool petri_archive_keyframe_differs(PetriArchive *archive) {
         return false;
     // Inputs that followed the last frame can have changed the setup of the last keyframe.
     bool last = keyframe == &archive->keyframes[archive->keyframe_count - 1];
-    bool same = recorder_write_setup(session, &setup) == PETRI_OK &&
-                recorder_write_state(session, &state) == PETRI_OK && (last || str_equal(setup, texts.setup_text)) &&
-                recorder_states_equal(state, texts.state_text);
+    bool same = recorder_write(session, RECORDER_SETUP, &setup) == PETRI_OK &&
+                recorder_write(session, RECORDER_STATE, &state) == PETRI_OK &&
+                (last || str_equal(setup, texts.setup_text)) && str_equal(state, texts.state_text);
     free_keyframe(archive, &texts);
     return !same;
 }

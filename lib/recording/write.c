@@ -97,7 +97,7 @@ static void flush_configuration(PetriArchive *archive) {
     if (archive_fails(archive) || revision == archive->revision)
         return;
     recorder_report_script(archive->session);
-    if (!fail_status(archive, recorder_write_configuration(archive->session, &text)))
+    if (!fail_status(archive, recorder_write(archive->session, RECORDER_CONFIGURATION, &text)))
         return;
     archive->revision = revision;
     note_words(archive, text);
@@ -147,8 +147,9 @@ static void add_keyframe(PetriArchive *archive, bool given) {
         seal.previous_sha256 = previous;
         sqlite3_reset(before);
     }
-    if (archive_fails(archive) || !fail_status(archive, recorder_write_setup(archive->session, &seal.setup)) ||
-        !fail_status(archive, recorder_write_state(archive->session, &seal.state)) ||
+    if (archive_fails(archive) ||
+        !fail_status(archive, recorder_write(archive->session, RECORDER_SETUP, &seal.setup)) ||
+        !fail_status(archive, recorder_write(archive->session, RECORDER_STATE, &seal.state)) ||
         !archive_seal(archive, &seal, sha256))
         return;
     sqlite3_stmt *row = archive_statement(archive, SQL_ADD_KEYFRAME);

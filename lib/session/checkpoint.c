@@ -1,9 +1,9 @@
 // checkpoint.c: implementation of checkpoint.h, and snapshots.
 //
-// A checkpoint is a sequence of 64-bit words:
-// - the number of slots of the dictionary, then the key and value of each slot
-// - the number of systems, then each system with its slots
-// - the input bindings, then the input state if any input was reported
+// A checkpoint is a sequence of 64-bit words, in three parts (image.h) that each end with the word END:
+// - the key and value of each slot of the dictionary
+// - each system with its slots
+// - the lines of the input, each with the address of its name
 //
 // A value starts with a word for its length and kind. In a numeric value, the numbers follow. In a mixed value, each
 // element starts with a word for its type and length, and strings are padded to whole words. All slots are stored in
@@ -13,7 +13,11 @@
 
 #include <string.h>
 
+#define END UINT64_MAX
+static const unsigned parts[] = {IMAGE_ENTRIES, IMAGE_SYSTEMS, IMAGE_INPUT};
+
 typedef struct CheckpointWriter {
+    ImageSink sink; // first member, so that a pointer to it can be cast to CheckpointWriter
     Checkpoint *to;
     bool failed;
 } CheckpointWriter;
@@ -59,50 +63,35 @@ static void write_value(CheckpointWriter *writer, Value v) {
         write_item(writer, v.as.items[i]);
 }
 
-static void write_state(CheckpointWriter *writer, const State *state) {
-    uint32_t count = state_slot_count(state);
-    double buffer[STATE_KEY_BUFFER];
-    write_word(writer, count);
-    for (uint32_t i = 0; i < count; i++) {
-        write_value(writer, state_slot_key_in(state, i, buffer));
-        write_value(writer, state_slot_get(state, i));
-    }
+static void write_entry(ImageSink *sink, Value key, Value value) {
+    CheckpointWriter *writer = (CheckpointWriter *)sink;
+    write_value(writer, key);
+    write_value(writer, value);
 }
 
-static void write_systems(CheckpointWriter *writer, const Scene *scene) {
-    uint64_t count = 0;
-    const void *cursor = NULL;
-    for (SceneSystem system; scene_next_system(scene, &cursor, &system);)
-        count++;
-    write_word(writer, count);
-    cursor = NULL;
-    for (SceneSystem system; scene_next_system(scene, &cursor, &system);) {
-        write_word(writer, system.prefix);
-        write_word(writer, system.occurrence);
-        write_word(writer, system.slot_count);
-        write_bytes(writer, system.slots, system.slot_count * sizeof *system.slots);
-    }
+static void write_system(ImageSink *sink, const SceneSystem *system) {
+    CheckpointWriter *writer = (CheckpointWriter *)sink;
+    write_word(writer, system->prefix);
+    write_word(writer, system->occurrence);
+    write_word(writer, system->slot_count);
+    write_bytes(writer, system->slots, system->slot_count * sizeof *system->slots);
 }
 
-static void write_input(CheckpointWriter *writer, const Input *input) {
-    const InputBindings *bindings = &input->bindings;
-    write_word(writer, bindings->count);
-    for (uint32_t i = 0; i < bindings->count; i++) {
-        write_word(writer, (uint64_t)(bindings->items[i].key - INPUT_KEY_NONE));
-        write_value(writer, bindings->items[i].state);
-    }
-    write_word(writer, input->state.has_reports);
-    if (input->state.has_reports)
-        write_bytes(writer, &input->state, sizeof input->state);
+static void write_line(ImageSink *sink, const char *name, Value first, Value rest) {
+    CheckpointWriter *writer = (CheckpointWriter *)sink;
+    write_word(writer, (uintptr_t)name);
+    write_value(writer, first);
+    write_value(writer, rest);
 }
 
 bool checkpoint_save(Checkpoint *checkpoint, PetriSession *session) {
-    CheckpointWriter writer = {checkpoint, false};
+    CheckpointWriter writer = {.sink = {write_line, write_entry, write_system, true}, .to = checkpoint};
     checkpoint->clock = session->clock;
     checkpoint->size = 0;
-    write_state(&writer, session->state);
-    write_systems(&writer, session->scene);
-    write_input(&writer, scene_input(session->scene));
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        image_write(session, parts[i], &writer.sink);
+        write_word(&writer, END);
+    }
     return !writer.failed;
 }
 
@@ -150,9 +139,16 @@ static Value read_value(CheckpointReader *reader) {
     return (Value){.len = len, .kind = VALUE_MIXED, .as.items = items};
 }
 
+// Returns true, and skips the word, if a part ends here.
+static bool read_end(CheckpointReader *reader) {
+    uint64_t word;
+    memcpy(&word, reader->at, sizeof word);
+    reader->at += word == END ? sizeof word : 0;
+    return word == END;
+}
+
 static void read_state(CheckpointReader *reader, State *state) {
-    uint64_t count = read_word(reader);
-    for (uint64_t i = 0; i < count; i++) {
+    while (!read_end(reader)) {
         StateSlot slot = state_slot(state, read_value(reader));
         state_slot_set(state, slot, read_value(reader));
     }
@@ -163,44 +159,37 @@ void checkpoint_read_state(const Checkpoint *checkpoint, Arena *arena, State *st
     read_state(&reader, state);
 }
 
-static void read_systems(CheckpointReader *reader, PetriSession *session, Incoming *incoming) {
-    for (uint64_t left = read_word(reader); left > 0; left--) {
-        SceneSystem system = {.prefix = (StateSlot)read_word(reader)};
-        system.occurrence = (uint32_t)read_word(reader);
-        system.slot_count = (uint32_t)read_word(reader);
-        system.slots = read_bytes(reader, system.slot_count * sizeof *system.slots);
-        checkpoint_restore_system(session, incoming, &system);
-    }
+static void read_system(CheckpointReader *reader, PetriSession *session, Incoming *incoming) {
+    SceneSystem system = {.prefix = (StateSlot)read_word(reader)};
+    system.occurrence = (uint32_t)read_word(reader);
+    system.slot_count = (uint32_t)read_word(reader);
+    system.slots = read_bytes(reader, system.slot_count * sizeof *system.slots);
+    image_read_system(session, incoming, &system);
 }
 
-static void read_input(CheckpointReader *reader, Incoming *incoming) {
-    incoming->has_input = true;
-    for (uint64_t left = read_word(reader); left > 0; left--) {
-        int key = (int)read_word(reader) + INPUT_KEY_NONE;
-        input_add_binding(&incoming->bindings, read_value(reader), key);
-    }
-    if (read_word(reader))
-        memcpy(&incoming->input_state, read_bytes(reader, sizeof incoming->input_state), sizeof incoming->input_state);
+static void read_line(CheckpointReader *reader, Incoming *incoming) {
+    const char *name = (const char *)(uintptr_t)read_word(reader);
+    Vector value = vector_new(reader->arena);
+    vector_add(&value, read_value(reader));
+    vector_add(&value, read_value(reader));
+    image_read_input(incoming, str_from(name), vector_finish(&value));
 }
 
 static PetriStatus read_checkpoint(PetriSession *session, Incoming *incoming, void *context) {
     const Checkpoint *checkpoint = context;
     CheckpointReader reader = {checkpoint->bytes, &incoming->arena};
     read_state(&reader, incoming->state);
-    read_systems(&reader, session, incoming);
-    read_input(&reader, incoming);
+    while (!read_end(&reader))
+        read_system(&reader, session, incoming);
+    while (!read_end(&reader))
+        read_line(&reader, incoming);
+    incoming->has_input = true;
     incoming->clock = checkpoint->clock;
     return PETRI_OK;
 }
 
 PetriStatus checkpoint_restore(PetriSession *session, const Checkpoint *checkpoint) {
     return checkpoint_replace(session, read_checkpoint, (void *)checkpoint);
-}
-
-void checkpoint_restore_system(PetriSession *session, Incoming *incoming, const SceneSystem *system) {
-    SceneFrame frame = {.state = incoming->state, .arena = &incoming->arena};
-    if (!scene_restore_system(session->scene, system, &frame))
-        arena_exhausted(&incoming->arena);
 }
 
 typedef struct Filling {

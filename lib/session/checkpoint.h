@@ -5,8 +5,7 @@
 #pragma once
 
 #include "petri.h"
-#include "scene/scene.h"
-#include "session/clock.h"
+#include "session/image.h"
 
 typedef struct Checkpoint {
     Clock clock;
@@ -15,24 +14,12 @@ typedef struct Checkpoint {
     size_t capacity;
 } Checkpoint;
 
-// New data that will replace the session's data. While it is filled in, the current systems are detached from the
-// scene, and the new systems are restored into the scene.
-typedef struct Incoming {
-    Arena arena; // temporary data of the function that fills in the other fields
-    State *state;
-    Clock clock;
-    InputState input_state;
-    InputBindings bindings;
-    bool has_input; // false: the new data contains no input, so the session keeps its own
-} Incoming;
 // Fills in `incoming`. Returns PETRI_INVALID if the file or checkpoint that is read is invalid.
 typedef PetriStatus FillIncoming(PetriSession *session, Incoming *incoming, void *context);
 
 // Calls `fill` within a protected call and then replaces the session's data. On failure nothing changes. Returns
 // the status that `fill` returns, or the reason why the call was aborted.
 PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *fill, void *context);
-// Restores a system into the scene. To be called by `fill`.
-void checkpoint_restore_system(PetriSession *session, Incoming *incoming, const SceneSystem *system);
 
 // Copies the session's data into a checkpoint, replacing its contents but reusing its memory. Returns false if out of
 // memory.

@@ -3,8 +3,6 @@
 
 #include "base/file.h"
 #include "session/session.h"
-#include "session/setup.h"
-#include "session/state_text.h"
 #include "value/format.h"
 
 #include <string.h>
@@ -67,140 +65,67 @@ void recorder_file(PetriSession *session, const char *path, Str bytes) {
 
 // --- inputs
 
+// An input. Its payload is `KEY`, or `KEY = VALUE` if there is a value.
 typedef struct Report {
-    const char *kind;
-    const char *name;
     PetriValue key;
-    PetriValue value;
-    const PetriPointer *pointer;
-    bool pressed;
+    const PetriValue *value;
     Str payload;
 } Report;
 
-static PetriStatus describe_pointer(PetriSession *session, void *context) {
+static PetriStatus describe_input(PetriSession *session, void *context) {
     Report *report = context;
-    const PetriPointer *pointer = report->pointer;
-    Vector vector = vector_new(&session->text_arena);
-    if (pointer) {
-        vector_add_number(&vector, pointer->buttons);
-        if (pointer->inside) {
-            vector_add_number(&vector, pointer->x);
-            vector_add_number(&vector, pointer->y);
-        }
-    }
-    report->payload = format_text(&session->text_arena, &session->symbols, vector_finish(&vector));
-    return PETRI_OK;
-}
-
-static PetriStatus describe_key(PetriSession *session, void *context) {
-    Report *report = context;
-    Vector vector = vector_new(&session->text_arena);
-    vector_add(&vector, value_string(&session->text_arena, str_from(report->name)));
-    vector_add_number(&vector, report->pressed);
-    report->payload = format_text(&session->text_arena, &session->symbols, vector_finish(&vector));
-    return PETRI_OK;
-}
-
-// Describes an assignment as `KEY = VALUE`.
-static PetriStatus describe_state(PetriSession *session, void *context) {
-    Report *report = context;
-    Value key, value;
-    Text text = text_new(&session->text_arena);
-    session_import_value(&session->text_arena, report->key, &key);
-    session_import_value(&session->text_arena, report->value, &value);
-    format_value(&text, &session->symbols, key);
-    text_add_c(&text, " = ");
-    format_value(&text, &session->symbols, value);
-    report->payload = text_str(&text);
-    return PETRI_OK;
-}
-
-static PetriStatus describe_global(PetriSession *session, void *context) {
-    Report *report = context;
+    Arena *arena = &session->text_arena;
     Value value;
-    Text text = text_new(&session->text_arena);
-    session_import_value(&session->text_arena, report->value, &value);
-    format_value(&text, &session->symbols, value_string(&session->text_arena, str_from(report->name)));
-    text_add_c(&text, " = ");
+    Text text = text_new(arena);
+    session_import_value(arena, report->key, &value);
     format_value(&text, &session->symbols, value);
+    if (report->value) {
+        text_add_c(&text, " = ");
+        session_import_value(arena, *report->value, &value);
+        format_value(&text, &session->symbols, value);
+    }
     report->payload = text_str(&text);
     return PETRI_OK;
 }
 
-static void report_input(PetriSession *session, SessionCall *describe, Report *report) {
+static void report_input(PetriSession *session, const char *kind, PetriValue key, const PetriValue *value) {
+    if (!session->recorder.input)
+        return;
+    Report report = {.key = key, .value = value};
     ArenaMark mark = arena_mark(&session->text_arena);
-    if (session_protect(session, NULL, describe, report) == PETRI_OK)
-        session->recorder.input(session->recorder.user_data, report->kind, report->payload);
+    if (session_protect(session, NULL, describe_input, &report) == PETRI_OK)
+        session->recorder.input(session->recorder.user_data, kind, report.payload);
     arena_rewind(&session->text_arena, mark);
 }
 
 void recorder_pointer(PetriSession *session, const PetriPointer *pointer) {
-    if (session->recorder.input)
-        report_input(session, describe_pointer, &(Report){.kind = "pointer", .pointer = pointer});
+    double numbers[3] = {0};
+    if (pointer)
+        memcpy(numbers, (double[]){pointer->buttons, pointer->x, pointer->y}, sizeof numbers);
+    report_input(session, "pointer",
+                 (PetriValue){.length = !pointer          ? 0
+                                        : pointer->inside ? 3
+                                                          : 1,
+                              .numbers = numbers},
+                 NULL);
 }
 
 void recorder_key(PetriSession *session, const char *name, bool pressed) {
-    if (session->recorder.input)
-        report_input(session, describe_key, &(Report){.kind = "key", .name = name, .pressed = pressed});
+    const PetriItem items[] = {{.type = PETRI_STRING, .as.string = &(PetriString){name, strlen(name)}},
+                               {.type = PETRI_NUMBER, .as.number = pressed}};
+    report_input(session, "key", (PetriValue){.length = 2, .items = items}, NULL);
 }
 
 void recorder_state(PetriSession *session, PetriValue key, PetriValue value) {
-    if (session->recorder.input)
-        report_input(session, describe_state, &(Report){.kind = "state", .key = key, .value = value});
+    report_input(session, "state", key, &value);
 }
 
 void recorder_global(PetriSession *session, const char *name, PetriValue value) {
-    if (session->recorder.input)
-        report_input(session, describe_global, &(Report){.kind = "global", .name = name, .value = value});
-}
-
-// --- keyframes
-
-void recorder_report_script(PetriSession *session) {
-    const Source *source = session->config.program->source;
-    recorder_file(session, str_to_c(&session->text_arena, source->name), source->text);
-}
-
-bool recorder_has_script(const PetriSession *session) {
-    return session->config.program;
-}
-
-PetriStatus recorder_read_again(PetriSession *session) {
-    return session_read_again(session);
+    const PetriItem item = {.type = PETRI_STRING, .as.string = &(PetriString){name, strlen(name)}};
+    report_input(session, "global", (PetriValue){.length = 1, .items = &item}, &value);
 }
 
 const char *recorder_script_name(const PetriSession *session) {
     Str name = session->config.program->source->name;
     return name.bytes + path_directory(name).len;
-}
-
-static PetriStatus write_setup(PetriSession *session, void *context) {
-    *(Str *)context = setup_write(session, true);
-    return PETRI_OK;
-}
-
-static PetriStatus write_configuration(PetriSession *session, void *context) {
-    *(Str *)context = setup_write(session, false);
-    return PETRI_OK;
-}
-
-static PetriStatus write_state(PetriSession *session, void *context) {
-    *(Str *)context = session_write_state(session);
-    return PETRI_OK;
-}
-
-static PetriStatus write_text(PetriSession *session, SessionCall *write, Str *text) {
-    return session_run(session, write, text, "the recording");
-}
-
-PetriStatus recorder_write_setup(PetriSession *session, Str *text) {
-    return write_text(session, write_setup, text);
-}
-
-PetriStatus recorder_write_configuration(PetriSession *session, Str *text) {
-    return write_text(session, write_configuration, text);
-}
-
-PetriStatus recorder_write_state(PetriSession *session, Str *text) {
-    return write_text(session, write_state, text);
 }

@@ -36,12 +36,14 @@ void recorder_set(PetriSession *session, const Recorder *recorder) PRIVATE_API(r
 
 // --- for archives that are written
 
-// Sets *text to a keyframe's setup. It is valid until the next call that uses the session.
-PetriStatus recorder_write_setup(PetriSession *session, Str *text) PRIVATE_API(recorder_write_setup);
-// Sets *text to the configuration, which is a part of the setup. Valid like a setup.
-PetriStatus recorder_write_configuration(PetriSession *session, Str *text) PRIVATE_API(recorder_write_configuration);
-// Sets *text to the state of a keyframe. Valid like a setup.
-PetriStatus recorder_write_state(PetriSession *session, Str *text) PRIVATE_API(recorder_write_state);
+typedef enum RecorderText {
+    RECORDER_SETUP,         // a keyframe's setup
+    RECORDER_CONFIGURATION, // the part of the setup that petri_config_get returns
+    RECORDER_STATE,         // the state of a keyframe
+} RecorderText;
+
+// Sets *text to a text of the session. It is valid until the next call that uses the session.
+PetriStatus recorder_write(PetriSession *session, RecorderText what, Str *text) PRIVATE_API(recorder_write);
 
 // Reports the text of the loaded script as a file that was read. After petri_rewind and petri_config_apply, it can
 // differ from the text that was read last.
@@ -65,9 +67,6 @@ const char *recorder_script_name(const PetriSession *session) PRIVATE_API(record
 // Loads a keyframe into a session that has no script yet, or that has replayed earlier frames of the same recording.
 // Returns PETRI_INVALID if the texts are not valid, or after a diagnostic.
 PetriStatus recorder_restore(PetriSession *session, Str setup, Str state) PRIVATE_API(recorder_restore);
-// Returns true if two texts of states contain the same entries and systems with particles, in any order: the order can
-// differ if other versions of petri wrote them. Returns false if out of memory.
-bool recorder_states_equal(Str one, Str other) PRIVATE_API(recorder_states_equal);
 // Gives an input to the session. Kinds are "configuration", "pointer", "key", "state" and "global". Returns
 // PETRI_INVALID for the same reasons as recorder_restore.
 PetriStatus recorder_apply_input(PetriSession *session, Str kind, Str payload) PRIVATE_API(recorder_apply_input);

@@ -174,7 +174,7 @@ static PetriStatus recompile_script(PetriSession *session, bool read_again) {
     return status;
 }
 
-PetriStatus session_read_again(PetriSession *session) {
+PetriStatus recorder_read_again(PetriSession *session) {
     session_clear_files(session);
     return recompile_script(session, true);
 }

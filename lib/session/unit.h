@@ -88,8 +88,5 @@ Unit *session_use_unit(PetriSession *session, Unit *unit);
 const Program *session_module(void *host, Str path, Str *reason);
 // Clears all cached files and modules, because the next script may not be allowed to read them.
 void session_clear_files(PetriSession *session);
-// Reads all files of the loaded script again and compiles it, so that they are reported to the recorder. Returns the
-// statuses of petri_reload.
-PetriStatus session_read_again(PetriSession *session);
 // Frees retired modules.
 void session_free_retired(PetriSession *session);
