@@ -46,8 +46,11 @@ static void add_gcc(Report *report, const PetriDiagnostic *diagnostic, const cha
 }
 
 static void add_json(Report *report, const PetriDiagnostic *diagnostic) {
-    text_add_c(&report->text, report->count == 0 ? "[\n  " : ",\n  ");
-    json_put_diagnostic(&(JsonWriter){.out = &report->text, .spaced = true}, diagnostic);
+    JsonWriter json = {.out = &report->text, .spaced = true};
+    if (report->count == 0)
+        json_open(&json, NULL, "[");
+    json_break(&json, "\n  ");
+    json_put_diagnostic(&json, diagnostic);
 }
 
 static uint32_t at_least_1(uint32_t number) {
@@ -70,7 +73,7 @@ static void put_location(JsonWriter *json, const char *file, const PetriDiagnost
 
 static void add_sarif(Report *report, const PetriDiagnostic *diagnostic, const char *message_text) {
     JsonWriter json = {.out = &report->text, .spaced = true};
-    text_add_c(json.out, report->count == 0 ? "\n      " : ",\n      ");
+    json_break(&json, "\n      ");
     json_open(&json, NULL, "{");
     json_put_text(&json, "level", level_word(diagnostic->level));
     if (diagnostic->code) {
@@ -98,19 +101,30 @@ void report_add(Report *report, const PetriDiagnostic *diagnostic) {
 }
 
 static void frame_sarif(const Report *report, Text *out) {
-    text_add_format(
-        out,
-        "{\n  \"$schema\": \"https://json.schemastore.org/sarif-2.1.0.json\",\n  \"version\": \"2.1.0\",\n"
-        "  \"runs\": [{\n    \"tool\": {\"driver\": {\"name\": \"petri\", \"version\": \"%s\", \"rules\": [",
-        petri_version());
     JsonWriter json = {.out = out, .spaced = true};
+    json_open(&json, NULL, "{\n  ");
+    json_put_text(&json, "$schema", "https://json.schemastore.org/sarif-2.1.0.json");
+    json_break(&json, "\n  ");
+    json_put_text(&json, "version", "2.1.0");
+    json_break(&json, "\n  ");
+    json_open(&json, "runs", "[{\n    ");
+    json_open(&json, "tool", "{");
+    json_open(&json, "driver", "{");
+    JSON_PUT_TEXTS(&json, "name", "petri", "version", petri_version());
+    json_open(&json, "rules", "[");
     for (size_t i = 0; i < report->codes.count; i++)
         put_rule(&json, report->codes.items[i]);
-    text_add_format(out, "]}},\n    \"invocations\": [{\"executionSuccessful\": %s}],\n",
-                    report->incomplete ? "false" : "true");
-    text_add_c(out, "    \"columnKind\": \"unicodeCodePoints\",\n    \"results\": [");
+    json_close(&json, "]}}");
+    json_break(&json, "\n    ");
+    json_open(&json, "invocations", "[{");
+    json_put_bool(&json, "executionSuccessful", !report->incomplete);
+    json_close(&json, "}]");
+    json_break(&json, "\n    ");
+    json_put_text(&json, "columnKind", "unicodeCodePoints");
+    json_break(&json, "\n    ");
+    json_open(&json, "results", "[");
     text_add(out, text_str(&report->text));
-    text_add_c(out, "\n    ]\n  }]\n}\n");
+    json_close(&json, "\n    ]\n  }]\n}\n");
 }
 
 int report_end(Report *report, int status) {

@@ -36,14 +36,19 @@ static void add_string(JsonWriter *json, Str text) {
 }
 
 // Adds a comma, if another value precedes.
-static void separate(JsonWriter *json) {
+static void separate(JsonWriter *json, const char *comma) {
     Text *out = json->out;
     if (out->len > 0 && !strchr("{[: \n", out->bytes[out->len - 1]))
-        text_add_c(out, json->spaced ? ", " : ",");
+        text_add_c(out, comma);
+}
+
+void json_break(JsonWriter *json, const char *line) {
+    separate(json, ",");
+    text_add_c(json->out, line);
 }
 
 static void add_name(JsonWriter *json, Str name) {
-    separate(json);
+    separate(json, json->spaced ? ", " : ",");
     add_string(json, name);
     text_add_c(json->out, json->spaced ? ": " : ":");
 }
@@ -51,7 +56,7 @@ static void add_name(JsonWriter *json, Str name) {
 static void begin_value(JsonWriter *json, const char *name) {
     if (name)
         add_name(json, str_from(name));
-    separate(json);
+    separate(json, json->spaced ? ", " : ",");
 }
 
 void json_open(JsonWriter *json, const char *name, const char *brackets) {
@@ -105,8 +110,8 @@ void json_put_written(JsonWriter *json, const char *name, Str value) {
     text_add(json->out, value.len > 0 ? value : STR("null"));
 }
 
-void json_put_true(JsonWriter *json, const char *name) {
-    json_put_written(json, name, STR("true"));
+void json_put_bool(JsonWriter *json, const char *name, bool value) {
+    json_put_written(json, name, value ? STR("true") : STR("false"));
 }
 
 const char *level_word(PetriLevel level) {

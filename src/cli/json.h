@@ -17,6 +17,8 @@ typedef struct JsonWriter {
 // the outermost value.
 void json_open(JsonWriter *json, const char *name, const char *brackets); // such as "{", "[" or "[{"
 void json_close(JsonWriter *json, const char *brackets);                  // such as "}]"
+// Begins a line before the next value or name: adds the comma, if one is due, and `line`, such as "\n  ".
+void json_break(JsonWriter *json, const char *line);
 // Adds a string. Invalid UTF-8 becomes U+FFFD. A null pointer becomes null.
 void json_put_text(JsonWriter *json, const char *name, const char *text);
 void json_put_str(JsonWriter *json, const char *name, Str text);
@@ -31,7 +33,7 @@ void json_put_array(JsonWriter *json, const char *name, const char *const texts[
 #define JSON_PUT_ARRAY(json, name, ...) json_put_array(json, name, (const char *const[]){__VA_ARGS__, NULL})
 void json_put_integer(JsonWriter *json, const char *name, int64_t number);
 void json_put_number(JsonWriter *json, const char *name, double number); // infinity and NaN become null
-void json_put_true(JsonWriter *json, const char *name);
+void json_put_bool(JsonWriter *json, const char *name, bool value);
 // Adds a value that is already written as JSON. An empty text becomes null.
 void json_put_written(JsonWriter *json, const char *name, Str value);
 // Returns "error", "warning" or "note".

@@ -1,13 +1,13 @@
 // diff.c: `petri diff`, which finds the first frame in which two runs differ, and why.
 #include "diff/diff.h"
 
+#include "cli/json.h"
 #include "cli/output.h"
 #include "cli/script.h"
 #include "cli/words.h"
 #include "golden/golden.h"
 #include "petri-inspect.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -158,8 +158,15 @@ static int compare_runs(Diff *diff, Output *output) {
         message("nothing to compare: no frame is in both %s and %s", sides[0].label.bytes, sides[1].label.bytes);
         return STATUS_TROUBLE;
     }
-    if (diff->json)
-        output_format(output, "{\"same\":true,\"frames\":%" PRId64 "}\n", compared);
+    if (diff->json) {
+        SCOPED_TEXT report = {0};
+        JsonWriter json = {.out = &report};
+        json_open(&json, NULL, "{");
+        json_put_bool(&json, "same", true);
+        json_put_integer(&json, "frames", compared);
+        json_close(&json, "}\n");
+        output_write(output, report.bytes, report.len);
+    }
     return STATUS_SAME;
 }
 

@@ -100,7 +100,7 @@ void report_json(const DiffReport *report, Text *out) {
     const StateDifference *first = first_entry(report);
     JsonWriter json = {.out = out};
     json_open(&json, NULL, "{");
-    json_put_written(&json, "same", STR("false"));
+    json_put_bool(&json, "same", false);
     JSON_PUT_TEXTS(&json, "a", sides[0].label.bytes, "b", sides[1].label.bytes);
     json_put_integer(&json, "frame", sides[0].frame);
     json_put_number(&json, "time", isnan(sides[0].time) ? sides[1].time : sides[0].time);

@@ -29,7 +29,7 @@ void answer_hints(const RequestContext *request, JsonWriter *result, const char 
         json_open(result, NULL, "{");
         document_put_position(result, "position", document, name->value_end, request->server->utf8);
         json_put_text(result, "label", label.bytes);
-        json_put_true(result, "paddingLeft");
+        json_put_bool(result, "paddingLeft", true);
         json_close(result, "}");
     }
     json_close(result, "]");
@@ -205,7 +205,7 @@ static void add_action(const RequestContext *request, JsonWriter *list, const Do
     text_add_format(&title, "write %.*s", STR_ARGS(meant));
     json_open(list, NULL, "{");
     JSON_PUT_TEXTS(list, "title", title.bytes, "kind", "quickfix");
-    json_put_true(list, "isPreferred");
+    json_put_bool(list, "isPreferred", true);
     json_open(list, "edit", "{");
     json_open(list, "changes", "{");
     json_open(list, request->document->uri, "[");

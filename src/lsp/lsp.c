@@ -138,23 +138,32 @@ static const struct {
 static void put_capabilities(JsonWriter *json, const Server *server) {
     json_open(json, "capabilities", "{");
     json_put_text(json, "positionEncoding", server->utf8 ? "utf-8" : "utf-16");
-    json_put_written(json, "textDocumentSync", STR("{\"openClose\":true,\"change\":2,\"save\":true}"));
+    json_open(json, "textDocumentSync", "{");
+    json_put_bool(json, "openClose", true);
+    json_put_integer(json, "change", 2); // incremental: the editor sends the ranges that change
+    json_put_bool(json, "save", true);
+    json_close(json, "}");
     for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++)
         if (requests[i].capability)
-            json_put_true(json, requests[i].capability);
+            json_put_bool(json, requests[i].capability, true);
     json_open(json, "completionProvider", "{");
     JSON_PUT_ARRAY(json, "triggerCharacters", "!", "$", ":", "'", "\"", "/");
     json_close(json, "}");
     json_open(json, "signatureHelpProvider", "{");
     JSON_PUT_ARRAY(json, "triggerCharacters", "(", ",");
     json_close(json, "}");
-    json_put_written(json, "documentLinkProvider", STR("{}"));
-    json_put_written(json, "workspace",
-                     STR("{\"workspaceFolders\":{\"supported\":true,\"changeNotifications\":true}}"));
-    json_put_written(json, "renameProvider", STR("{\"prepareProvider\":true}"));
+    json_open(json, "documentLinkProvider", "{}");
+    json_open(json, "workspace", "{");
+    json_open(json, "workspaceFolders", "{");
+    json_put_bool(json, "supported", true);
+    json_put_bool(json, "changeNotifications", true);
+    json_close(json, "}}");
+    json_open(json, "renameProvider", "{");
+    json_put_bool(json, "prepareProvider", true);
+    json_close(json, "}");
     json_open(json, "semanticTokensProvider", "{");
     tokens_put_legend(json);
-    json_put_true(json, "full");
+    json_put_bool(json, "full", true);
     json_close(json, "}}");
 }
 

@@ -18,8 +18,11 @@ static void put_diagnostic(Text *out, const Server *server, const Document *docu
     JSON_PUT_TEXTS(&json, "source", "petri", "message", text.bytes);
     if (diagnostic->code)
         json_put_text(&json, "code", diagnostic->code);
-    if (diagnostic->code && strcmp(diagnostic->code, "unused-name") == 0)
-        json_put_written(&json, "tags", STR("[1]")); // unnecessary: editors grey out the name
+    if (diagnostic->code && strcmp(diagnostic->code, "unused-name") == 0) {
+        json_open(&json, "tags", "[");
+        json_put_integer(&json, NULL, 1); // unnecessary: editors grey out the name
+        json_close(&json, "]");
+    }
     json_close(&json, "}");
 }
 

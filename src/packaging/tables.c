@@ -7,7 +7,7 @@
 #include "repl/repl.h"
 
 static void begin_row(JsonWriter *json) {
-    text_add_c(json->out, json->out->bytes[json->out->len - 1] == '}' ? ",\n" : "\n");
+    json_break(json, "\n");
     json_open(json, NULL, "{");
 }
 

@@ -99,7 +99,7 @@ static void add_output(const Text *output, Text *out) {
 static void add_result_line(Text *out, bool done, int64_t frame, const PetriPromptResult *prompted) {
     JsonWriter json = {.out = out, .spaced = true};
     json_open(&json, NULL, "{");
-    json_put_written(&json, "done", done ? STR("true") : STR("false"));
+    json_put_bool(&json, "done", done);
     json_put_integer(&json, "frame", frame);
     json_put_integer(&json, "values", prompted->values);
     json_put_integer(&json, "bindings", prompted->bindings);

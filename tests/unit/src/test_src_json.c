@@ -62,7 +62,7 @@ static void test_commas_separate_values(void **state) {
     JSON_PUT_TEXTS(&json, "a:", "{", "b", "[");
     json_open(&json, "list", "[[");
     json_close(&json, "]");
-    json_put_true(&json, NULL);
+    json_put_bool(&json, NULL, true);
     json_put_number(&json, NULL, INFINITY);
     json_put_integer(&json, NULL, INT64_MIN);
     json.spaced = false;
@@ -397,6 +397,25 @@ static void test_members_of_other_types_are_missing(void **state) {
     assert_null(json_next(object, NULL));
 }
 
+static void test_lines_begin_after_commas(void **state) {
+    (void)state;
+    SCOPED_TEXT out = {0};
+    JsonWriter json = {.out = &out, .spaced = true};
+    json_break(&json, "\n");
+    json_open(&json, NULL, "[{");
+    for (int i = 0; i < 2; i++) {
+        json_break(&json, "\n  ");
+        json_put_bool(&json, "a", i > 0);
+        json_put_text(&json, "b", " ");
+    }
+    json_close(&json, "}");
+    json_break(&json, "\n");
+    json_open(&json, NULL, "{}");
+    json_put_bool(&json, NULL, false);
+    json_close(&json, "]");
+    assert_string_equal(out.bytes, "\n[{\n  \"a\": false, \"b\": \" \",\n  \"a\": true, \"b\": \" \"},\n{}, false]");
+}
+
 static void test_integers_must_fit(void **state) {
     (void)state;
     static const char *const others[] = {"9223372036854775808", "-9223372036854775809", "1e3", "1.0", "\"1\"", "true"};
@@ -423,6 +442,7 @@ TEST_GROUP(src_json) {
         cmocka_unit_test(test_nesting_is_limited),
         cmocka_unit_test(test_changed_texts_are_read_or_rejected),
         cmocka_unit_test(test_members_of_other_types_are_missing),
+        cmocka_unit_test(test_lines_begin_after_commas),
         cmocka_unit_test(test_integers_must_fit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
