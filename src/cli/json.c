@@ -1,8 +1,7 @@
 // json.c: see json.h.
 //
-// The reader checks everything that RFC 8259 demands, in one pass over a copy of the text. jsmn, the parser of Debian
-// that is only a header, would not make it shorter: it accepts texts such as [1 2], so that its tokens must be checked
-// again.
+// The reader checks everything that RFC 8259 demands, in one pass over a copy of the text. CONTRIBUTING.md says why it
+// is not a library.
 #include "cli/json.h"
 
 #include "base/number.h"
@@ -147,28 +146,28 @@ static Json *add_value(Reader *reader, JsonKind kind) {
     return &document->values[document->count++];
 }
 
-static void skip_space(Reader *reader) {
-    reader->at += strspn(reader->at, " \t\n\r");
-}
-
-// Moves after the character if it comes next, apart from white space.
-static bool take(Reader *reader, char c) {
-    skip_space(reader);
-    bool found = *reader->at == c;
+// Moves after the next character if it is one of these.
+static bool take(Reader *reader, const char *characters) {
+    bool found = *reader->at != '\0' && strchr(characters, *reader->at);
     reader->at += found;
     return found;
 }
 
+static void skip_space(Reader *reader) {
+    reader->at += strspn(reader->at, " \t\n\r");
+}
+
+static bool take_mark(Reader *reader, const char *mark) {
+    skip_space(reader);
+    return take(reader, mark);
+}
+
 // Returns the value of four hexadecimal digits, or -1 if they are not.
 static int32_t read_hex(const char *at) {
-    int32_t value = 0;
-    for (int i = 0; i < 4; i++) {
-        int digit = str_hex_digit(at[i]);
-        if (digit < 0)
-            return -1;
-        value = value * 16 + digit;
-    }
-    return value;
+    if (strspn(at, "0123456789abcdefABCDEF") < 4)
+        return -1;
+    const char digits[] = {at[0], at[1], at[2], at[3], '\0'};
+    return (int32_t)strtol(digits, NULL, 16);
 }
 
 // Reads the digits after `\u`, and those of the second half of a surrogate pair. Returns -1 if they are invalid.
@@ -187,23 +186,19 @@ static int32_t read_code_point(Reader *reader) {
 
 // Reads the rest of an escape and writes its character, which is never longer, to **to.
 static bool read_escape(Reader *reader, char **to) {
-    char c = *reader->at;
-    const char *found = c == '\0' ? NULL : strchr(ESCAPES, c);
-    reader->at += c != '\0';
-    if (found)
-        *(*to)++ = ESCAPED[found - ESCAPES];
-    if (found || c != 'u')
-        return found;
-    int32_t code = read_code_point(reader);
-    if (code >= 0)
-        *to += utf8_encode((uint32_t)code, *to);
+    if (take(reader, ESCAPES)) {
+        *(*to)++ = ESCAPED[strchr(ESCAPES, reader->at[-1]) - ESCAPES];
+        return true;
+    }
+    int32_t code = take(reader, "u") ? read_code_point(reader) : -1;
+    *to += code < 0 ? 0 : utf8_encode((uint32_t)code, *to);
     return code >= 0;
 }
 
-// Reads a string whose first quote comes next. Replaces its escapes in place.
+// Reads a string after its first quote. Replaces its escapes in place.
 static bool read_string(Reader *reader) {
-    char *start = ++reader->at, *to = start;
     Json *value = add_value(reader, JSON_STRING);
+    char *to = reader->at;
     while (*reader->at != '"') {
         if ((unsigned char)*reader->at < 0x20) // also the end of the text
             return false;
@@ -215,114 +210,68 @@ static bool read_string(Reader *reader) {
     }
     reader->at++;
     *to = '\0';
-    value->length = (uint32_t)(to - start);
+    value->length = (uint32_t)(to - value->text);
     return true;
 }
 
-static size_t skip_digits(Reader *reader) {
+static bool read_digits(Reader *reader) {
     size_t count = strspn(reader->at, "0123456789");
     reader->at += count;
-    return count;
+    return count > 0;
 }
 
 static bool read_number(Reader *reader) {
     Json *value = add_value(reader, JSON_NUMBER);
-    reader->at += *reader->at == '-';
-    bool zero = *reader->at == '0';
-    size_t digits = skip_digits(reader);
-    bool good = digits > 0 && !(zero && digits > 1);
-    if (*reader->at == '.') {
-        reader->at++;
-        good = skip_digits(reader) > 0 && good;
-    }
-    if (*reader->at == 'e' || *reader->at == 'E') {
-        reader->at++;
-        reader->at += *reader->at == '+' || *reader->at == '-';
-        good = skip_digits(reader) > 0 && good;
+    take(reader, "-");
+    bool good = (take(reader, "0") || read_digits(reader)) && (!take(reader, ".") || read_digits(reader));
+    if (good && take(reader, "eE")) {
+        take(reader, "+-");
+        good = read_digits(reader);
     }
     value->length = (uint32_t)(reader->at - value->text);
     return good;
 }
 
-static bool read_word(Reader *reader, const char *word, JsonKind kind) {
-    size_t length = strlen(word);
-    add_value(reader, kind)->length = (uint32_t)length;
-    bool good = strncmp(reader->at, word, length) == 0;
-    reader->at += good ? length : 0;
-    return good;
-}
-
-static Str value_str(const Json *value) {
-    return (Str){value->text, value->length};
-}
-
-static int by_text(const void *a, const void *b) {
-    return str_compare(value_str(*(const Json *const *)a), value_str(*(const Json *const *)b));
-}
-
-// Returns the value after `item` in an array, or the name after the member `item` of an object. NULL: the first or
-// last.
-static const Json *next_value(const Json *nested, const Json *item) {
-    const Json *value = item && nested->kind == JSON_OBJECT ? item + 1 : item;
-    const Json *next = !value ? nested + 1 : value + value->span;
-    return next < nested + nested->span ? next : NULL;
-}
-
-// Returns true if no two members of an object have the same name.
-static bool has_distinct_names(const Json *object) {
-    size_t count = 0, i = 0;
-    for (const Json *name = NULL; (name = next_value(object, name));)
-        count++;
-    const Json **names = memory_calloc(count * sizeof *names);
-    for (const Json *name = NULL; (name = next_value(object, name));)
-        names[i++] = name;
-    qsort(names, count, sizeof *names, by_text);
-    for (i = 1; i < count && by_text(&names[i - 1], &names[i]) != 0;)
-        i++;
-    free(names);
-    return i >= count;
+static bool read_word(Reader *reader) {
+    static const char *const words[] = {[JSON_NULL] = "null", [JSON_FALSE] = "false", [JSON_TRUE] = "true"};
+    for (JsonKind kind = JSON_NULL; kind <= JSON_TRUE; kind++) {
+        size_t length = strlen(words[kind]);
+        if (strncmp(reader->at, words[kind], length) == 0) {
+            add_value(reader, kind)->length = (uint32_t)length;
+            reader->at += length;
+            return true;
+        }
+    }
+    return false;
 }
 
 static bool read_value(Reader *reader, unsigned max_depth);
 
-// Reads an array or object whose bracket comes next.
-static bool read_nested(Reader *reader, unsigned max_depth) {
-    bool object = *reader->at == '{';
-    char end = object ? '}' : ']';
+// Reads an array or object after its first bracket.
+static bool read_nested(Reader *reader, JsonKind kind, unsigned max_depth) {
+    const char *end = kind == JSON_OBJECT ? "}" : "]";
     size_t index = reader->document->count;
-    add_value(reader, object ? JSON_OBJECT : JSON_ARRAY);
-    reader->at++;
-    if (max_depth == 0 || take(reader, end))
+    add_value(reader, kind);
+    if (max_depth == 0 || take_mark(reader, end))
         return max_depth > 0;
     do {
-        skip_space(reader);
-        if (object && !(*reader->at == '"' && read_string(reader) && take(reader, ':')))
+        bool named = kind == JSON_ARRAY || (take_mark(reader, "\"") && read_string(reader) && take_mark(reader, ":"));
+        if (!named || !read_value(reader, max_depth - 1))
             return false;
-        if (!read_value(reader, max_depth - 1))
-            return false;
-    } while (take(reader, ','));
-    Json *value = &reader->document->values[index];
-    value->span = (uint32_t)(reader->document->count - index);
-    return take(reader, end) && (!object || has_distinct_names(value));
+        reader->document->values[index].length++;
+    } while (take_mark(reader, ","));
+    reader->document->values[index].span = (uint32_t)(reader->document->count - index);
+    return take(reader, end);
 }
 
 static bool read_value(Reader *reader, unsigned max_depth) {
-    skip_space(reader);
-    switch (*reader->at) {
-    case '{':
-    case '[':
-        return read_nested(reader, max_depth);
-    case '"':
+    if (take_mark(reader, "\""))
         return read_string(reader);
-    case 'n':
-        return read_word(reader, "null", JSON_NULL);
-    case 'f':
-        return read_word(reader, "false", JSON_FALSE);
-    case 't':
-        return read_word(reader, "true", JSON_TRUE);
-    default:
-        return read_number(reader);
-    }
+    if (take(reader, "{"))
+        return read_nested(reader, JSON_OBJECT, max_depth);
+    if (take(reader, "["))
+        return read_nested(reader, JSON_ARRAY, max_depth);
+    return read_word(reader) || read_number(reader);
 }
 
 const Json *json_read(JsonDocument *document, Str text, unsigned max_depth) {
@@ -344,13 +293,30 @@ void json_free(JsonDocument *document) {
     *document = (JsonDocument){0};
 }
 
+// --- values that were read
+
+static Str value_str(const Json *value) {
+    return (Str){value->text, value->length};
+}
+
+bool json_is(const Json *value, JsonKind kind) {
+    return value && value->kind == kind;
+}
+
+// Returns the value after `item` in an array, or the name after the member `item` of an object. NULL: the first or
+// last.
+static const Json *next_value(const Json *nested, const Json *item) {
+    const Json *value = item && nested->kind == JSON_OBJECT ? item + 1 : item;
+    const Json *next = !value ? nested + 1 : value + value->span;
+    return next < nested + nested->span ? next : NULL;
+}
+
 const Json *json_get(const Json *object, const char *name) {
-    if (!json_is(object, JSON_OBJECT))
-        return NULL;
-    const Json *member = NULL;
-    while ((member = next_value(object, member)) && !str_equal(value_str(member), str_from(name)))
-        ;
-    return member && member[1].kind != JSON_NULL ? member + 1 : NULL;
+    const Json *found = NULL;
+    if (json_is(object, JSON_OBJECT))
+        for (const Json *member = NULL; (member = next_value(object, member));)
+            found = str_equal(value_str(member), str_from(name)) ? member + 1 : found;
+    return json_is(found, JSON_NULL) ? NULL : found;
 }
 
 const Json *json_path(const Json *object, const char *names) {
@@ -366,14 +332,7 @@ const Json *json_next(const Json *array, const Json *item) {
 }
 
 size_t json_length(const Json *array) {
-    size_t length = 0;
-    for (const Json *item = NULL; (item = json_next(array, item));)
-        length++;
-    return length;
-}
-
-bool json_is(const Json *value, JsonKind kind) {
-    return value && value->kind == kind;
+    return json_is(array, JSON_ARRAY) ? array->length : 0;
 }
 
 const char *json_text(const Json *object, const char *name) {

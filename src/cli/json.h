@@ -56,7 +56,7 @@ typedef enum JsonKind {
 // A value in a document. The values in an array or object follow it. A member is two values: its name and its value.
 typedef struct Json {
     const char *text; // of a string: without escapes, with a NUL after it; of a number or word: as written
-    uint32_t length;  // of `text`, in bytes
+    uint32_t length;  // of `text`, in bytes; of an array or object: the number of its values or members
     uint32_t span;    // number of values up to the next one that is not in this one
     JsonKind kind;
 } Json;
@@ -69,15 +69,15 @@ typedef struct JsonDocument {
     size_t capacity;
 } JsonDocument;
 
-// Reads a text. Returns its value, which is valid until json_free, or NULL if the text is not JSON, if arrays and
-// objects are nested deeper than `max_depth`, or if an object has two members with the same name. Half of a surrogate
-// pair becomes U+FFFD.
+// Reads a text. Returns its value, which is valid until json_free, or NULL if the text is not JSON, or if arrays and
+// objects are nested deeper than `max_depth`. Half of a surrogate pair becomes U+FFFD.
 const Json *json_read(JsonDocument *document, Str text, unsigned max_depth);
 void json_free(JsonDocument *document);
 #define SCOPED_JSON __attribute__((cleanup(json_free))) JsonDocument
 
 // The value may be NULL in all functions below. Results are borrowed from the document.
-// Returns the member with this name. Returns NULL if there is none, and if it is null.
+// Returns the member with this name; of several, the last, as in JavaScript. Returns NULL if there is none, and if it
+// is null.
 const Json *json_get(const Json *object, const char *name);
 // Returns the member of a member, or NULL. `names` are separated by dots.
 const Json *json_path(const Json *object, const char *names);

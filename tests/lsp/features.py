@@ -411,12 +411,13 @@ def answer_to(body, number):
 
 shutdown = b'{"id":%s,"method":"shutdown"}'
 nested = b"[" * 300 + b"]" * 300
-for body in (b"{x}", b"{} {}", b'{"id":1,}', b'{"id":1 "method":"a"}', b'{"id":1,"id":2,"method":"a"}', b'/**/{"id":1}', b"{'id':1}",
+for body in (b"{x}", b"{} {}", b'{"id":1,}', b'{"id":1 "method":"a"}', b'/**/{"id":1}', b"{'id':1}",
              b'{"id":01}', b'{"id":"\xff"}', shutdown % nested):
     check(f"invalid JSON is an error: {body[:30]}", answer_to(body, None)["error"]["code"], -32700)
 for id in (b"1.50", b'"a\\u00e4\\n\\"\xf0\x9f\x98\x80"', b"-9007199254740993", b'[{"a":[]},null]'):
     number = json.loads(id)
     check(f"an answer has the id of its request: {id}", answer_to(shutdown.replace(b"shutdown", b"nonsense") % id, number)["id"], number)
+check("the last of two members counts", answer_to(b'{"id":1,"id":2,"method":"a"}', 2)["error"]["code"], -32601)
 client.close(uri)
 check("the server exits with 0 after shutdown", client.end(), 0)
 client = Client(petri, utf8=True)
