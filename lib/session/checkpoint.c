@@ -1,4 +1,4 @@
-// checkpoint.c: implementation of checkpoint.h, and snapshots.
+// checkpoint.c: see checkpoint.h.
 //
 // A checkpoint is a sequence of 64-bit words, in three parts (image.h) that each end with the word END:
 // - the key and value of each slot of the dictionary
@@ -233,7 +233,7 @@ PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *make, void *
     PhysicsSystem *systems = scene_detach_systems(session->scene);
     session_arena(session, &incoming.arena, "incoming state", SIZE_MAX);
     input_reset(&incoming.input_state, &incoming.bindings);
-    PetriStatus status = session_protect(session, &incoming.arena, run_fill, &filling);
+    PetriStatus status = session_attempt(session, &incoming.arena, run_fill, &filling);
     if (status == PETRI_OK)
         install_incoming(session, &incoming);
     else
@@ -244,45 +244,4 @@ PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *make, void *
     arena_free(&incoming.bindings.arena);
     arena_free(&incoming.arena);
     return status;
-}
-
-PetriSnapshot *petri_snapshot(PetriSession *session) {
-    if (!session || (session->rollback_pending && !session_rollback(session)))
-        return NULL;
-    PetriSnapshot *snapshot = heap_calloc(1, sizeof *snapshot);
-    if (!snapshot)
-        return NULL;
-    snapshot->config = petri_config_get(session);
-    if (!snapshot->config || !checkpoint_save(&snapshot->at, session)) {
-        petri_snapshot_free(snapshot);
-        return NULL;
-    }
-    unsigned char *exact =
-        heap_resize(snapshot->at.bytes, snapshot->at.size); // frees unused capacity, because hosts keep many snapshots
-    snapshot->at.bytes = exact ? exact : snapshot->at.bytes;
-    return snapshot;
-}
-
-void petri_snapshot_free(PetriSnapshot *snapshot) {
-    if (!snapshot)
-        return;
-    petri_config_free(snapshot->config);
-    heap_free(snapshot->at.bytes);
-    heap_free(snapshot);
-}
-
-size_t petri_snapshot_bytes(const PetriSnapshot *snapshot) {
-    return snapshot ? sizeof *snapshot + snapshot->at.size : 0;
-}
-
-PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot) {
-    if (!session || !snapshot)
-        return PETRI_INVALID;
-    PetriStatus status = checkpoint_restore(session, &snapshot->at);
-    if (status != PETRI_OK)
-        return PETRI_OUT_OF_MEMORY;
-    petri_config_apply(session, snapshot->config);
-    clock_follow_frame(&session->clock);
-    recorder_jump(session);
-    return PETRI_OK;
 }

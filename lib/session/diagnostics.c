@@ -178,7 +178,7 @@ void session_report_keyed(PetriSession *session, const Diag *diag, Str key) {
     PendingReport pending = {diag, key};
     if (session->text_arena.escape)
         report_diagnostic(session, &pending);
-    else if (session_protect(session, NULL, report_diagnostic, &pending) == PETRI_OUT_OF_MEMORY)
+    else if (session_attempt(session, NULL, report_diagnostic, &pending) == PETRI_OUT_OF_MEMORY)
         report_without_memory(session, diag);
 }
 

@@ -26,32 +26,6 @@ static double pragma_number(PetriSession *session, const Pragma *pragma, bool po
     return default_value;
 }
 
-void session_clear_frame(PetriSession *session) {
-    SessionFrame *frame = &session->frame;
-    frame->tree = VALUE_NULL;
-    frame->evaluated = frame->names_current = false;
-    frame->values = NULL;
-    frame->value_count = 0;
-    frame->system_names = NULL;
-    frame->system_name_count = 0;
-    diag_sink_free(&frame->log);
-    diag_sink_free(&frame->errors);
-    arena_reset(&frame->arena);
-    arena_reset(&frame->systems_arena);
-    arena_reset(&session->text_arena);
-    arena_reset(&session->view_arena);
-    phys_explanation_free(&session->explanation);
-    scene_forget_origins(session->scene);
-    session_free_retired(session);
-}
-
-// Like session_clear_frame, but also frees the blocks of the arenas. Used after an aborted frame.
-static void session_drop_frame(PetriSession *session) {
-    session_clear_frame(session);
-    arena_free(&session->frame.arena);
-    arena_free(&session->frame.systems_arena);
-}
-
 // If a pragma is repeated, the last one counts. If that is invalid, the default is used.
 ClockRates session_pragma_rates(PetriSession *session, const Program *program) {
     ClockRates rates = {session->options.fps, TEMPO, QUANTUM};
@@ -306,15 +280,6 @@ static PetriStatus update_systems(PetriSession *session, void *context) {
     made->physics_steps = scene_update(session->scene, made->tree, &frame);
     made->physics_seconds = clock_seconds() - start;
     return PETRI_OK;
-}
-
-void petri_interrupt(PetriSession *session) {
-    if (session)
-        atomic_store(session->interrupt_source, true);
-}
-
-bool petri_clear_interrupt(PetriSession *session) {
-    return session && atomic_exchange(session->interrupt_source, false);
 }
 
 // Evaluates the script for the current frame. If the frame will be undone, removes the input that was written to the

@@ -40,6 +40,8 @@ typedef struct SessionFrame {
 
 // Frees the results of the last frame: tree, log, values of names.
 void session_clear_frame(PetriSession *session);
+// Like session_clear_frame, but also frees the blocks of the arenas. Used after an aborted frame.
+void session_drop_frame(PetriSession *session);
 // Evaluates the script and then the prompt's statements, with `state` as the state dictionary. Called within a
 // protected call.
 void session_evaluate(PetriSession *session, const State *state);

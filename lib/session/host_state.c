@@ -1,7 +1,9 @@
-// host_state.c: the host's access to the state dictionary and to global names.
+// host_state.c: the host's access to the state dictionary, its digest (spec digest.md), global names and input.
 #include "base/number.h"
+#include "physics/threads.h"
 #include "session/session.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -84,6 +86,42 @@ bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, 
     *key = session_export_value(state_slot_key_at(state, slot, &buffer));
     *value = session_export_value(state_slot_at(state, slot, &buffer));
     return true;
+}
+
+// --- the digest
+
+// If there are fewer numbers, waking the other threads would take longer than hashing all numbers.
+enum { MIN_SHARED_NUMBERS = 1 << 17 };
+
+static void hash_part(void *context, int part, int parts) {
+    state_digest_part(context, part, parts);
+}
+
+void session_digest(PetriSession *session, uint8_t digest[STATE_DIGEST_SIZE]) {
+    Arena *arena = &session->text_arena;
+    State *state = session->state;
+    uint64_t numbers;
+    if (state_digest_is_stale(state))
+        arena_charge(arena, state_slot_count(state));
+    if (!state_digest_begin(state, &numbers)) {
+        state_clear_exhausted(state);
+        arena_exhausted(arena);
+    }
+    arena_charge(arena, numbers / BUDGET_NUMBERS);
+    PhysThreads *threads = numbers < MIN_SHARED_NUMBERS ? NULL : scene_threads(session->scene);
+    phys_threads_run(threads, phys_threads_chunks(threads), hash_part, state);
+    state_digest_end(state, digest);
+}
+
+static PetriStatus compute_digest(PetriSession *session, void *context) {
+    session_digest(session, context);
+    return PETRI_OK;
+}
+
+PetriStatus petri_digest(PetriSession *session, uint8_t digest[16]) {
+    if (!session || !digest || session->call_depth > 0)
+        return PETRI_INVALID;
+    return session_run(session, compute_digest, digest, "the digest");
 }
 
 // --- global names
@@ -171,4 +209,53 @@ void session_free_host_globals(PetriSession *session) {
     for (uint32_t i = 0; i < session->host_globals.count; i++)
         for (int k = 0; k < 2; k++)
             arena_free(&session->host_globals.items[i]->arenas[k]);
+}
+
+// --- input
+
+static PetriStatus report_pointer(PetriSession *session, const PetriPointer *given) {
+    PetriPointer pointer = {0};
+    if (!session)
+        return PETRI_INVALID;
+    Input *input = scene_input(session->scene);
+    if (!given) {
+        input_release_all(input);
+        return PETRI_OK;
+    }
+    if (!host_struct_read(&pointer, sizeof pointer, given))
+        return PETRI_INVALID;
+    if (!pointer.inside) {
+        input_report_pointer(input, NULL, pointer.buttons);
+        return PETRI_OK;
+    }
+    if (!isfinite(pointer.x) || !isfinite(pointer.y))
+        return PETRI_INVALID;
+    input_report_pointer(input, (double[]){fmin(1, fmax(0, pointer.x)), fmin(1, fmax(0, pointer.y))}, pointer.buttons);
+    return PETRI_OK;
+}
+
+PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer) {
+    if (session && session->recorder.ignores_input)
+        return PETRI_OK;
+    PetriStatus status = report_pointer(session, pointer);
+    if (status == PETRI_OK)
+        recorder_pointer(session, pointer);
+    return status;
+}
+
+PetriStatus petri_report_key(PetriSession *session, const char *name, bool pressed) {
+    if (!session || !name)
+        return PETRI_INVALID;
+    int key = input_key_number(str_from(name));
+    if (key == INPUT_KEY_NONE)
+        return PETRI_INVALID;
+    if (session->recorder.ignores_input)
+        return PETRI_OK;
+    input_report_key(scene_input(session->scene), key, pressed);
+    recorder_key(session, name, pressed);
+    return PETRI_OK;
+}
+
+bool petri_key_is_bound(PetriSession *session, const char *name) {
+    return session && name && input_key_is_bound(scene_input(session->scene), input_key_number(str_from(name)));
 }

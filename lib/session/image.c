@@ -1,4 +1,5 @@
 // image.c: the parts of an image, written and read; see image.h.
+#include "base/file.h"
 #include "session/session.h"
 
 #include <math.h>
@@ -20,10 +21,12 @@ static void add_rates(ImageSink *sink, const char *name, const ClockRates *rates
 static void add_configuration(const PetriSession *session, ImageSink *sink) {
     const Config *config = &session->config;
     const ClockBase *base = &session->clock.base;
+    Str script = config->program->source->name;
+    size_t folder = path_directory(script).len;
     double run_time = session->options.run_time;
     add_numbers(sink, "run_time", &run_time, !isnan(run_time));
     add_numbers(sink, "realtime", (double[]){session->frame_realtime}, 1);
-    add_string(sink, "script", str_from(recorder_script_name(session)));
+    add_string(sink, "script", (Str){script.bytes + folder, script.len - folder});
     add_numbers(sink, "host_names", (double[]){config->program->program->param_count}, 1);
     for (uint32_t i = 0; i < config->define_count; i++)
         add_string(sink, "define", str_from(config->defines[i].text));

@@ -9,34 +9,6 @@
 #define MAX_SOURCE_BYTES ((size_t)256 << 20)
 enum { MAX_ERRORS = 50 };
 
-static Unit *unit_new(PetriSession *session) {
-    Unit *unit = heap_calloc(1, sizeof *unit);
-    if (!unit)
-        arena_exhausted(&session->arena);
-    unit->references = 1;
-    session_arena(session, &unit->arena, "program", SIZE_MAX);
-    session_arena(session, &unit->scratch, "compiler", SIZE_MAX);
-    unit_arena(session, unit);
-    return unit;
-}
-
-Arena *unit_arena(const PetriSession *session, Unit *unit) {
-    unit->arena.escape = unit->scratch.escape = session->arena.escape;
-    return &unit->arena;
-}
-
-void unit_free(Unit *unit) {
-    if (!unit || --unit->references > 0)
-        return;
-    diag_sink_free(&unit->parse_sink);
-    diag_sink_free(&unit->sink);
-    arena_free(&unit->scratch);
-    arena_free(&unit->arena);
-    unit_free(unit->parse_cache);
-    unit_free(unit->last_good);
-    heap_free(unit);
-}
-
 static void report_and_free(PetriSession *session, DiagSink *sink) {
     session_report_all(session, sink);
     diag_sink_free(sink);
@@ -223,8 +195,6 @@ static void compile_unit(PetriSession *session, Unit *unit, const Ast *ast, bool
     else
         unit->error = STR("it has syntax errors");
     arena_free(&unit->scratch);
-    if (unit->program && !module && !session_check_definitions(session, unit))
-        unit->program = NULL;
 }
 
 static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
@@ -319,29 +289,6 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     return unit;
 }
 
-static Unit **chain_of(PetriSession *session, Str path) {
-    return &session->loader.by_path[(hash_bytes(0, path.bytes, path.len) >> 32) % MODULE_CHAINS];
-}
-
-static void add_to_chain(PetriSession *session, Unit *unit) {
-    Unit **first = chain_of(session, unit->path);
-    unit->same_hash = *first;
-    *first = unit;
-}
-
-// Returns the cached module with a canonical path, or NULL.
-static Unit *find_module(PetriSession *session, Str path) {
-    Unit *unit = *chain_of(session, path);
-    while (unit && (unit->retired || !str_equal(unit->path, path)))
-        unit = unit->same_hash;
-    return unit;
-}
-
-Unit *session_use_unit(PetriSession *session, Unit *unit) {
-    session->loader.generation++;
-    return unit;
-}
-
 // Reads a module whose file is new or has changed. `before` is its cached version; NULL: none. If it
 // cannot be compiled, keeps the last good version.
 static Unit *read_module(PetriSession *session, const char *file, Unit *before) {
@@ -356,13 +303,13 @@ static Unit *read_module(PetriSession *session, const char *file, Unit *before) 
         good->references++;
         unit->last_good = good;
     }
-    add_to_chain(session, session_use_unit(session, unit));
+    session_add_module(session, session_use_unit(session, unit));
     return unit;
 }
 
 // Returns the module at a path. On failure, sets *reason and returns NULL.
 static Unit *current_module(PetriSession *session, const char *file, Str canonical, Str *reason) {
-    Unit *unit = find_module(session, canonical);
+    Unit *unit = session_find_module(session, canonical);
     if (unit && session->options.keep_modules && unit->load == session->loader.loads)
         return unit;
     Str version;
@@ -406,29 +353,4 @@ const char *petri_source_file(PetriSession *session, size_t number) {
         number -= unit->included_count + 1;
     }
     return NULL;
-}
-
-void session_clear_files(PetriSession *session) {
-    file_cache_clear(session->files);
-    for (Unit *unit = session->loader.modules; unit; unit = unit->next)
-        unit->retired = true;
-}
-
-void session_free_retired(PetriSession *session) {
-    bool any = false;
-    for (Unit **link = &session->loader.modules; *link;) {
-        Unit *unit = *link;
-        if (!unit->retired) {
-            link = &unit->next;
-            continue;
-        }
-        *link = unit->next;
-        unit_free(unit);
-        any = true;
-    }
-    if (!any)
-        return;
-    memset(session->loader.by_path, 0, sizeof session->loader.by_path);
-    for (Unit *unit = session->loader.modules; unit; unit = unit->next)
-        add_to_chain(session, unit);
 }

@@ -39,48 +39,6 @@ typedef struct Job {
 
 // --- lists
 
-// Allocates a list for `count` statements. Its names are those in `before`, then the exports of a program (NULL: none).
-static PromptList *make_list(Names before, uint32_t count, const Program *program) {
-    uint32_t old = before.count, more = program ? program->export_count : 0;
-    PromptList *list = heap_alloc(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
-    if (!list)
-        return NULL;
-    const Symbol **names = (const Symbol **)(void *)(list->statements + count);
-    for (uint32_t i = 0; i < old; i++)
-        names[i] = before.items[i];
-    for (uint32_t i = 0; i < more; i++)
-        names[old + i] = program->exports[i].name;
-    list->references = 1;
-    list->count = count;
-    list->names = (Names){names, old + more};
-    return list;
-}
-
-PromptList *prompt_list_new(Names host_names, const Program *script) {
-    return make_list((Names){host_names.items, script ? script->param_count : 0}, 0, script);
-}
-
-// Returns a copy of a list with one more statement, or NULL if out of memory.
-static PromptList *add_statement(const PromptList *before, const PromptStatement *statement) {
-    PromptList *list = make_list(before->names, before->count + 1, statement->program);
-    if (!list)
-        return NULL;
-    for (uint32_t i = 0; i < before->count; i++)
-        list->statements[i] = before->statements[i];
-    list->statements[before->count] = *statement;
-    for (uint32_t i = 0; i < list->count; i++)
-        list->statements[i].unit->references++;
-    return list;
-}
-
-void prompt_list_free(PromptList *list) {
-    if (!list || --list->references > 0)
-        return;
-    for (uint32_t i = 0; i < list->count; i++)
-        unit_free(list->statements[i].unit);
-    heap_free(list);
-}
-
 void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,
                          PromptList **result) {
     *result = prompt_list_new((Names){session->host_globals.names, session->host_globals.count}, script);
@@ -91,7 +49,7 @@ void prompt_list_compile(PetriSession *session, const PromptList *list, const Pr
         statement.program = unit_compile(session, statement.unit, statement.ast, false, (*result)->names);
         arena_free(&statement.unit->scratch);
         PromptList *shorter = *result;
-        *result = add_statement(shorter, &statement);
+        *result = prompt_list_add(shorter, &statement);
         prompt_list_free(shorter);
     }
     if (!*result)
@@ -255,7 +213,7 @@ static void prepare_statement(PetriSession *session, Job *job) {
         vector_add(&tree, job->value);
         job->tree = vector_finish(&tree);
     }
-    job->list = add_statement(session->config.prompts, &statement);
+    job->list = prompt_list_add(session->config.prompts, &statement);
     if (!job->list)
         arena_exhausted(job->arena);
 }
@@ -368,8 +326,8 @@ static PetriStatus append_statement(PetriSession *session, void *context) {
     arena_free(&job->unit->scratch);
     if (!job->program)
         return PETRI_INVALID;
-    job->list =
-        add_statement(session->config.prompts, &(PromptStatement){job->unit, text, job->ast, job->program, adds_nodes});
+    job->list = prompt_list_add(session->config.prompts,
+                                &(PromptStatement){job->unit, text, job->ast, job->program, adds_nodes});
     if (!job->list)
         arena_exhausted(&session->arena);
     return PETRI_OK;

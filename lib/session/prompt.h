@@ -28,6 +28,8 @@ typedef struct Prompt {
 // NULL. The parameters are the first names in `host_names`; those that follow were set after the script was loaded.
 // Returns NULL if out of memory.
 PromptList *prompt_list_new(Names host_names, const Program *script);
+// Returns a copy of a list with one more statement, or NULL if out of memory.
+PromptList *prompt_list_add(const PromptList *before, const PromptStatement *statement);
 // Releases a reference. Frees the list when no reference is left. NULL is ignored.
 void prompt_list_free(PromptList *list);
 // Recompiles statements of a list for another script and stores them as a new list in *result. `choice` says which

@@ -1,8 +1,5 @@
-// protect.c: protected calls (session_protect), the report of aborted calls, and rollback.
+// protect.c: protected calls (session_attempt) and interrupts.
 #include "session/session.h"
-
-#include <inttypes.h>
-#include <stdio.h>
 
 typedef struct Call {
     PetriSession *session;
@@ -16,7 +13,7 @@ static void run_call(void *context) {
     call->status = call->call(call->session, call->context);
 }
 
-PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context) {
+PetriStatus session_attempt(PetriSession *session, Arena *extra, SessionCall *call, void *context) {
     static const PetriStatus statuses[] = {[ARENA_OUT_OF_MEMORY] = PETRI_OUT_OF_MEMORY,
                                            [ARENA_MEMORY_LIMIT] = PETRI_LIMIT_EXCEEDED,
                                            [ARENA_WORK_LIMIT] = PETRI_LIMIT_EXCEEDED,
@@ -28,8 +25,6 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
     bool working = frame->evaluating;
     uint64_t before = 0;
     Call made = {session, call, context, PETRI_OK};
-    if (session->rollback_pending && !session_rollback(session))
-        return PETRI_OUT_OF_MEMORY;
     if (session->call_depth++ == 0) {
         budget_begin(&session->budget, session->options.work_limit,
                      session->uninterruptible ? NULL : session->interrupt_source);
@@ -50,41 +45,11 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
     return statuses[end];
 }
 
-PetriStatus session_run(PetriSession *session, SessionCall *call, void *context, const char *what) {
-    return session_report_abort(session, session_protect(session, NULL, call, context), what);
+void petri_interrupt(PetriSession *session) {
+    if (session)
+        atomic_store(session->interrupt_source, true);
 }
 
-PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what) {
-    if (status == PETRI_INTERRUPTED)
-        petri_clear_interrupt(session);
-    if (status != PETRI_OUT_OF_MEMORY && status != PETRI_LIMIT_EXCEEDED)
-        return status;
-    bool work = status == PETRI_LIMIT_EXCEEDED && session->last_outcome == ARENA_WORK_LIMIT;
-    char text[120];
-    if (status == PETRI_OUT_OF_MEMORY)
-        snprintf(text, sizeof text, "out of memory: %s was aborted", what);
-    else if (work)
-        snprintf(text, sizeof text, "%s exceeded its limit of %" PRIu64 " work units and was aborted", what,
-                 session->options.work_limit);
-    else
-        snprintf(text, sizeof text, "%s exceeded its memory limit of %zu MiB and was aborted", what,
-                 session->options.memory_limit >> 20);
-    Diag diag = {.level = DIAG_ERROR, .text = str_from(text), .code = work ? "work-limit" : "memory-limit"};
-    if (status == PETRI_LIMIT_EXCEEDED)
-        diag.at = session->vm.at                 ? *session->vm.at
-                  : session->schema.current_node ? node_origin(session->schema.current_node, NULL)
-                                                 : (Origin){0};
-    size_t limit = session->budget.memory_limit;
-    session->budget.memory_limit = SIZE_MAX; // the report itself needs memory
-    session_report(session, &diag);
-    session->budget.memory_limit = limit;
-    return status;
-}
-
-bool session_rollback(PetriSession *session) {
-    session->rollback_pending = false; // so that the protected call of checkpoint_restore does not roll back again
-    session->uninterruptible = true;
-    session->rollback_pending = checkpoint_restore(session, &session->undo) != PETRI_OK;
-    session->uninterruptible = false;
-    return !session->rollback_pending;
+bool petri_clear_interrupt(PetriSession *session) {
+    return session && atomic_exchange(session->interrupt_source, false);
 }

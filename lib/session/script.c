@@ -1,6 +1,5 @@
 // script.c: definitions (petri_define), and loading and reloading of the script.
 #include "ast/literal.h"
-#include "base/unicode.h"
 #include "session/session.h"
 
 #include <string.h>
@@ -29,17 +28,6 @@ static Value define_value(PetriSession *session, Str text) {
             return vector_finish(&vector);
         text = (Str){end + 1, text.len - part.len - 1};
     }
-}
-
-bool session_is_name(Str text) {
-    while (text.len > 1 && text.bytes[text.len - 1] == '\'')
-        text.len--;
-    for (size_t at = 0, next = 0; at < text.len; at = next) {
-        int32_t c = utf8_next(text, &next);
-        if (c < 0 || !(at == 0 ? unicode_starts_name((uint32_t)c) : unicode_continues_name((uint32_t)c)))
-            return false;
-    }
-    return text.len > 0;
 }
 
 typedef struct Definition {
@@ -105,6 +93,8 @@ static PetriStatus make_unit(PetriSession *session, void *context) {
             session, DIAG_ERROR, "cannot-read",
             str_format(&session->text_arena, "cannot read '%.*s': %.*s", STR_ARGS(load->name), STR_ARGS(unit->error)));
     load->unit = unit;
+    if (unit->program && !session_check_definitions(session, unit))
+        unit->program = NULL;
     if (!unit->program)
         return PETRI_INVALID;
     load->rates = session_pragma_rates(session, unit->program);
@@ -185,4 +175,48 @@ PetriStatus petri_reload(PetriSession *session, const char *file) {
     if (!file)
         return recompile_script(session, false);
     return load_script(session, &(Load){.file = file, .regular = true, .name = str_from(file)}, LOAD_CONTINUE);
+}
+
+// --- parameters
+
+typedef struct Setting {
+    const char *name;
+    const char *value; // NULL: reset to the default
+} Setting;
+
+// Replaces all definitions of a name by one with the new value. If the new value is NULL, only removes them.
+static PetriStatus redefine(PetriSession *session, void *context) {
+    const Setting *setting = context;
+    Config *config = &session->config;
+    const Symbol *symbol = symbol_intern(&session->symbols, str_from(setting->name));
+    if (!config->program || !program_find_parameter(config->program->program, symbol))
+        return PETRI_INVALID;
+    Define *defines = arena_alloc_array(&session->arena, config->define_count + 1, sizeof *defines);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < config->define_count; i++)
+        if (config->defines[i].name != symbol)
+            defines[count++] = config->defines[i];
+    config->defines = defines;
+    config->define_count = session->reported_defines = count;
+    return setting->value ? session_define(session, symbol->name, str_from(setting->value)) : PETRI_OK;
+}
+
+PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value) {
+    if (!session || !name)
+        return PETRI_INVALID;
+    Setting setting = {name, value};
+    const Define *defines = session->config.defines;
+    uint32_t count = session->config.define_count, reported = session->reported_defines;
+    uint64_t number = session->config_revision;
+    PetriStatus status = session_protect(session, NULL, redefine, &setting);
+    if (status == PETRI_OK)
+        status = petri_reload(session, NULL);
+    if (status != PETRI_OK) {
+        session->config.defines = defines;
+        session->config.define_count = count;
+        session->reported_defines = reported;
+        session_change_config(session, true);
+        session->config_revision = number;
+    }
+    return status;
 }

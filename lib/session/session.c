@@ -113,11 +113,6 @@ static PetriStatus init_components(PetriSession *session, void *context) {
     return PETRI_OK;
 }
 
-void session_arena(PetriSession *session, Arena *arena, const char *name, size_t limit) {
-    arena_init(arena, name, limit);
-    arena->budget = &session->budget;
-}
-
 PetriSession *petri_open(const PetriOptions *options) {
     PetriOptions wanted;
     PetriRanks ranks = {0};

@@ -1,7 +1,17 @@
 // session.h: internal declarations of the session; petri.h is its public interface.
 //
 // Each part of a session is modified by only one file: config.c, load.c, clock.c, frame.c, prompt.c, diagnostics.c,
-// checkpoint.c. Every public function that allocates does so within session_protect.
+// checkpoint.c; memory.c frees them. Every public function that allocates does so within session_protect. A file calls
+// only files of lower levels:
+//
+//     1   protect, memory, clock, convert, info, drawing_lint, image
+//     2   config, checkpoint, diagnostics, image_text
+//     3   run, state_lint, text_sink
+//     4   recorder, tree_lint; values, functions, systems, tokens, profile, drawn_files
+//     5   load, frame, host_state, save, snapshot
+//     6   parameters, prompt, session, print
+//     7   script
+//     8   check, replay
 #pragma once
 
 #include "base/host_struct.h"
@@ -125,6 +135,8 @@ struct PetriSession {
 // Initialises an arena like arena_init. Its memory is charged to the session's budget.
 void session_arena(PetriSession *session, Arena *arena, const char *name, size_t limit);
 
+// Runs a protected call as session_protect does, but without rolling back first.
+PetriStatus session_attempt(PetriSession *session, Arena *extra, SessionCall *call, void *context);
 // Restores the state before an aborted frame. If out of memory, sets rollback_pending, so that the next call tries
 // again, and returns false.
 bool session_rollback(PetriSession *session);

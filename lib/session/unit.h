@@ -1,4 +1,4 @@
-// unit.h: source files and their compiled programs. Only load.c modifies units and the loader.
+// unit.h: source files and their compiled programs. Only load.c and memory.c modify units and the loader.
 #pragma once
 
 #include "base/diag.h"
@@ -63,6 +63,8 @@ typedef struct Names {
     uint32_t count;
 } Names;
 
+// Returns a new unit. Called within a protected call.
+Unit *unit_new(PetriSession *session);
 // Returns the unit's arena, ready for use in the current protected call: a failed allocation aborts that call.
 Arena *unit_arena(const PetriSession *session, Unit *unit);
 // Reads, parses and compiles a file. Returns a unit even on failure; its `program` is then NULL. If `regular` is true,
@@ -88,5 +90,9 @@ Unit *session_use_unit(PetriSession *session, Unit *unit);
 const Program *session_module(void *host, Str path, Str *reason);
 // Clears all cached files and modules, because the next script may not be allowed to read them.
 void session_clear_files(PetriSession *session);
+// Adds a unit to Loader.by_path.
+void session_add_module(PetriSession *session, Unit *unit);
+// Returns the cached module with a canonical path, or NULL.
+Unit *session_find_module(PetriSession *session, Str path);
 // Frees retired modules.
 void session_free_retired(PetriSession *session);

@@ -1,51 +1,10 @@
-// values.c: conversion between internal and public values.
+// values.c: public access to values: their printed form, symbols, and the tree of the last frame.
 #include "session/session.h"
 #include "value/format.h"
+#include "value/node_batch.h"
 
 #include <math.h>
 #include <string.h>
-
-// Public values refer to internal elements without a copy, so both must have the same layout.
-_Static_assert(sizeof(PetriItem) == sizeof(Item) && offsetof(PetriItem, as) == offsetof(Item, as),
-               "same layout of elements");
-_Static_assert(sizeof(PetriString) == sizeof(String) && offsetof(PetriString, length) == offsetof(String, text.len),
-               "same layout of strings");
-_Static_assert((int)PETRI_NUMBER == (int)ITEM_NUMBER && (int)PETRI_STRING == (int)ITEM_STRING &&
-                   (int)PETRI_NODE == (int)ITEM_NODE && (int)PETRI_FUNCTION == (int)ITEM_FUNCTION,
-               "same types");
-
-PetriValue session_export_value(const Value *v) {
-    if (v->kind == VALUE_MIXED)
-        return (PetriValue){.length = v->len, .items = (const PetriItem *)v->as.items};
-    return v->len > 0 ? (PetriValue){.length = v->len, .numbers = value_numbers(v)} : (PetriValue){0};
-}
-
-bool session_import_value(Arena *arena, PetriValue host_value, Value *value) {
-    *value = VALUE_NULL;
-    if (host_value.length == 0)
-        return true;
-    if (host_value.length > VALUE_MAX_LEN || !host_value.numbers == !host_value.items)
-        return false;
-    bool only_numbers = host_value.numbers;
-    if (only_numbers) {
-        *value = value_numbers_view(host_value.numbers, host_value.length);
-        return true;
-    }
-    Vector vector = vector_new(arena);
-    for (uint32_t i = 0; i < host_value.length; i++) {
-        const Item *item = (const Item *)&host_value.items[i];
-        if (item->type == ITEM_STRING) {
-            Str text = item->as.string ? item->as.string->text : (Str){0};
-            if (!item->as.string || (text.len && !text.bytes) || utf8_find_error(text) != text.len)
-                return false;
-        } else if (item->type != ITEM_NUMBER && (item->type > ITEM_FUNCTION || !item->as.node)) {
-            return false;
-        }
-        vector_add_item(&vector, *item);
-    }
-    *value = vector_finish(&vector);
-    return true;
-}
 
 typedef struct Printed {
     PetriValue value;
@@ -90,4 +49,53 @@ double petri_symbol(PetriSession *session, const char *name) {
 const char *petri_symbol_name(const PetriSession *session, double number) {
     const Symbol *symbol = session ? symbol_of_number(&session->symbols, number) : NULL;
     return symbol ? symbol->name.bytes : NULL;
+}
+
+// --- the tree
+
+static const Node *node_of(const PetriNode *node) {
+    return (const Node *)node;
+}
+
+static PetriStatus expand_batches(PetriSession *session, void *context) {
+    (void)context;
+    session->frame.tree = value_expand_batches(&session->frame.systems_arena, session->frame.tree);
+    return PETRI_OK;
+}
+
+// Expands node batches first, because the public interface has single nodes only.
+PetriValue petri_tree(const PetriSession *session) {
+    if (!session)
+        return (PetriValue){0};
+    if (value_has_batches(session->frame.tree) &&
+        session_protect((PetriSession *)session, NULL, expand_batches, NULL) != PETRI_OK)
+        return (PetriValue){0};
+    return session_export_value(&session->frame.tree);
+}
+
+const char *petri_tree_kind(const PetriNode *node) {
+    return node ? node_of(node)->kind->name.bytes : NULL;
+}
+
+const char *petri_tree_tag(const PetriNode *node, uint32_t number) {
+    return node && number < node_of(node)->tag_count ? node_of(node)->tags[number]->name.bytes : NULL;
+}
+
+const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriValue *value) {
+    if (!node || !value || number >= node_of(node)->attr_count)
+        return NULL;
+    const Attr *attr = &node_of(node)->attrs[number];
+    *value = session_export_value(&attr->value);
+    return attr->name->name.bytes;
+}
+
+PetriValue petri_tree_get(const PetriNode *node, const char *name) {
+    for (uint32_t i = 0; node && name && i < node_of(node)->attr_count; i++)
+        if (strcmp(node_of(node)->attrs[i].name->name.bytes, name) == 0)
+            return session_export_value(&node_of(node)->attrs[i].value);
+    return (PetriValue){0};
+}
+
+const PetriNode *petri_tree_child(const PetriNode *node, uint32_t number) {
+    return node && number < node_of(node)->child_count ? (const PetriNode *)node_of(node)->children[number] : NULL;
 }
