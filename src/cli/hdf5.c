@@ -174,14 +174,13 @@ bool hdf5_end(Hdf5 *writer) {
     return good;
 }
 
-bool hdf5_table(const char *path, uint64_t width, Str cells, int (*pending_signal)(void)) {
+bool hdf5_table(const char *path, Str cells, int (*pending_signal)(void)) {
     Hdf5 writer;
-    Hdf5Head head = {HDF5_ADD, sizeof width + cells.len}, end = {HDF5_COMMIT, 0};
+    Hdf5Head head = {HDF5_ADD, cells.len}, end = {HDF5_COMMIT, 0};
     if (!hdf5_start(&writer, "table", path, NULL, pending_signal))
         return false;
-    bool sent = hdf5_write(&writer, (const char *)&head, sizeof head) &&
-                hdf5_write(&writer, (const char *)&width, sizeof width) &&
-                hdf5_write(&writer, cells.bytes, cells.len) && hdf5_write(&writer, (const char *)&end, sizeof end);
+    bool sent = hdf5_write(&writer, (const char *)&head, sizeof head) && hdf5_write(&writer, cells.bytes, cells.len) &&
+                hdf5_write(&writer, (const char *)&end, sizeof end);
     return hdf5_end(&writer) && sent;
 }
 

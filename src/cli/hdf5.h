@@ -36,10 +36,10 @@ bool hdf5_write(void *writer, const char *bytes, size_t length);
 // Waits until petri-hdf5 answers an HDF5_SYNC. All data that was sent before the HDF5_SYNC is then on disk. On failure,
 // returns false after a message from petri-hdf5.
 bool hdf5_wait(Hdf5 *writer);
-// Writes a whole table. `cells` has the NUL-terminated cells of all rows, each of `width` cells; the first row has the
-// names of the columns. A column is stored as integers if all its cells are integers, and as doubles if all are numbers
-// or empty (NaN). Other columns, and the last, are strings. Returns false after a message.
-bool hdf5_table(const char *path, uint64_t width, Str cells, int (*pending_signal)(void));
+// Writes a whole table. `cells` (cli/cells.h) has the number of columns, the name and kind of each, then
+// the rows. A column is stored as int64, double or string. Cells without contents are NaN or an empty string. In a
+// column of numbers, a cell can be a text; the whole column is then stored as strings. Returns false after a message.
+bool hdf5_table(const char *path, Str cells, int (*pending_signal)(void));
 // Returns true if the file name ends in .h5 or .hdf5. A table is then written as HDF5.
 bool hdf5_has_suffix(const char *path);
 // Closes the stream and waits until the file has its final name. Returns false if petri-hdf5 was not started, or

@@ -1,7 +1,7 @@
 // motion.c: see motion.h.
 #include "cli/motion.h"
 
-#include "cli/memory.h"
+#include "cli/cells.h"
 #include "petri-inspect.h"
 
 #include <inttypes.h>
@@ -142,7 +142,16 @@ void motion_energies(PetriSession *session, size_t number, const PetriSystem *sy
     free(motion.momentum);
 }
 
-PetriStatus motion_add_quantity(PetriSession *session, MotionQuantity quantity, Text *out) {
+static void add_cell(Text *cells, const double *values, uint32_t count) {
+    SCOPED_TEXT text = {0};
+    for (uint32_t k = 0; count > 1 && k < count; k++)
+        text_add_format(&text, "%s%.17g", k == 0 ? "" : ";", values[k]);
+    cell_add(cells, count == 0   ? (Cell){CELL_NONE}
+                    : count == 1 ? (Cell){CELL_NUMBER, {.number = values[0]}}
+                                 : (Cell){CELL_TEXT, {.text = text.bytes}});
+}
+
+PetriStatus motion_add_quantity(PetriSession *session, MotionQuantity quantity, Text *cells) {
     PetriSystem system;
     double energy = 0, angular[SPACE] = {0}, *momentum = NULL;
     uint32_t dimensions = 0;
@@ -169,8 +178,8 @@ PetriStatus motion_add_quantity(PetriSession *session, MotionQuantity quantity, 
         values = angular + (dimensions == 2 ? 2 : 0);
         count = dimensions == 2 ? 1 : dimensions == SPACE ? SPACE : 0;
     }
-    for (uint32_t k = 0; status == PETRI_OK && k < count; k++)
-        text_add_format(out, "%s%.17g", k == 0 ? "" : ";", values[k]);
+    if (status == PETRI_OK)
+        add_cell(cells, values, count);
     free(momentum);
     return status;
 }

@@ -37,6 +37,6 @@ typedef enum MotionQuantity {
 extern const char *const motion_quantity_names[MOTION_QUANTITIES];
 // Returns the quantity with a name, or MOTION_QUANTITIES if there is none.
 MotionQuantity motion_quantity(const char *name);
-// Appends the present value of a quantity, with 17 digits and elements separated by ';'. Returns the status of
-// petri_potential_energy, or PETRI_OK.
-PetriStatus motion_add_quantity(PetriSession *session, MotionQuantity quantity, Text *out);
+// Appends the present value of a quantity as a cell (cli/cells.h): nothing, a number, or the elements of a vector with
+// 17 digits, separated by ';'. Returns the status of petri_potential_energy, or PETRI_OK.
+PetriStatus motion_add_quantity(PetriSession *session, MotionQuantity quantity, Text *cells);

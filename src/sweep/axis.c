@@ -2,8 +2,10 @@
 #include "petri-edit.h"
 #include "sweep/sweep.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_VALUES = 1000000 };
@@ -40,6 +42,27 @@ static bool read_range(const char *item, Range *range) {
            (!bar || (read_number(bar + 1, strlen(bar + 1), &range->step) && range->step > 0));
 }
 
+// Returns the value as a cell of the lowest kind that it has, but at least `min`. Numbers are what the language reads
+// as numbers. Integers have only digits and a sign and fit int64_t; -0 is not an integer.
+static Cell read_value(const char *value, CellKind min) {
+    Cell cell = {CELL_INTEGER, {.integer = 0}};
+    char *end = NULL;
+    errno = 0;
+    cell.as.integer = strtoll(value, &end, 10);
+    bool negative_zero = cell.as.integer == 0 && value[0] == '-';
+    if (min <= CELL_INTEGER && end != value && *end == '\0' && errno == 0 && !negative_zero)
+        return cell;
+    cell.kind = CELL_NUMBER;
+    if (min <= CELL_NUMBER && petri_parse_number(value, &cell.as.number))
+        return cell;
+    return (Cell){CELL_TEXT, {.text = value}};
+}
+
+static void add_value(Axis *axis, const char *value) {
+    axis->kind = read_value(value, axis->kind).kind;
+    texts_add(&axis->values, value);
+}
+
 // Adds the values of a range, rounded to twelve digits, so that 0..1|0.1 contains 0.3, not 0.30000000000000004.
 static bool add_range(Axis *axis, const Range *range) {
     double step = range->step > 0 ? range->step : 1;
@@ -54,7 +77,7 @@ static bool add_range(Axis *axis, const Range *range) {
     for (int i = 0; i < (int)count; i++) {
         char value[32];
         snprintf(value, sizeof value, "%.12g", range->min + i * step);
-        texts_add(&axis->values, value);
+        add_value(axis, value);
     }
     return true;
 }
@@ -68,7 +91,7 @@ static bool add_item(Axis *axis, const char *item, bool alone) {
     }
     if (item[0] == '(' && item[length - 1] == ')') {
         SCOPED_STRING inner = memory_strndup(item + 1, length - 2);
-        texts_add(&axis->values, inner);
+        add_value(axis, inner);
         return true;
     }
     const char *dots = strstr(item, "..");
@@ -85,7 +108,7 @@ static bool add_item(Axis *axis, const char *item, bool alone) {
                     minus + 1);
             return false;
         }
-        texts_add(&axis->values, item);
+        add_value(axis, item);
         return true;
     }
     axis->continuous = alone && range.step == 0 && range.max > range.min;
@@ -108,6 +131,10 @@ bool axis_read(Axis *axis, const char *text) {
             return true;
         list += length + 1;
     }
+}
+
+Cell axis_cell(const Axis *axis, const char *value) {
+    return read_value(value, axis->kind);
 }
 
 static void add_element(Text *out, const char *element) {

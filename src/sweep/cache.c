@@ -4,6 +4,8 @@
 #include "base/file.h"
 #include "base/replace.h"
 #include "base/source.h"
+#include "cli/state_text.h"
+#include "sweep/table.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -35,7 +37,7 @@ static void add_text(Sha256 *hash, const char *text) {
 
 void cache_key(const Sweep *sweep, size_t run, char key[SHA256_DIGITS + 1]) {
     Sha256 hash = sha256_new();
-    add_text(&hash, "petri sweep result 1");
+    add_text(&hash, "petri sweep result 2");
     add_text(&hash, sweep->settings);
     for (size_t i = 0; i < sweep->design.axis_count; i++)
         add_text(&hash, design_value(&sweep->design, run, i));
@@ -60,7 +62,7 @@ static int open_folder(const Sweep *sweep, const char *key, bool create) {
 }
 
 static void add_head(const char *key, Text *text) {
-    text_add_format(text, "petri sweep result 1\nkey %s\n", key);
+    text_add_format(text, "petri sweep result 2\nkey %s\n", key);
 }
 
 // Removes the checksum at the end of an entry. Returns false if it is not that of the text before it.
@@ -83,7 +85,7 @@ static void add_checksum(Text *text) {
 }
 
 // Reads the lines of an entry after its files. Returns false if they are not valid.
-static bool read_result(const Text *text, size_t at, CacheEntry *entry) {
+static bool read_result(const Sweep *sweep, const Text *text, size_t at, CacheEntry *entry) {
     size_t length = 0;
     int used = -1;
     text->bytes[text->len] = '\0';
@@ -92,10 +94,10 @@ static bool read_result(const Text *text, size_t at, CacheEntry *entry) {
         used < 0 || text->bytes[at + (size_t)used] != '\n' || strlen(entry->digest) != CACHE_DIGEST_DIGITS)
         return false;
     at += (size_t)used + 1;
-    if (text->len - at != length || strlen(text->bytes + at) != length)
+    Str rows = {text->bytes + at, length};
+    if (length != text->len - at - 1 || text->bytes[text->len - 1] != '\n' || !rows_are_valid(sweep, rows))
         return false;
-    text_add(&entry->rows, (Str){text->bytes + at, length});
-    text_add_c(&entry->rows, "");
+    text_add(&entry->rows, rows);
     return true;
 }
 
@@ -111,7 +113,7 @@ static CacheAnswer read_entry(const Sweep *sweep, const char *key, KnownHashes *
     for (; text_next_line(text, &next, &line) && str_starts_with(line, STR("file ")); at = next)
         if (!read_file_is_unchanged(known, folder, line))
             return CACHE_MISSING;
-    return read_result(text, at, entry) ? CACHE_FOUND : CACHE_DAMAGED;
+    return read_result(sweep, text, at, entry) ? CACHE_FOUND : CACHE_DAMAGED;
 }
 
 CacheAnswer cache_find(const Sweep *sweep, const char *key, KnownHashes *known, CacheEntry *entry) {
@@ -150,7 +152,8 @@ const char *cache_store(const Sweep *sweep, const char *key, const ReadFiles *fi
     if (files->changed || !read_files_write(files, &text))
         return NULL;
     text_add_format(&text, "frames %" PRId64 "\ndigest %s\nrows %zu\n", entry->frames, entry->digest, entry->rows.len);
-    text_add(&text, (Str){entry->rows.bytes, entry->rows.len});
+    text_add(&text, text_str(&entry->rows));
+    text_add_char(&text, '\n');
     add_checksum(&text);
     if (text.len > MAX_ENTRY_BYTES)
         return "a result has more than 256 MiB";
@@ -168,4 +171,49 @@ bool cache_should_verify(const Sweep *sweep, const char *key) {
     uint32_t number = 0;
     sscanf(key, "%8" SCNx32, &number);
     return number < sweep->options->verify_cache / 100 * 0x1p32;
+}
+
+// Appends the first metric that differs in two rows, of which the frames were read. Returns false if none differs.
+static bool add_metric(const Sweep *sweep, int64_t frame, Str rows[2], Text *report) {
+    static const char *const no_positions[2];
+    for (size_t i = 0; i <= sweep->metric_count; i++) {
+        Cell cells[2];
+        bool read = cell_next(&rows[0], &cells[0]) && cell_next(&rows[1], &cells[1]);
+        if (!read || i == sweep->metric_count || cell_equal(&cells[0], &cells[1]))
+            continue;
+        SCOPED_TEXT stored = {0}, computed = {0};
+        row_add_text(sweep, i, cells[0], &stored);
+        row_add_text(sweep, i, cells[1], &computed);
+        text_add_format(report, "frame %" PRId64 ": metric %s\n", frame, sweep->metrics[i].name);
+        state_add_values(report, (Str[]){text_str(&stored), text_str(&computed)}, no_positions);
+        return true;
+    }
+    return false;
+}
+
+// Appends the first row that differs.
+static void add_row(const Sweep *sweep, const CacheEntry *stored, const CacheEntry *computed, Text *report) {
+    Str rows[2] = {text_str(&stored->rows), text_str(&computed->rows)};
+    Cell frames[2];
+    while (cell_next(&rows[0], &frames[0]) && cell_next(&rows[1], &frames[1]) && cell_equal(&frames[0], &frames[1]))
+        if (add_metric(sweep, frames[0].as.integer, rows, report))
+            return;
+    if (stored->frames != computed->frames)
+        text_add_format(report, "the run has %" PRId64 " frames, not %" PRId64 "\n", computed->frames, stored->frames);
+    else
+        text_add_format(report, "the metrics are the same, but the state after frame %" PRId64 " differs\n",
+                        stored->frames - 1);
+}
+
+void cache_compare(const Sweep *sweep, size_t run, const CacheEntry *stored, const CacheEntry *computed, Text *report) {
+    bool same = stored->frames == computed->frames && strcmp(stored->digest, computed->digest) == 0 &&
+                str_equal(text_str(&stored->rows), text_str(&computed->rows));
+    if (same)
+        return;
+    text_add_format(report, "petri: run %zu differs from its result in the cache\n--- cache\n+++ computed\n", run + 1);
+    add_row(sweep, stored, computed, report);
+    text_add_c(report, "  to find the first force that differs, run: ");
+    int64_t frames = stored->frames > computed->frames ? stored->frames : computed->frames;
+    table_diff_command(sweep, run, frames, report);
+    text_add_c(report, " --with PROGRAM, where PROGRAM is the petri that filled the cache\n");
 }

@@ -7,14 +7,14 @@
 // and machines can share a folder. Failed runs are not stored. Symbolic links below the folder are not followed, and
 // entries are bounded, because a folder can be from someone else.
 //
-// An entry is a text with these lines:
+// An entry has these lines:
 //
-//     petri sweep result 1
+//     petri sweep result 2
 //     key KEY
 //     file HASH NAME             for each file
 //     frames N
 //     digest DIGEST              of the state after the last frame (spec digest.md)
-//     rows LENGTH                then the rows (Result.rows), which have LENGTH bytes
+//     rows LENGTH                then the rows (Result.rows), which have LENGTH bytes, and a line feed
 //     sha256 HASH                of everything before this line
 #pragma once
 

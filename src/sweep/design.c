@@ -114,20 +114,15 @@ static bool read_sample(const char *text, Sample *sample) {
     return true;
 }
 
-typedef struct Random {
-    uint64_t key;
-    uint64_t count;
-} Random;
-
-static uint64_t next_random(Random *random) {
-    return hash_mix(random->key + ++random->count * UINT64_C(0x9e3779b97f4a7c15));
+static uint64_t next_random(uint64_t *random) {
+    return hash_mix(*random += UINT64_C(0x9e3779b97f4a7c15));
 }
 
 // Samples an axis of a Latin hypercube. The axis is divided into `count` equal intervals; each sample is at a random
 // position in a different interval.
 static void sample_axis(Design *design, size_t number, const Sample *sample, size_t seeds) {
     Axis *axis = &design->axes[number];
-    Random random = {.key = hash_bytes(sample->seed, axis->name, strlen(axis->name))};
+    uint64_t random = hash_bytes(sample->seed, axis->name, strlen(axis->name));
     uint32_t *slices = memory_calloc(sample->count * sizeof *slices);
     for (uint32_t i = 0; i < sample->count; i++) {
         uint32_t other = (uint32_t)(next_random(&random) % (i + 1));
@@ -135,8 +130,10 @@ static void sample_axis(Design *design, size_t number, const Sample *sample, siz
         slices[other] = i;
     }
     size_t listed = axis->values.count;
-    if (axis->continuous)
+    if (axis->continuous) {
         texts_free(&axis->values);
+        axis->kind = CELL_NUMBER;
+    }
     for (size_t i = 0; i < sample->count; i++) {
         double within = (double)(next_random(&random) >> 11) * 0x1p-53;
         double part = (slices[i] + within) / (double)sample->count;

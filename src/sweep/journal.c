@@ -17,11 +17,11 @@
 #include <unistd.h>
 
 static void add_head(const Sweep *sweep, Text *text) {
-    text_add_format(text, "petri sweep 1 %s\n", sweep->identity);
+    text_add_format(text, "petri sweep 2 %s\n", sweep->identity);
 }
 
-static uint64_t checksum(size_t run, int64_t frames, const char *rows, size_t length) {
-    return hash_bytes((uint64_t)run * 31 + (uint64_t)frames, rows, length);
+static uint64_t checksum(size_t run, int64_t frames, Str rows) {
+    return hash_bytes((uint64_t)run * 31 + (uint64_t)frames, rows.bytes, rows.len);
 }
 
 // A journal that is read in pieces, because another file beside the table can be endless.
@@ -70,11 +70,13 @@ static bool read_run(Sweep *sweep, JournalReader *in) {
     memcpy(line, in->text.bytes + in->at, used);
     line[used] = '\0';
     if (!end || sscanf(line, "run %zu %" SCNd64 " %zu %" SCNx64 "\n", &run, &frames, &length, &sum) != 4 ||
-        run >= sweep->design.run_count || length > MAX_ROWS || !fill(in, used + length) ||
-        checksum(run, frames, in->text.bytes + in->at + used, length) != sum)
+        run >= sweep->design.run_count || length > MAX_ROWS || !fill(in, used + length + 1))
         return false;
-    sweep_store_result(sweep, run, frames, in->text.bytes + in->at + used, length);
-    in->at += used + length;
+    Str rows = {in->text.bytes + in->at + used, length};
+    if (rows.bytes[length] != '\n' || checksum(run, frames, rows) != sum || !rows_are_valid(sweep, rows))
+        return false;
+    sweep_store_result(sweep, run, frames, rows);
+    in->at += used + length + 1;
     return true;
 }
 
@@ -113,7 +115,8 @@ static int resume_journal(Journal *journal, Sweep *sweep) {
         return STATUS_FAILED;
     }
     if (kind == JOURNAL_OTHER) {
-        message("%s belongs to another sweep: script, values or options have changed; to start over, remove that file",
+        message("%s belongs to another sweep: script, values, options or petri's version have changed; to start over, "
+                "remove that file",
                 journal->path);
         return STATUS_USAGE;
     }
@@ -159,10 +162,10 @@ bool journal_add(Journal *journal, size_t run, const Result *result) {
     if (!journal->path)
         return true;
     SCOPED_TEXT text = {0};
-    size_t length = strlen(result->rows);
-    text_add_format(&text, "run %zu %" PRId64 " %zu %016" PRIx64 "\n", run, result->frames, length,
-                    checksum(run, result->frames, result->rows, length));
-    text_add(&text, (Str){result->rows, length});
+    text_add_format(&text, "run %zu %" PRId64 " %zu %016" PRIx64 "\n", run, result->frames, result->rows.len,
+                    checksum(run, result->frames, result->rows));
+    text_add(&text, result->rows);
+    text_add_char(&text, '\n');
     if (!file_write(journal->file, text.bytes, text.len)) {
         message("cannot write %s: %s", journal->path, strerror(errno));
         return false;
@@ -170,35 +173,24 @@ bool journal_add(Journal *journal, size_t run, const Result *result) {
     return true;
 }
 
-typedef void Visit(Sweep *sweep, const char *path, JournalReader *in);
-
-static void read_journal(Sweep *sweep, const char *path, JournalReader *in) {
-    (void)path;
-    while (read_run(sweep, in)) {
-    }
-}
-
-static void remove_journal(Sweep *sweep, const char *path, JournalReader *in) {
-    (void)sweep;
-    (void)in;
-    unlink(path);
-}
-
-// Calls `call` if a file is a journal of this sweep. Other files are not read beyond their first bytes.
-static void visit_journal(Sweep *sweep, const char *path, Visit *call) {
+// Reads or removes a file if it is a journal of this sweep. Other files are not read beyond their first bytes.
+static void visit_journal(Sweep *sweep, const char *path, bool remove) {
     struct stat info;
     JournalReader in = {.file = file_open_at(AT_FDCWD, path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK, 0)};
     if (in.file < 0)
         return;
-    if (fstat(in.file, &info) == 0 && S_ISREG(info.st_mode) && read_head(sweep, &in) == JOURNAL_OURS)
-        call(sweep, path, &in);
+    bool ours = fstat(in.file, &info) == 0 && S_ISREG(info.st_mode) && read_head(sweep, &in) == JOURNAL_OURS;
+    if (ours && remove)
+        unlink(path);
+    while (ours && !remove && read_run(sweep, &in)) {
+    }
     text_free(&in.text);
     close(in.file);
 }
 
-// Calls `call` for the journals of other shards. Skips this shard's journal, because this process holds a lock on it,
-// and closing any descriptor of the file would release the lock.
-static void visit_journals(const Journal *journal, Sweep *sweep, Visit *call) {
+// Visits the journals of other shards. Skips this shard's journal, because this process holds a lock on it, and closing
+// any descriptor of the file would release the lock.
+static void visit_journals(const Journal *journal, Sweep *sweep, bool remove) {
     SCOPED_TEXT prefix = {0};
     SCOPED_STRING folder = memory_folder(journal->output);
     size_t name = path_directory(str_from(journal->output)).len;
@@ -208,18 +200,18 @@ static void visit_journals(const Journal *journal, Sweep *sweep, Visit *call) {
         SCOPED_TEXT path = {0};
         text_add_format(&path, "%.*s%s", (int)name, journal->output, entry->d_name);
         if (strncmp(entry->d_name, prefix.bytes, prefix.len) == 0 && strcmp(path.bytes, journal->path) != 0)
-            visit_journal(sweep, path.bytes, call);
+            visit_journal(sweep, path.bytes, remove);
     }
     if (entries)
         closedir(entries);
 }
 
 void journal_merge(const Journal *journal, Sweep *sweep) {
-    visit_journals(journal, sweep, read_journal);
+    visit_journals(journal, sweep, false);
 }
 
 void journal_remove(const Journal *journal, Sweep *sweep) {
-    visit_journals(journal, sweep, remove_journal);
+    visit_journals(journal, sweep, true);
     unlink(journal->path);
 }
 

@@ -6,9 +6,9 @@
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "petri-inspect.h"
-#include "sweep/cache.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -86,7 +86,7 @@ void measure_close(Measure *measure) {
     petri_config_free(measure->base);
     petri_close(&measure->session);
     petri_archive_close(&measure->archive);
-    text_free(&measure->rows);
+    cache_entry_free(&measure->result);
     text_free(&measure->error);
     read_files_free(&measure->files);
     known_hashes_free(&measure->known);
@@ -114,39 +114,40 @@ static PetriStatus begin_run(Measure *measure, size_t run) {
     return measure->false_definition ? PETRI_INVALID : status;
 }
 
-// Appends a cell. Replaces control characters, because tabs and line feeds separate cells and rows.
-static void add_cell(Text *rows, const char *text, size_t length) {
-    size_t at = rows->len;
-    text_add(rows, (Str){text, length});
-    for (; at < rows->len; at++)
-        rows->bytes[at] = (unsigned char)rows->bytes[at] < ' ' ? ' ' : rows->bytes[at];
+// Appends the value of an expression as a cell.
+static PetriStatus add_value(Measure *measure, const char *expression) {
+    SCOPED_TEXT value = {0};
+    PetriEvaluation result = {0};
+    PetriStatus status = petri_evaluate(measure->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result,
+                                        text_collect, &value);
+    if (status != PETRI_OK)
+        return status;
+    bool number = result.length == 1 && (isnan(result.number) ? strcmp(value.bytes, "nan") == 0
+                                                              : !petri_symbol_name(measure->session, result.number));
+    cell_add(&measure->result.rows, number              ? (Cell){CELL_NUMBER, {.number = result.number}}
+                                    : result.length > 0 ? (Cell){CELL_TEXT, {.text = value.bytes}}
+                                                        : (Cell){CELL_NONE});
+    return PETRI_OK;
 }
 
 static PetriStatus add_metric(Measure *measure, const Metric *metric) {
-    SCOPED_TEXT value = {0};
-    PetriEvaluation result = {0};
-    text_add_format(&measure->rows, "\t");
-    if (!metric->expression)
-        return motion_add_quantity(measure->session, metric->quantity, &measure->rows);
-    PetriStatus status = petri_evaluate(measure->session, metric->expression, PETRI_NUL_TERMINATED, &result,
-                                        sizeof result, text_collect, &value);
-    if (status == PETRI_OK && result.length > 0)
-        add_cell(&measure->rows, value.bytes, value.len);
-    return status;
+    return metric->expression ? add_value(measure, metric->expression)
+                              : motion_add_quantity(measure->session, metric->quantity, &measure->result.rows);
 }
 
-static void add_frame_number(Measure *measure) {
-    text_add_format(&measure->rows, "%" PRId64, measure->frames > 0 ? measure->frames - 1 : 0);
+// Returns the number of the last frame, or 0 if there is none.
+static int64_t frame_number(const Measure *measure) {
+    return measure->result.frames > 0 ? measure->result.frames - 1 : 0;
 }
 
 static PetriStatus add_row(Measure *measure) {
-    size_t before = measure->rows.len;
+    size_t before = measure->result.rows.len;
     PetriStatus status = PETRI_OK;
-    add_frame_number(measure);
+    cell_add(&measure->result.rows, (Cell){CELL_INTEGER, {.integer = frame_number(measure)}});
     for (size_t i = 0; status == PETRI_OK && i < measure->sweep->metric_count; i++)
         status = add_metric(measure, &measure->sweep->metrics[i]);
-    text_add_format(&measure->rows, "\t\n");
-    measure->rows.len = status == PETRI_OK ? measure->rows.len : before;
+    cell_add(&measure->result.rows, (Cell){CELL_NONE}); // no error
+    measure->result.rows.len = status == PETRI_OK ? measure->result.rows.len : before;
     return status;
 }
 
@@ -154,11 +155,7 @@ static void add_failure(Measure *measure, PetriStatus status) {
     const char *reason = measure->error.len > 0          ? measure->error.bytes
                          : status == PETRI_OUT_OF_MEMORY ? "out of memory"
                                                          : "aborted";
-    add_frame_number(measure);
-    for (size_t i = 0; i <= measure->sweep->metric_count; i++)
-        text_add_format(&measure->rows, "\t");
-    add_cell(&measure->rows, reason, strlen(reason));
-    text_add_format(&measure->rows, "\n");
+    row_add_failure(measure->sweep, frame_number(measure), reason, &measure->result.rows);
 }
 
 static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
@@ -167,27 +164,26 @@ static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
     PetriStatus status = petri_step(measure->session);
     if (status != PETRI_OK || measure->diverged)
         return status != PETRI_OK ? status : PETRI_INVALID;
-    *measured = options->row_every > 0 && measure->frames % options->row_every == 0;
-    measure->frames++;
+    *measured = options->row_every > 0 && measure->result.frames % options->row_every == 0;
+    measure->result.frames++;
     if (options->until)
         status =
             petri_evaluate(measure->session, options->until, PETRI_NUL_TERMINATED, &until, sizeof until, NULL, NULL);
-    *ends = until.is_true || measure->frames == options->frames;
+    *ends = until.is_true || measure->result.frames == options->frames;
     *measured = *measured || *ends;
     return status == PETRI_OK && *measured ? add_row(measure) : status;
 }
 
 // Executes a run. Returns false if it failed.
 static bool execute_run(Measure *measure, size_t run) {
-    text_free(&measure->rows);
-    measure->frames = 0;
+    measure->result.frames = 0;
+    measure->result.rows.len = 0;
     PetriStatus status = begin_run(measure, run);
     bool ends = measure->sweep->options->frames == 0, measured = false;
     while (status == PETRI_OK && !ends)
         status = step_frame(measure, &ends, &measured);
     if (status != PETRI_OK)
         add_failure(measure, status);
-    text_add_c(&measure->rows, "");
     return status == PETRI_OK;
 }
 
@@ -195,40 +191,35 @@ static void report_warning(Measure *measure, const char *rendered) {
     measure->on_diagnostic(measure->context, PETRI_WARNING, rendered);
 }
 
-// Moves the result of the run that was just executed to *entry. Returns false if its digest cannot be computed.
-static bool take_entry(Measure *measure, CacheEntry *entry) {
+// Sets the digest of the result. Returns false if it cannot be computed.
+static bool compute_digest(Measure *measure) {
     uint8_t digest[CACHE_DIGEST_DIGITS / 2];
-    *entry = (CacheEntry){.frames = measure->frames};
     if (petri_digest(measure->session, digest) != PETRI_OK)
         return false;
     for (size_t i = 0; i < sizeof digest; i++)
-        snprintf(entry->digest + 2 * i, 3, "%02x", digest[i]);
-    text_add(&entry->rows, text_str(&measure->rows));
-    text_add_c(&entry->rows, "");
+        snprintf(measure->result.digest + 2 * i, 3, "%02x", digest[i]);
     return true;
 }
 
 // Executes a run and stores its result, unless it fails. `stored` is the result to verify; NULL: none.
 static void execute_and_store(Measure *measure, size_t run, const char *key, const CacheEntry *stored) {
     const Sweep *sweep = measure->sweep;
-    CacheEntry entry = {0};
     SCOPED_TEXT report = {0};
     measure->files.changed = false;
     if (!execute_run(measure, run)) {
         measure->origin = stored ? RESULT_DIFFERS : RESULT_COMPUTED;
         if (stored)
             text_add_format(&report, "petri: run %zu failed, but has a result in the cache\n", run + 1);
-    } else if (take_entry(measure, &entry)) {
+    } else if (compute_digest(measure)) {
         if (stored)
-            cache_compare(sweep, run, stored, &entry, &report);
+            cache_compare(sweep, run, stored, &measure->result, &report);
         measure->origin = !stored ? RESULT_COMPUTED : report.len > 0 ? RESULT_DIFFERS : RESULT_VERIFIED;
-        const char *problem = stored ? NULL : cache_store(sweep, key, &measure->files, &entry);
+        const char *problem = stored ? NULL : cache_store(sweep, key, &measure->files, &measure->result);
         if (problem)
             text_add_format(&report, "petri: cannot write to the cache '%s': %s\n", sweep->options->cache, problem);
     }
     if (report.len > 0)
         report_warning(measure, report.bytes);
-    cache_entry_free(&entry);
 }
 
 void measure_run(Measure *measure, size_t run) {
@@ -245,14 +236,12 @@ void measure_run(Measure *measure, size_t run) {
     if (answer == CACHE_DAMAGED)
         report_warning(measure, "petri: the cache has a damaged result, which is computed again\n");
     if (answer == CACHE_FOUND && !cache_should_verify(sweep, key)) {
-        text_free(&measure->rows);
-        text_add(&measure->rows, text_str(&stored.rows));
-        text_add_c(&measure->rows, "");
-        measure->frames = stored.frames;
+        cache_entry_free(&measure->result);
+        measure->result = stored;
         measure->origin = RESULT_CACHED;
-    } else {
-        execute_and_store(measure, run, key, answer == CACHE_FOUND ? &stored : NULL);
+        return;
     }
+    execute_and_store(measure, run, key, answer == CACHE_FOUND ? &stored : NULL);
     cache_entry_free(&stored);
 }
 

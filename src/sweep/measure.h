@@ -6,8 +6,7 @@
 #pragma once
 
 #include "petri-edit.h"
-#include "sweep/read_files.h"
-#include "sweep/sweep.h"
+#include "sweep/cache.h"
 
 typedef struct Measure {
     const Sweep *sweep;
@@ -19,8 +18,7 @@ typedef struct Measure {
     bool invalid_definition;      // true if the script rejected a value
     bool diverged;                // true if the motion of a system became meaningless in the run
     bool false_definition;        // true if a definition of the run has no effect, because its value is false
-    int64_t frames;               // number of frames of the last run
-    Text rows;                    // measurements of the last run, in the format of Result.rows
+    CacheEntry result;            // of the last run; the digest is set if there is a cache
     ResultOrigin origin;          // of the last run
     ReadFiles files;              // read by the session so far; used if there is a cache
     KnownHashes known;            // of files that earlier runs have read
@@ -33,7 +31,7 @@ typedef struct Measure {
 bool measure_open(Measure *measure, const Sweep *sweep,
                   void (*report)(void *context, PetriLevel level, const char *rendered), void *context);
 void measure_close(Measure *measure);
-// Executes a run. Sets `frames` and `rows`.
+// Executes a run. Sets `result` and `origin`.
 void measure_run(Measure *measure, size_t run);
 // Computes the first frame of the first run, to find errors in the script, its parameters and the expressions early.
 // Returns STATUS_DONE, or the exit status after a message.

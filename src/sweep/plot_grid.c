@@ -22,6 +22,7 @@ typedef struct Scale {
 } Scale;
 
 typedef struct Plot {
+    Text bytes; // of the points
     Point *points;
     size_t count;
     Scale x;
@@ -41,14 +42,10 @@ static void pad_scale(Scale *scale) {
     scale->max += margin;
 }
 
-// Returns the value with this index as a number. If some values of the axis are not numbers, returns `index` itself.
+// Returns the value with this index as a number. If the values of the axis are texts, returns `index` itself.
 static double axis_number(const Axis *axis, uint32_t index) {
-    double x = 0;
-    for (size_t i = 0; i < axis->values.count; i++)
-        if (!petri_parse_number(axis->values.items[i], &x))
-            return index;
-    petri_parse_number(axis->values.items[index], &x);
-    return x;
+    Cell cell = axis_cell(axis, axis->values.items[index]);
+    return cell.kind == CELL_INTEGER ? (double)cell.as.integer : cell.kind == CELL_NUMBER ? cell.as.number : index;
 }
 
 // Collects the points of a plot of a metric. If the x axis is the frame, uses all rows. Otherwise uses one row
@@ -56,25 +53,22 @@ static double axis_number(const Axis *axis, uint32_t index) {
 static Plot collect_points(const Sweep *sweep, size_t axis, size_t metric) {
     const Design *design = &sweep->design;
     Plot plot = {.x = {INFINITY, -INFINITY}, .y = {INFINITY, -INFINITY}};
-    size_t capacity = 0;
     for (size_t run = 0; run < design->run_count; run++) {
         Row row;
-        size_t first = plot.count;
+        size_t first = plot.bytes.len;
         double x = axis == FRAMES
                        ? 0
                        : axis_number(&design->axes[axis], design->value_indices[run * design->axis_count + axis]);
-        for (const char *at = sweep->results[run].rows; row_next(&at, &row);) {
-            double y = row_number(sweep, &row, metric);
-            if (isnan(y))
+        for (Str rows = sweep->results[run].rows; row_next(sweep, &rows, metric, &row);) {
+            if (isnan(row.x))
                 continue;
-            plot.count = axis == FRAMES ? plot.count : first;
-            if (plot.count == capacity) {
-                capacity = 2 * capacity + 64;
-                plot.points = memory_realloc(plot.points, capacity * sizeof *plot.points);
-            }
-            plot.points[plot.count++] = (Point){axis == FRAMES ? (double)row.frame : x, y};
+            Point point = {axis == FRAMES ? (double)row.frame : x, row.x};
+            plot.bytes.len = axis == FRAMES ? plot.bytes.len : first;
+            text_add(&plot.bytes, (Str){(const char *)&point, sizeof point});
         }
     }
+    plot.points = (void *)plot.bytes.bytes;
+    plot.count = plot.bytes.len / sizeof *plot.points;
     for (size_t i = 0; i < plot.count; i++) {
         extend_scale(&plot.x, plot.points[i].x);
         extend_scale(&plot.y, plot.points[i].y);
@@ -194,7 +188,7 @@ static void write_script(const Sweep *sweep, Text *out) {
                         LEFT + column * (WIDTH + GAP_X), TOP + row * (HEIGHT + GAP_Y));
         Plot plot = collect_points(sweep, columns[column], row);
         add_plot(out, &plot);
-        free(plot.points);
+        text_free(&plot.bytes);
         add_text(out, columns[column] == FRAMES ? "frame" : sweep->design.axes[columns[column]].name, WIDTH / 2.0,
                  HEIGHT + 28, 0);
         add_text(out, row_number_name(sweep, row), -60, HEIGHT / 2.0, -0.25);

@@ -2,14 +2,17 @@
 #include "sweep/sweep.h"
 
 #include "base/clock.h"
+#include "cli/hdf5.h"
 #include "cli/mpi_channel.h"
+#include "cli/output.h"
 #include "cli/subprocess.h"
 #include "cli/words.h"
 #include "petri.h"
 #include "sweep/cache.h"
 #include "sweep/measure.h"
 #include "sweep/plots.h"
-#include "sweep/worker_pool.h"
+#include "sweep/table.h"
+#include "sweep/workers.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,7 +72,7 @@ static int dry_run(Sweep *sweep) {
 static size_t count_done(const Sweep *sweep, bool ours) {
     size_t count = 0;
     for (size_t run = 0; run < sweep->design.run_count; run++)
-        count += sweep->results[run].rows && (!ours || sweep_owns_run(sweep, run));
+        count += sweep->results[run].rows.bytes && (!ours || sweep_owns_run(sweep, run));
     return count;
 }
 
@@ -82,7 +85,7 @@ static void print_cache_report(const Sweep *sweep) {
                 sweep->origins[RESULT_CACHED], verified + differs);
 }
 
-static void print_report(const Sweep *sweep, double seconds, size_t made) {
+static void print_report(const Sweep *sweep, double seconds, size_t executed) {
     size_t failed = 0, runs = sweep->design.run_count;
     for (size_t run = 0; run < runs; run++)
         failed += sweep_is_failed(&sweep->results[run]);
@@ -90,12 +93,46 @@ static void print_report(const Sweep *sweep, double seconds, size_t made) {
         message("%zu of %zu runs failed; see the column 'error'", failed, runs);
     if (sweep->options->verbosity > LOG_QUIET && sweep->options->output) {
         message("%zu run%s in %s, %zu of them done now in %.1f s (%.1f runs/s)", runs, runs == 1 ? "" : "s",
-                sweep->options->output, made, seconds, seconds > 0 ? (double)made / seconds : 0);
+                sweep->options->output, executed, seconds, seconds > 0 ? (double)executed / seconds : 0);
     }
 }
 
+// Checks early that petri-hdf5 can write the table. Nothing is written, because petri-hdf5 discards a table without
+// data. Returns false after a message.
+static bool can_write(const Sweep *sweep) {
+    const char *output = sweep->options->output;
+    Hdf5 writer;
+    return !output || !hdf5_has_suffix(output) ||
+           (hdf5_start(&writer, "table", output, NULL, NULL) && hdf5_end(&writer));
+}
+
+static bool write_table(const Sweep *sweep) {
+    SCOPED_TEXT table = {0}, commands = {0}, path = {0};
+    const char *output = sweep->options->output;
+    bool csv = !output || !hdf5_has_suffix(output);
+    table_make(sweep, csv, &table);
+    if (!output)
+        return output_text(table.bytes, table.len, STATUS_DONE) == STATUS_DONE;
+    table_commands(sweep, &commands);
+    text_add_format(&path, "%s.runs", output);
+    return output_file(path.bytes, text_str(&commands)) &&
+           (csv ? output_file(output, text_str(&table)) : hdf5_table(output, text_str(&table), worker_signal));
+}
+
+// Writes the summary, the plot and the table. Returns false after a message.
+static bool write_all(const Sweep *sweep) {
+    SCOPED_TEXT summary = {0};
+    bool good = true;
+    if (sweep->options->summary) {
+        summary_make(sweep, &summary);
+        good = output_file(sweep->options->summary, text_str(&summary));
+    }
+    good = (!sweep->options->plot || plot_grid_draw(sweep, sweep->options->plot)) && good;
+    return write_table(sweep) && good;
+}
+
 // Writes the table if all runs of all shards are done. The shard that finishes last therefore writes the table.
-static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t made) {
+static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t executed) {
     size_t done = count_done(sweep, false);
     if (done < sweep->design.run_count && journal->path) {
         journal_merge(journal, sweep);
@@ -106,11 +143,11 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t mad
                 sweep->options->output);
         return STATUS_DONE;
     }
-    if (!sweep_write_all(sweep))
-        return worker_pool_signal() != 0 ? STATUS_SIGNAL + worker_pool_signal() : STATUS_FAILED;
+    if (!write_all(sweep))
+        return worker_signal() != 0 ? STATUS_SIGNAL + worker_signal() : STATUS_FAILED;
     if (journal->path)
         journal_remove(journal, sweep);
-    print_report(sweep, clock_seconds() - start, made);
+    print_report(sweep, clock_seconds() - start, executed);
     print_cache_report(sweep);
     return sweep->origins[RESULT_DIFFERS] > 0 ? STATUS_FAILED : STATUS_DONE;
 }
@@ -141,13 +178,11 @@ static int run_sweep(Sweep *sweep) {
     int status = cache_open(sweep) ? dry_run(sweep) : STATUS_FAILED;
     if (status != STATUS_DONE)
         return status;
-    if (worker_pool_is_remote(sweep)) {
-        sweep->results = memory_calloc(sweep->design.run_count * sizeof *sweep->results);
-        return worker_pool_run(sweep, &journal, jobs_of(sweep));
-    }
-    if (!sweep_can_write(sweep))
-        return STATUS_FAILED;
     sweep->results = memory_calloc(sweep->design.run_count * sizeof *sweep->results);
+    if (worker_pool_is_remote(sweep))
+        return worker_pool_run(sweep, &journal, jobs_of(sweep));
+    if (!can_write(sweep))
+        return STATUS_FAILED;
     if (sweep->options->output)
         status = journal_open(&journal, sweep, sweep->options->output);
     status = status == STATUS_DONE ? make_runs(sweep, &journal) : status;
@@ -159,7 +194,7 @@ static void free_sweep(Sweep *sweep) {
     for (size_t i = 0; i < sweep->metric_count; i++)
         free(sweep->metrics[i].name);
     for (size_t run = 0; sweep->results && run < sweep->design.run_count; run++)
-        free(sweep->results[run].rows);
+        free((char *)sweep->results[run].rows.bytes);
     free(sweep->metrics);
     free(sweep->results);
     text_free(&sweep->shared);

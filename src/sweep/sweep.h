@@ -1,8 +1,19 @@
-// sweep.h: internal declarations of `petri sweep`: the runs of a sweep and their results.
+// sweep.h: internal declarations of `petri sweep`: the runs of a sweep and their results. The files of the room, from
+// those that call to those that are called:
+//
+//   sweep.c                              the command, which writes the files at the end
+//   settings.c; plan.c, plot_grid.c      its options; plans and plots, which petri itself does not link (plots.h)
+//   worker_pool.c or worker_sequence.c   workers that execute runs; worker_result.c: the results that they send
+//   journal.c                            results of finished runs, to resume from
+//   measure.c                            execution of a run
+//   cache.c, read_files.c                results of earlier sweeps
+//   summary.c, table.c                   the table, commands and statistics
+//   result.c                             the cells of results
+//   design.c, axis.c                     runs and their values
 #pragma once
 
 #include "base/sha256.h"
-#include "cli/memory.h"
+#include "cli/cells.h"
 #include "cli/motion.h"
 #include "cli/options.h"
 
@@ -10,6 +21,7 @@
 typedef struct Axis {
     char *name;
     TextList values;
+    CellKind kind;   // of its column: integers, if all values are; numbers, if all are or are sampled; else texts
     bool continuous; // true for a range without a step: --sample chooses any number in the range
     double min;
     double max;
@@ -32,7 +44,7 @@ typedef struct Metric {
 
 // The result of a run.
 typedef struct Result {
-    char *rows;     // lines of tab-separated cells: frame, value of each metric, error; NULL: not done yet
+    Str rows;       // cells of each row: frame, value of each metric, error; rows.bytes is NULL: not done yet
     int64_t frames; // number of computed frames
     bool killed;    // true if the process of the run was killed by SIGKILL; the run is then repeated once
 } Result;
@@ -70,21 +82,35 @@ void design_free(Design *design);
 const char *design_value(const Design *design, size_t run, size_t axis);
 // Parses `NAME=VALUES`. Returns false after a message.
 bool axis_read(Axis *axis, const char *text);
+// Returns a value of the axis as a cell of the kind of the axis.
+Cell axis_cell(const Axis *axis, const char *value);
 // Appends a value as an expression of the language.
 void axis_add_literal(Text *out, const char *value);
 
 // Creates the design and reads the metrics and all other options of a sweep. Returns false after a message.
 bool sweep_read_options(Sweep *sweep, const Command *command);
-// Checks early that petri-hdf5 can write the table. Nothing is written, because petri-hdf5 discards a table without
-// data. Returns false after a message.
-bool sweep_can_write(const Sweep *sweep);
-// Writes the summary, the plot and the table. Returns false after a message.
-bool sweep_write_all(const Sweep *sweep);
 
 // Returns true if the run belongs to the shard of this process.
 bool sweep_owns_run(const Sweep *sweep, size_t run);
+// Returns true if it also has no result.
+bool sweep_wants_run(const Sweep *sweep, size_t run);
 // Stores the result of a run and copies `rows`. Does nothing if the run already has a result.
-void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, const char *rows, size_t length);
+void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, Str rows);
 bool sweep_is_failed(const Result *result);
 // Shows a diagnostic, unless it was shown before or --quiet hides it.
 void sweep_report(Sweep *sweep, PetriLevel level, const char *rendered);
+
+// A row of a result, and the value of one metric in it.
+typedef struct Row {
+    int64_t frame;
+    double x; // NaN if the row has an error or if the value is not one finite number
+} Row;
+// Removes the first row from *rows, which starts as Result.rows. Row.x is the value of a metric, or the frame if
+// `metric` is metric_count. Returns false after the last row.
+bool row_next(const Sweep *sweep, Str *rows, size_t metric, Row *row);
+// Appends a row for a run that failed.
+void row_add_failure(const Sweep *sweep, int64_t frame, const char *error, Text *rows);
+// Appends a cell of a metric, or another cell if `metric` is metric_count, as in CSV but without quotes.
+void row_add_text(const Sweep *sweep, size_t metric, Cell cell, Text *out);
+// Returns true if the bytes of a journal or a cache are rows of this sweep.
+bool rows_are_valid(const Sweep *sweep, Str rows);

@@ -1,4 +1,4 @@
-// table.c: the table of all runs, and the command lines that repeat them.
+// table.c: see table.h.
 #include "sweep/table.h"
 
 #include "cli/particles.h"
@@ -6,36 +6,6 @@
 #include "petri-archive.h"
 
 #include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-bool row_next(const char **at, Row *row) {
-    if (**at == '\0')
-        return false;
-    char *cells = NULL;
-    row->frame = strtoll(*at, &cells, 10);
-    size_t length = strcspn(cells, "\n");
-    row->cells = (Str){cells, length};
-    *at = cells + length + (cells[length] == '\n');
-    return true;
-}
-
-// Returns the cell of a metric, or the error if `number` is metric_count. The cell can be empty.
-static Str row_cell(const Row *row, size_t number) {
-    Str cells = row->cells;
-    if (cells.len == 0)
-        return cells; // a damaged journal can contain rows without cells
-    for (;; number--) {
-        cells = (Str){cells.bytes + 1, cells.len - 1}; // skip the tab
-        const char *end = memchr(cells.bytes, '\t', cells.len);
-        size_t length = !end ? cells.len : (size_t)(end - cells.bytes);
-        if (number == 0 || !end)
-            return (Str){cells.bytes, number == 0 ? length : 0};
-        cells = (Str){end, cells.len - length};
-    }
-}
 
 size_t row_numbers(const Sweep *sweep) {
     return sweep->metric_count + (sweep->options->until && sweep->options->row_every == 0);
@@ -45,61 +15,64 @@ const char *row_number_name(const Sweep *sweep, size_t number) {
     return number < sweep->metric_count ? sweep->metrics[number].name : "frame";
 }
 
-double row_number(const Sweep *sweep, const Row *row, size_t number) {
-    if (row_cell(row, sweep->metric_count).len > 0)
-        return NAN; // the row has an error
-    if (number == sweep->metric_count)
-        return (double)row->frame;
-    Str cell = row_cell(row, number);
-    char *end = NULL;
-    double x = cell.len == 0 ? NAN : strtod(cell.bytes, &end);
-    return end == cell.bytes + cell.len && isfinite(x) ? x : NAN;
+typedef struct Column {
+    const char *name;
+    CellKind kind;
+} Column;
+
+static Column column_at(const Sweep *sweep, size_t number) {
+    size_t axes = sweep->design.axis_count, metric = number - axes - 2;
+    if (number == 0 || number == axes + 1)
+        return (Column){number == 0 ? "run" : "frame", CELL_INTEGER};
+    if (number <= axes)
+        return (Column){sweep->design.axes[number - 1].name, sweep->design.axes[number - 1].kind};
+    return metric < sweep->metric_count ? (Column){sweep->metrics[metric].name, CELL_NUMBER}
+                                        : (Column){"error", CELL_TEXT};
 }
 
-// Appends a cell and, for CSV, the character that follows it.
-static void add_cell(Text *out, bool csv, Str cell, char end) {
-    if (csv)
-        csv_write(cell, text_collect, out);
+// Appends a cell of a column: as CSV, or with its kind.
+static void add_cell(const Sweep *sweep, bool csv, size_t column, Cell cell, Text *out) {
+    size_t first = sweep->design.axis_count + 2; // the column of the first metric
+    if (!csv) {
+        cell_add(out, cell);
+        return;
+    }
+    if (cell.kind == CELL_TEXT)
+        csv_write(str_from(cell.as.text), text_collect, out);
     else
-        text_add(out, cell);
-    text_add_char(out, csv ? end : '\0');
+        row_add_text(sweep, column < first ? sweep->metric_count : column - first, cell, out);
+    text_add_char(out, column < first + sweep->metric_count ? ',' : '\n');
 }
 
-static void add_number(Text *out, bool csv, int64_t number) {
-    char text[24];
-    snprintf(text, sizeof text, "%" PRId64, number);
-    add_cell(out, csv, str_from(text), ',');
-}
-
-static void add_run(const Sweep *sweep, size_t run, bool csv, Text *out) {
+static void add_run(const Sweep *sweep, bool csv, size_t run, Text *out) {
     const Design *design = &sweep->design;
-    SCOPED_TEXT head = {0};
-    add_number(&head, csv, (int64_t)run + 1);
-    for (size_t i = 0; i < design->axis_count; i++)
-        add_cell(&head, csv, str_from(design_value(design, run, i)), ',');
-    Row row;
-    for (const char *at = sweep->results[run].rows; row_next(&at, &row);) {
-        text_add(out, text_str(&head));
-        add_number(out, csv, row.frame);
-        for (size_t i = 0; i <= sweep->metric_count; i++)
-            add_cell(out, csv, row_cell(&row, i), i < sweep->metric_count ? ',' : '\n');
+    Cell cell;
+    for (Str rows = sweep->results[run].rows; cell_next(&rows, &cell);) {
+        size_t column = 0;
+        add_cell(sweep, csv, column++, (Cell){CELL_INTEGER, {.integer = (int64_t)run + 1}}, out);
+        for (; column <= design->axis_count; column++) {
+            const Axis *axis = &design->axes[column - 1];
+            Cell written = {CELL_TEXT, {.text = design_value(design, run, column - 1)}};
+            add_cell(sweep, csv, column, csv ? written : axis_cell(axis, written.as.text), out);
+        }
+        add_cell(sweep, csv, column++, cell, out);
+        for (size_t i = 0; i <= sweep->metric_count && cell_next(&rows, &cell); i++)
+            add_cell(sweep, csv, column++, cell, out);
     }
 }
 
 void table_make(const Sweep *sweep, bool csv, Text *out) {
-    add_cell(out, csv, STR("run"), ',');
-    for (size_t i = 0; i < sweep->design.axis_count; i++)
-        add_cell(out, csv, str_from(sweep->design.axes[i].name), ',');
-    add_cell(out, csv, STR("frame"), ',');
-    for (size_t i = 0; i < sweep->metric_count; i++)
-        add_cell(out, csv, str_from(sweep->metrics[i].name), ',');
-    add_cell(out, csv, STR("error"), '\n');
+    size_t width = sweep->design.axis_count + sweep->metric_count + 3;
+    if (!csv)
+        cell_add(out, (Cell){CELL_INTEGER, {.integer = (int64_t)width}});
+    for (size_t i = 0; i < width; i++) {
+        Column column = column_at(sweep, i);
+        add_cell(sweep, csv, i, (Cell){CELL_TEXT, {.text = column.name}}, out);
+        if (!csv)
+            cell_add(out, (Cell){CELL_INTEGER, {.integer = column.kind}});
+    }
     for (size_t run = 0; run < sweep->design.run_count; run++)
-        add_run(sweep, run, csv, out);
-}
-
-size_t table_width(const Sweep *sweep) {
-    return sweep->design.axis_count + sweep->metric_count + 3;
+        add_run(sweep, csv, run, out);
 }
 
 static void add_definitions(const Design *design, size_t run, Text *out) {

@@ -3,14 +3,12 @@
 //
 // Under MPI, each rank has such a pool, and rank 0 assigns runs. Each other rank first requests jobs * RUNS_PER_WORKER
 // runs, as many as its workers can hold. After that, each result also serves as the next request.
-#include "sweep/worker_pool.h"
-
 #include "base/file.h"
 #include "base/os.h"
 #include "cli/mpi_channel.h"
 #include "cli/progress.h"
 #include "cli/subprocess.h"
-#include "sweep/worker_result.h"
+#include "sweep/workers.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -29,7 +27,7 @@ enum { RUNS_PER_WORKER = 2, REDRAW = 200, MESSAGE_POLL_MS = 2 };
 typedef struct PoolWorker {
     pid_t pid;
     int run_pipe;                      // run numbers are written here
-    int result_pipe;                   // results are read from here, each after a ResultHeader
+    int result_pipe;                   // results are read from here, each a ResultPacket
     int64_t assigned[RUNS_PER_WORKER]; // assigned runs, the current one first
     int count;                         // number of assigned runs
 } PoolWorker;
@@ -50,12 +48,6 @@ typedef struct WorkerPool {
 } WorkerPool;
 
 static const int64_t END_OF_RUNS = -1; // sent instead of a run number
-
-static volatile sig_atomic_t stopped; // number of the signal that stops the sweep; 0: none
-
-static void on_signal(int number) {
-    stopped = number;
-}
 
 // --- in a worker process
 
@@ -125,7 +117,7 @@ static int64_t next_run(WorkerPool *pool) {
     if (pool->returned_count > 0)
         return pool->returned[--pool->returned_count];
     for (; !is_remote(pool) && pool->next < pool->sweep->design.run_count; pool->next++)
-        if (sweep_owns_run(pool->sweep, pool->next) && !pool->sweep->results[pool->next].rows)
+        if (sweep_wants_run(pool->sweep, pool->next))
             return (int64_t)pool->next++;
     return -1;
 }
@@ -145,34 +137,33 @@ static void assign_runs(WorkerPool *pool) {
     }
 }
 
-// Stores a result, or sends it to rank 0. `bytes` contains the rows followed by the diagnostics. Returns false after a
-// message.
-static bool store_result(WorkerPool *pool, const ResultHeader *head, const char *bytes) {
+// Stores a result, or sends it to rank 0. Returns false after a message.
+static bool store_result(WorkerPool *pool, const ResultPacket *result) {
     pool->done++;
     if (is_remote(pool)) {
-        SCOPED_TEXT packet = {0};
-        text_add(&packet, (Str){(const char *)head, sizeof *head});
-        text_add(&packet, (Str){bytes, (size_t)(head->rows + head->diagnostics)});
-        pool->channel->send(0, packet.bytes, packet.len);
+        pool->channel->send(0, result, result_size(result));
         return true;
     }
     progress_erase(&pool->progress);
-    return result_store(pool->sweep, pool->journal, head, bytes);
+    return result_store(pool->sweep, pool->journal, result);
 }
 
 static bool read_result(WorkerPool *pool, PoolWorker *worker, bool *gone) {
-    ResultHeader head;
+    ResultPacket head;
     *gone = !file_read_bytes(worker->result_pipe, &head, sizeof head);
     if (*gone)
         return true;
-    size_t length = (size_t)(head.rows + head.diagnostics);
-    SCOPED_STRING bytes = memory_calloc(length + 1);
-    *gone = !file_read_bytes(worker->result_pipe, bytes, length);
-    if (*gone)
-        return true;
-    memmove(worker->assigned, worker->assigned + 1, sizeof worker->assigned - sizeof worker->assigned[0]);
-    worker->count--;
-    return store_result(pool, &head, bytes);
+    ResultPacket *result = memory_calloc(result_size(&head));
+    *result = head;
+    *gone = !file_read_bytes(worker->result_pipe, result->bytes, result_size(&head) - sizeof head);
+    bool good = true;
+    if (!*gone) {
+        memmove(worker->assigned, worker->assigned + 1, sizeof worker->assigned - sizeof worker->assigned[0]);
+        worker->count--;
+        good = store_result(pool, result);
+    }
+    free(result);
+    return good;
 }
 
 // Receives MPI messages. Rank 0 receives requests and results; other ranks receive the runs that are assigned to them.
@@ -188,9 +179,8 @@ static bool receive_messages(WorkerPool *pool) {
             pool->returned_count += run != END_OF_RUNS;
             continue;
         }
-        ResultHeader head = {.run = END_OF_RUNS};
-        memcpy(&head, packet.bytes, packet.len < sizeof head ? packet.len : sizeof head);
-        good = packet.len < sizeof head || store_result(pool, &head, packet.bytes + sizeof head);
+        // A request is shorter than a result.
+        good = packet.len < sizeof(ResultPacket) || store_result(pool, (const void *)packet.bytes);
         int64_t run = next_run(pool);
         if (run >= 0)
             pool->channel->send(from, &run, sizeof run);
@@ -215,15 +205,14 @@ static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
         pool->returned[pool->returned_count++] = worker->assigned[0];
         return true;
     }
-    SCOPED_TEXT row = {0};
-    text_add_format(&row, "0");
-    for (size_t i = 0; i <= pool->sweep->metric_count; i++)
-        text_add_format(&row, "\t");
+    SCOPED_TEXT error = {0}, row = {0}, packet = {0};
     if (WIFSIGNALED(status))
-        text_add_format(&row, "crashed: signal %d (%s)\n", WTERMSIG(status), strsignal(WTERMSIG(status)));
+        text_add_format(&error, "crashed: signal %d (%s)", WTERMSIG(status), strsignal(WTERMSIG(status)));
     else
-        text_add_format(&row, "the process ended with status %d\n", WEXITSTATUS(status));
-    return !result || store_result(pool, &(ResultHeader){.run = worker->assigned[0], .rows = row.len}, row.bytes);
+        text_add_format(&error, "the process ended with status %d", WEXITSTATUS(status));
+    row_add_failure(pool->sweep, 0, error.bytes, &row);
+    ResultPacket head = {.run = worker->assigned[0]};
+    return !result || store_result(pool, result_pack(head, text_str(&row), (Str){0}, &packet));
 }
 
 // Waits for results and messages and handles them. Returns false, after a message, if the sweep cannot continue.
@@ -262,15 +251,8 @@ static void announce_end(const WorkerPool *pool) {
 static int64_t count_wanted(const Sweep *sweep) {
     int64_t count = 0;
     for (size_t run = 0; run < sweep->design.run_count; run++)
-        count += sweep_owns_run(sweep, run) && !sweep->results[run].rows;
+        count += sweep_wants_run(sweep, run);
     return count;
-}
-
-static void catch_signals(void) {
-    stopped = 0;
-    signal_catch(SIGINT, on_signal, 0);
-    signal_catch(SIGTERM, on_signal, 0);
-    signal_catch(SIGHUP, on_signal, 0);
 }
 
 static void stop_workers(WorkerPool *pool) {
@@ -299,14 +281,14 @@ int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs) {
     pool.jobs = jobs < pool.wanted || is_remote(&pool) ? jobs : pool.wanted;
     pool.workers = memory_calloc((size_t)pool.jobs * sizeof *pool.workers);
     pool.returned = memory_calloc((size_t)pool.jobs * (2 * RUNS_PER_WORKER + 1) * sizeof *pool.returned);
-    catch_signals();
+    worker_catch_signals();
     bool good = true;
     for (int64_t i = 0; good && i < pool.jobs; i++)
         good = start_worker(&pool, &pool.workers[i]);
     progress_start(&pool.progress, sweep->options->verbosity > LOG_QUIET && progress_possible(), pool.wanted);
     pool.progress.things = "runs";
     request_runs(&pool);
-    while (good && has_work(&pool) && !stopped) {
+    while (good && has_work(&pool) && worker_signal() == 0) {
         assign_runs(&pool);
         good = poll_workers(&pool);
         progress_update(&pool.progress, pool.done);
@@ -318,9 +300,5 @@ int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs) {
     stop_workers(&pool);
     free(pool.workers);
     free(pool.returned);
-    return !good ? STATUS_FAILED : done ? STATUS_DONE : STATUS_SIGNAL + (int)stopped;
-}
-
-int worker_pool_signal(void) {
-    return (int)stopped;
+    return !good ? STATUS_FAILED : done ? STATUS_DONE : STATUS_SIGNAL + worker_signal();
 }

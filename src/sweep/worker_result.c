@@ -1,6 +1,7 @@
-// worker_result.c: see worker_result.h.
-#include "sweep/worker_result.h"
+// worker_result.c: results that workers send, and signals; see workers.h.
+#include "sweep/workers.h"
 
+#include <signal.h>
 #include <string.h>
 
 void result_add_diagnostic(void *context, PetriLevel level, const char *rendered) {
@@ -12,21 +13,50 @@ void result_add_diagnostic(void *context, PetriLevel level, const char *rendered
     }
 }
 
-void result_execute(Measure *measure, int64_t run, Text *diagnostics, Text *packet) {
-    diagnostics->len = packet->len = 0;
-    measure_run(measure, (size_t)run);
-    ResultHeader head = {run, measure->frames, measure->origin, measure->rows.len, diagnostics->len};
-    text_add(packet, (Str){(const char *)&head, sizeof head});
-    text_add(packet, (Str){measure->rows.bytes, measure->rows.len});
-    text_add(packet, (Str){diagnostics->bytes, diagnostics->len});
+const ResultPacket *result_pack(ResultPacket head, Str rows, Str diagnostics, Text *bytes) {
+    head.rows = rows.len;
+    head.diagnostics = diagnostics.len;
+    bytes->len = 0;
+    text_add(bytes, (Str){(const char *)&head, sizeof head});
+    text_add(bytes, rows);
+    text_add(bytes, diagnostics);
+    return (const ResultPacket *)(const void *)bytes->bytes;
 }
 
-bool result_store(Sweep *sweep, Journal *journal, const ResultHeader *head, const char *bytes) {
-    size_t run = (size_t)head->run, length = (size_t)(head->rows + head->diagnostics);
-    for (const char *diagnostics = bytes + head->rows; diagnostics < bytes + length;
-         diagnostics += strlen(diagnostics) + 1)
-        sweep_report(sweep, (PetriLevel)(diagnostics[0] - 'a'), diagnostics + 1);
-    sweep->origins[head->origin]++;
-    sweep_store_result(sweep, run, head->frames, bytes, (size_t)head->rows);
-    return journal_add(journal, head->run, &sweep->results[run]);
+size_t result_size(const ResultPacket *packet) {
+    return sizeof *packet + (size_t)(packet->rows + packet->diagnostics);
+}
+
+const ResultPacket *result_execute(Measure *measure, int64_t run, Text *diagnostics, Text *bytes) {
+    diagnostics->len = 0;
+    measure_run(measure, (size_t)run);
+    return result_pack((ResultPacket){.run = run, .frames = measure->result.frames, .origin = measure->origin},
+                       text_str(&measure->result.rows), text_str(diagnostics), bytes);
+}
+
+bool result_store(Sweep *sweep, Journal *journal, const ResultPacket *packet) {
+    size_t run = (size_t)packet->run;
+    const char *end = packet->bytes + packet->rows + packet->diagnostics;
+    for (const char *at = packet->bytes + packet->rows; at < end; at += strlen(at) + 1)
+        sweep_report(sweep, (PetriLevel)(at[0] - 'a'), at + 1);
+    sweep->origins[packet->origin]++;
+    sweep_store_result(sweep, run, packet->frames, (Str){packet->bytes, (size_t)packet->rows});
+    return journal_add(journal, run, &sweep->results[run]);
+}
+
+static volatile sig_atomic_t stopped; // number of the signal that stops the sweep; 0: none
+
+static void on_signal(int number) {
+    stopped = number;
+}
+
+void worker_catch_signals(void) {
+    stopped = 0;
+    signal_catch(SIGINT, on_signal, 0);
+    signal_catch(SIGTERM, on_signal, 0);
+    signal_catch(SIGHUP, on_signal, 0);
+}
+
+int worker_signal(void) {
+    return (int)stopped;
 }

@@ -3,27 +3,10 @@
 #include "base/clock.h"
 #include "cli/progress.h"
 #include "cli/wasm_host.h"
-#include "sweep/worker_pool.h"
-#include "sweep/worker_result.h"
+#include "sweep/workers.h"
 
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-
-static volatile sig_atomic_t stopped; // number of the signal that stops the sweep; 0: none
-
-static void on_signal(int number) {
-    stopped = number;
-}
-
-static void report(void *context, PetriLevel level, const char *rendered) {
-    sweep_report(context, level, rendered);
-}
-
-// Returns true if the run has to be executed.
-static bool is_wanted(const Sweep *sweep, size_t run) {
-    return sweep_owns_run(sweep, run) && !sweep->results[run].rows;
-}
 
 bool worker_pool_is_remote(const Sweep *sweep) {
     (void)sweep;
@@ -55,48 +38,42 @@ typedef struct Sequence {
     int64_t done;   // number of executed runs
 } Sequence;
 
+static bool store_result(Sequence *sequence, const ResultPacket *result) {
+    progress_erase(&sequence->progress);
+    bool good = result_store(sequence->sweep, sequence->journal, result);
+    progress_update(&sequence->progress, ++sequence->done);
+    return good;
+}
+
 // Lists the runs to execute for the helpers, starts them, and stores their results. Returns false after a message.
 static bool receive_results(Sequence *sequence, int64_t jobs) {
     int *runs = memory_calloc((size_t)sequence->wanted * sizeof *runs), count = 0;
     for (size_t run = 0; run < sequence->sweep->design.run_count; run++)
-        if (is_wanted(sequence->sweep, run))
+        if (sweep_wants_run(sequence->sweep, run))
             runs[count++] = (int)run;
     bool good = host_start_helpers((int)(jobs < count ? jobs : count), runs, count) == 0;
     free(runs);
-    for (int length = 0; good && !stopped && (length = host_receive()) >= 0;) {
+    for (int length = 0; good && worker_signal() == 0 && (length = host_receive()) >= 0;) {
         SCOPED_STRING bytes = memory_calloc((size_t)length + 1);
-        ResultHeader head;
         host_read(bytes);
-        memcpy(&head, bytes, sizeof head);
-        progress_erase(&sequence->progress);
-        good = result_store(sequence->sweep, sequence->journal, &head, bytes + sizeof head);
-        progress_update(&sequence->progress, ++sequence->done);
+        good = store_result(sequence, (const void *)bytes);
     }
     return good;
-}
-
-static bool execute(Sequence *sequence, Measure *measure, size_t run) {
-    Sweep *sweep = sequence->sweep;
-    progress_erase(&sequence->progress);
-    measure_run(measure, run);
-    sweep->origins[measure->origin]++;
-    sweep_store_result(sweep, run, measure->frames, measure->rows.bytes, measure->rows.len);
-    progress_update(&sequence->progress, ++sequence->done);
-    return journal_add(sequence->journal, (int64_t)run, &sweep->results[run]);
 }
 
 // Executes the runs that are not done. Returns false after a message.
 static bool execute_rest(Sequence *sequence) {
     Sweep *sweep = sequence->sweep;
     Measure measure;
+    SCOPED_TEXT diagnostics = {0}, bytes = {0};
     if (sequence->done == sequence->wanted)
         return true;
-    if (!measure_open(&measure, sweep, report, sweep))
+    if (!measure_open(&measure, sweep, result_add_diagnostic, &diagnostics))
         return false;
     bool good = true;
-    for (size_t run = 0; good && !stopped && run < sweep->design.run_count; run++) {
-        if (is_wanted(sweep, run))
-            good = execute(sequence, &measure, run);
+    for (size_t run = 0; good && worker_signal() == 0 && run < sweep->design.run_count; run++) {
+        if (sweep_wants_run(sweep, run))
+            good = store_result(sequence, result_execute(&measure, (int64_t)run, &diagnostics, &bytes));
         clock_seconds(); // a system call, during which signals are delivered
     }
     measure_close(&measure);
@@ -108,20 +85,13 @@ int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs) {
         return help(sweep);
     Sequence sequence = {.sweep = sweep, .journal = journal};
     for (size_t run = 0; run < sweep->design.run_count; run++)
-        sequence.wanted += is_wanted(sweep, run);
-    stopped = 0;
-    signal_catch(SIGINT, on_signal, 0);
-    signal_catch(SIGTERM, on_signal, 0);
-    signal_catch(SIGHUP, on_signal, 0);
+        sequence.wanted += sweep_wants_run(sweep, run);
+    worker_catch_signals();
     progress_start(&sequence.progress, sweep->options->verbosity > LOG_QUIET && progress_possible(), sequence.wanted);
     sequence.progress.things = "runs";
     // Helpers cannot read a script from standard input again.
     bool parallel = jobs > 1 && sequence.wanted > 1 && strcmp(sweep->options->script, "-") != 0;
     bool good = (!parallel || receive_results(&sequence, jobs)) && execute_rest(&sequence);
     progress_erase(&sequence.progress);
-    return !good ? STATUS_FAILED : sequence.done == sequence.wanted ? STATUS_DONE : STATUS_SIGNAL + (int)stopped;
-}
-
-int worker_pool_signal(void) {
-    return (int)stopped;
+    return !good ? STATUS_FAILED : sequence.done == sequence.wanted ? STATUS_DONE : STATUS_SIGNAL + worker_signal();
 }

@@ -24,11 +24,12 @@ static void add_result(FuzzText *journal, const char *result, size_t length) {
                          length - used, sum);
     fuzz_append(journal, line, (size_t)count);
     fuzz_append(journal, result + used, length - used);
+    fuzz_append(journal, "\n", 1);
 }
 
 static void put_journal(const Sweep *sweep, const uint8_t *data, size_t size) {
     FuzzText journal = {0};
-    fuzz_append(&journal, "petri sweep 1 ", 14);
+    fuzz_append(&journal, "petri sweep 2 ", 14);
     fuzz_append(&journal, sweep->identity, strlen(sweep->identity));
     fuzz_append(&journal, "\n", 1);
     fuzz_put_parts("table.csv.part", &journal, data, size, add_result);
@@ -36,13 +37,17 @@ static void put_journal(const Sweep *sweep, const uint8_t *data, size_t size) {
 
 // Calls the functions that print results, which need a result for each run.
 static void print_results(Sweep *sweep) {
-    SCOPED_TEXT table = {0}, summary = {0}, commands = {0};
-    Result result = {.rows = "3\t1\t2\t\n", .frames = 3};
+    SCOPED_TEXT table = {0}, cells = {0}, summary = {0}, commands = {0}, rows = {0};
+    cell_add(&rows, (Cell){CELL_INTEGER, {.integer = 3}});
+    cell_add(&rows, (Cell){CELL_NUMBER, {.number = 1}});
+    cell_add(&rows, (Cell){CELL_TEXT, {.text = "2;3"}});
+    cell_add(&rows, (Cell){CELL_NONE});
     for (size_t run = 0; run < RUNS; run++) {
-        sweep_store_result(sweep, run, result.frames, result.rows, strlen(result.rows));
+        sweep_store_result(sweep, run, 3, text_str(&rows));
         fuzz_sink(NULL, "", sweep_is_failed(&sweep->results[run]));
     }
     table_make(sweep, true, &table);
+    table_make(sweep, false, &cells);
     table_commands(sweep, &commands);
     summary_make(sweep, &summary);
 }
@@ -68,7 +73,7 @@ FUZZ_HARNESS(journal) {
     }
     journal_close(&journal);
     for (size_t run = 0; run < sweep.design.run_count; run++)
-        free(sweep.results[run].rows);
+        free((char *)sweep.results[run].rows.bytes);
     free(sweep.results);
     text_free(&sweep.shared);
     design_free(&sweep.design);

@@ -1,5 +1,6 @@
 // seeds.c: writes the first inputs of the fuzzers, made from petri's tables. usage: fuzz_seeds FOLDER
 // FOLDER/dictionary is libFuzzer's dictionary; FOLDER/NAME contains inputs for harness NAME.
+#include "cli/cells.h"
 #include "cli/cli.h"
 #include "cli/hdf5.h"
 #include "petri-draw.h"
@@ -219,12 +220,6 @@ static void write_foreign(void) {
          "seeds: 2\nquiet: true\noutput: a.csv\nsummary: b.csv\nevery: 2\nuntil: x>3\nshard: 1/2\n");
     seed("plan", "json",
          "{\"script\": \"a.fl\", \"define\": {\"A\": \"0..1\", \"B\": 2}, \"sample\": \"latin:9:1\"}\n");
-    seed("journal", "results",
-         "\x01\x03"
-         "3\t1\t2\t\n\x1e%c\x02"
-         "1\t1;2\t'a'\t\n2\t\t\ta fault\n\x1e\x02\x05"
-         "5\tnull\t1e300\t\n",
-         0);
     seed("resume", "csv",
          "%cframe,time,system,id,anchor,x1,x2,v1,v2,radius,mass,charge\n0,0,:a,1,0,1,2,3,4,1,1,0\n1,0.1,:a,1,0,1,2,3,4,"
          "1,1,0\n",
@@ -285,6 +280,19 @@ static void write_frames(void) {
     frame.frame.text_count = 0;
     memcpy(all + sizeof frame + 1, &frame, sizeof frame);
     write_seed("spool", "frames", all, sizeof all);
+}
+
+// Writes results of two runs of a sweep (fuzz_journal.c).
+static void write_results(void) {
+    SCOPED_TEXT text = {0};
+    for (int run = 1; run <= 2; run++) {
+        text_add_format(&text, run == 1 ? "\x01\x03" : "\x1e\x02\x05");
+        cell_add(&text, (Cell){CELL_INTEGER, {.integer = run}});
+        cell_add(&text, (Cell){CELL_NUMBER, {.number = 1.5}});
+        cell_add(&text, run == 1 ? (Cell){CELL_NONE} : (Cell){CELL_TEXT, {.text = "1;2"}});
+        cell_add(&text, run == 1 ? (Cell){CELL_NONE} : (Cell){CELL_TEXT, {.text = "an error"}});
+    }
+    write_seed("journal", "results", text.bytes, text.len);
 }
 
 // Descriptions of nodes: each byte is a choice (fuzz_schema.c).
@@ -372,6 +380,7 @@ int main(int argc, char **argv) {
     write_foreign();
     write_editor_messages();
     write_frames();
+    write_results();
     write_choices();
     write_image();
     return 0;

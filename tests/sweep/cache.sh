@@ -92,23 +92,40 @@ through --verify-cache 0
 check "--verify-cache 0 computes nothing again" counts 0 6 0
 rm -r store
 through
-value=$(sed -n 's/^1,10,1,49,\([0-9.]*\),.*/\1/p' out)
-entry=$(grep -rl "^49	$value" store)
-sed -i "s/^49\t$value/49\t1$value/; s/^rows \([0-9]*\)/echo rows \$((\1+1))/e" "$entry"
+# give_rows FROM TO: replaces the rows of an entry by those of another one of the same length, without its checksum.
+give_rows() {
+    rows=$(($(grep -a '^rows ' "$2" | cut -c 6-) + 1))
+    { head -c $(($(wc -c <"$2") - rows - 72)) "$2" && tail -c $((rows + 72)) "$1"; } >part && cp part "$2"
+}
+entry=$(find store -type f | sort | sed -n 1p)
+give_rows "$(find store -type f | sort | sed -n 2p)" "$entry"
 seal "$entry"
 through
 check "an entry with a valid checksum is believed" counts 0 6 0
+stored=$(diff whole out | sed -n '/^>/{s/^> //p;q}' | cut -d, -f5)
+computed=$(diff whole out | sed -n '/^</{s/^< //p;q}' | cut -d, -f5)
 through --verify-cache 100%
 check "a wrong result is found" status_is 1
 check "a wrong result is counted" has err "1 of 6 verified runs differ from their results in the cache"
-check "the report names frame and metric" has err "frame 49: metric far"
-check "the report has both values" eval 'has err "- 1$value" && has err "+ $value"'
+check "the report names frame and metric" has err ": metric far"
+check "the report has both values" eval 'has err "- $stored" && has err "+ $computed"'
 check "the report has the command that finds the cause" has err 'petri diff cached/gas.fl -D DROPS='
 check "the table has the computed result" same whole out
 sed -i "s/^digest ./digest x/" "$entry"
 seal "$entry"
 through
 check "an entry that is not well-formed is damaged" has err "the cache has a damaged result"
+for byte in 1 10 19; do # the kinds of the frame and of two metrics
+    rm -r store
+    through
+    entry=$(find store -type f | sort | sed -n 1p)
+    rows=$(($(grep -a '^rows ' "$entry" | cut -c 6-) + 1))
+    { head -c $(($(wc -c <"$entry") - rows - 73 + byte)) "$entry" && printf '\011' && tail -c $((rows + 72 + 1 - byte - 1)) "$entry"; } >part
+    cp part "$entry"
+    seal "$entry"
+    through
+    check "an entry whose rows are no cells is damaged: byte $byte" has err "the cache has a damaged result"
+done
 
 # Runs without stored results.
 cat >fails.fl <<'END'

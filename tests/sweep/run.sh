@@ -199,6 +199,43 @@ print([list(h5py.File(name)) for name in sys.argv[2:]])
 END
         check "complete HDF5 tables have arrays whose dimensions are the parameters" \
             out_is "[['table'], ['table'], ['table'], ['table']]"
+        # kinds ARGS...: prints the kinds of the columns of a table.
+        kinds() {
+            sweep sum.fl --metric m=A --metric n='null if A > 0 else A' "$@" -o kinds.h5
+            /usr/bin/python3 -I -c 'import h5py; table = h5py.File("kinds.h5")["table"].dtype
+print("".join(table[name].kind for name in table.names))' 2>&1
+        }
+        check "metrics are numbers, whole or not" [ "$(kinds -D 'A=1;2' --frames 1) $(kinds -D 'A=0.5;2' --frames 1)" = "iiiffS ififfS" ]
+        check "runs that --where excludes do not change kinds" [ "$(kinds -D 'A=0.5;2' --where 'A == 2' --frames 1)" = ififfS ]
+        check "a table without rows has the same kinds" [ "$(kinds -D 'A=1;2' --frames 0)" = iiiffS ]
+        check "failed runs do not change kinds" [ "$(kinds -D 'A=1;2' --frames 2 --work 1)" = iiiffS ]
+        check "a text in one row makes a metric text" [ "$(kinds -D 'A=2;1' --metric t='A/8 if A > 1 else :x' --frames 1)" = iiiffSS ]
+        # Every number has the bits that the script computed, also after an interruption and from a cache.
+        exact() {
+            sweep sum.fl -D 'A=1000000000000000001;2' -D 'B=9223372036854775808;-0.5' --seeds 3 --frames 1 --metric tiny=A*0+5e-324 \
+                --metric zero=A*-0.0 --metric part=0.1+0.2*A --metric big=2**63*A --metric t='A/8 if A < 9 else :x' "$@" -o exact.h5
+        }
+        exact
+        mv exact.h5 whole.h5
+        /usr/bin/python3 -I - >out 2>&1 <<'END'
+import h5py
+table = h5py.File("whole.h5")["table"][:]
+assert list(table["A"]) == [1000000000000000001] * 6 + [2] * 6, table["A"]
+assert list(table["B"][:6]) == [9223372036854775808.0] * 3 + [-0.5] * 3, table["B"]
+for row in table:
+    a = float(row["A"])
+    values = [row[name].item() for name in ("tiny", "zero", "part", "big")]
+    assert [value.hex() for value in values] == [x.hex() for x in (5e-324, -0.0, 0.1 + 0.2 * a, 2.0**63 * a)], values
+print([text.decode() for text in table["t"][5:7]])
+END
+        check "numbers in HDF5 have all their bits; a number in a column of texts is written as in CSV" out_is "[':x', '0.25']"
+        exact --shard 1/2
+        exact --shard 2/2
+        check "numbers from a journal have the same kinds and bits" same whole.h5 exact.h5
+        rm exact.h5
+        exact --cache exactly
+        exact --cache exactly
+        check "numbers from a cache have the same kinds and bits" eval 'same whole.h5 exact.h5 && has err "12 from the cache"'
     fi
 fi
 
@@ -231,7 +268,7 @@ again=$(awk '/^\$\(:drops;[0-9]+\) = / { split($3, p, ";"); sum += sqrt(p[1]*p[1
 check "a line of FILE.runs repeats the run: $value" [ "$again" = "$(printf '%.9g' "$value")" ]
 
 # runs_of FILE: prints the number of results in a journal.
-runs_of() { cat "$1" 2>/dev/null | grep -c '^run '; }
+runs_of() { cat "$1" 2>/dev/null | grep -ac '^run '; }
 # kill_at COUNT [SIGNAL]: kills the sweep after it has completed COUNT runs. If it has already finished, as may happen
 # on a busy machine, tries again.
 kill_at() {
@@ -261,6 +298,13 @@ kill_at 5
 sweep dish.fl -D DROPS=10..30\|5 --seeds 12 --frames 501 --every 250 --metric "$far" -o killed.csv
 check "a journal of another sweep is rejected" status_is 2
 check "the message about a journal of another sweep says what to do" has err 'to start over, remove that file'
+rm killed.csv.part
+kill_at 2
+sed -i '1s/^petri sweep 2/petri sweep 1/' killed.csv.part
+cp killed.csv.part before.part
+cells -o killed.csv 2>err
+check "a journal of an earlier version is rejected" has err "petri's version have changed; to start over, remove that file"
+check "a journal of an earlier version is kept" same killed.csv.part before.part
 rm killed.csv.part
 kill_at 3 -TERM
 check "SIGTERM ends the sweep" status_is 143

@@ -63,6 +63,46 @@ static void test_axis_literals(void **state) {
     }
 }
 
+// The kind of an axis follows from the notation of its values, and all cells have it.
+static void test_axes_have_kinds(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        CellKind kind;
+    } cases[] = {
+        {"N=1;5;20", CELL_INTEGER},
+        {"N=1..4", CELL_INTEGER},
+        {"N=-9223372036854775808;9223372036854775807;1000000000000000001", CELL_INTEGER},
+        {"N=9223372036854775808", CELL_NUMBER}, // 2^63
+        {"N=0..2|0.5", CELL_NUMBER},
+        {"N=1;2.0", CELL_NUMBER},
+        {"N=-0", CELL_NUMBER},
+        {"N=1k;2", CELL_NUMBER},
+        {"N=inf", CELL_NUMBER},
+        {"N=1;red", CELL_TEXT},
+        {"N=0x10", CELL_TEXT},
+        {"N=(1;2);(3;4)", CELL_TEXT},
+        {"N=", CELL_TEXT},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        Axis axis;
+        assert_true(axis_read(&axis, cases[i].text));
+        for (size_t k = 0; k < axis.values.count; k++)
+            if (axis_cell(&axis, axis.values.items[k]).kind != cases[i].kind)
+                fail_msg("%s: '%s' has the kind %d", cases[i].text, axis.values.items[k], axis.kind);
+        free(axis.name);
+        texts_free(&axis.values);
+    }
+    Axis axis = {.kind = CELL_INTEGER};
+    assert_true(axis_cell(&axis, "1000000000000000001").as.integer == 1000000000000000001);
+    axis.kind = CELL_NUMBER;
+    assert_true(signbit(axis_cell(&axis, "-0").as.number));
+    assert_true(axis_cell(&axis, "9223372036854775808").as.number == 0x1p63);
+    assert_true(axis_cell(&axis, "5").as.number == 5);
+    axis.kind = CELL_TEXT;
+    assert_string_equal(axis_cell(&axis, "5").as.text, "5");
+}
+
 typedef struct Study {
     Options options;
     Design design;
@@ -153,6 +193,8 @@ static void test_latin_sample_uses_each_interval_once(void **state) {
         assert_int_equal(slices[i], 2); // once for each seed
     assert_int_equal(letters[0], 8);
     assert_int_equal(letters[1], 8);
+    assert_int_equal(study.design.axes[0].kind, CELL_NUMBER); // although the values of 0..4 are integers
+    assert_int_equal(study.design.axes[2].kind, CELL_INTEGER);
 
     Study again = {.options = {.sample = "latin:8:5", .seeds = 2}},
           other = {.options = {.sample = "latin:8", .seeds = 2}};
@@ -220,6 +262,7 @@ TEST_GROUP(src_design) {
         cmocka_unit_test(test_axis_lists_and_ranges),
         cmocka_unit_test(test_axis_reports_invalid_values),
         cmocka_unit_test(test_axis_literals),
+        cmocka_unit_test(test_axes_have_kinds),
         cmocka_unit_test(test_grid_changes_the_last_name_fastest),
         cmocka_unit_test(test_seeds_are_the_last_axis),
         cmocka_unit_test(test_latin_sample_uses_each_interval_once),
