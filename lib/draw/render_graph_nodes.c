@@ -3,6 +3,7 @@
 #include "draw/layer_composite.h"
 #include "draw/render_graph_walk.h"
 #include "gl/functions.h"
+#include "gl/scene.h"
 
 #include <stdio.h>
 
@@ -179,7 +180,7 @@ static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *cam
     Gl *gl = walk->painter->gl;
     if (!render_graph_check_size(walk, camera->node, camera->width, camera->height))
         return NULL;
-    GlImage image = gl_call.scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
+    GlImage image = scene_draw(gl, scene, camera, &(ScenePictures){walk, find_texture});
     if (walk->painter->budget.memory_refused) {
         gl_call.image_free(gl, image);
         return report_no_memory(walk, camera->node, camera->width, camera->height);

@@ -7,7 +7,6 @@
 #include "gl/internal.h"
 #include "gl/shader.h"
 #include "gl/shader_sources.h"
-#include "gl/uniforms.h"
 
 #include <math.h>
 
@@ -66,7 +65,7 @@ static uint32_t split_passes(const char *text, Str *common, Pass passes[MAX_PASS
     return count;
 }
 
-void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem) {
+static void report(DiagSink *faults, const DrawNode *node, const char *code, Str problem) {
     Text text = text_new(faults->arena);
     size_t line = 0; // only the first line is reported; later errors usually result from the first
     while (line < problem.len && problem.bytes[line] != '\n')
@@ -90,65 +89,6 @@ static double pixel_cost(const DrawNode *node, double detail) {
 
 double gl_effect_cost(const GlEffect *effect) {
     return (double)effect->width * effect->height * pixel_cost(effect->node, effect->detail);
-}
-
-int gl_downsample(const DrawNode *node) {
-    double x = draw_number(node, ATTR_DOWNSAMPLE);
-    return x >= 2 ? x < 64 ? (int)x : 64 : 1;
-}
-
-double gl_seconds_left(const Gl *gl) {
-    const Budget *budget = gl->budget;
-    return budget ? 1e-9 * BUDGET_UNIT_TIME * (double)(budget->work_limit - budget->work) - gl->shader_seconds
-                  : INFINITY;
-}
-
-void gl_refuse_passes(Gl *gl, double seconds, uint32_t passes) {
-    static const double UNEVEN = 1.5;
-    gl->budget->refused_time +=
-        1e9 * ((isinf(gl->shader_seconds) ? 0 : gl->shader_seconds) + UNEVEN * seconds * passes);
-}
-
-bool gl_run_passes(Gl *gl, Arena *arena, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out) {
-    GlImage first = {0}, last = effect->last;
-    int reduction = gl_downsample(effect->node);
-    // A script's own program may leave out pixels. The target is then cleared first, because it can contain an earlier
-    // picture.
-    bool good = true, own = gl_has_shader(effect->node);
-    for (uint32_t i = 0; i < count && good; i++) {
-        int down = passes[i].reduced ? reduction : 1;
-        int width = effect->width / down > 0 ? effect->width / down : 1;
-        int height = effect->height / down > 0 ? effect->height / down : 1;
-        GlImage target = gl_image_new(gl, width, height, effect->format);
-        good = target.texture != 0;
-        if (good) {
-            GlState state = {effect, first, last, target, (int)i, (int)count, down};
-            gl_target(gl, target);
-            if (own) {
-                glClearColor(0, 0, 0, 0);
-                glClear(GL_COLOR_BUFFER_BIT);
-            }
-            gl_set_uniforms(gl, arena, passes[i].program, &state);
-            if (own) {
-                double taken, needed, left = gl_seconds_left(gl);
-                taken = gl_draw_quad_within(gl, passes[i].program, width, height, left, &needed);
-                good = taken < INFINITY;
-                if (!good && gl->budget)
-                    gl_refuse_passes(gl, needed, count - i);
-                gl->shader_seconds += taken;
-            } else {
-                gl_draw_quad(gl, passes[i].program);
-            }
-        }
-        if (i > 0 && last.texture != first.texture)
-            gl_image_free(gl, last);
-        last = target;
-        first = i == 0 ? target : first;
-    }
-    if (first.texture != last.texture)
-        gl_image_free(gl, first);
-    *out = last;
-    return good;
 }
 
 // Adds the functions `source` and `source_at`. If `merged` is true, these functions read the composite of all inputs,
@@ -184,7 +124,7 @@ static unsigned build_pass(Gl *gl, Arena *arena, const GlEffect *effect, const E
     text_add(&text, pass.text);
     unsigned program = gl_program(gl, arena, str_from(gl_quad), text_str(&text), &fault);
     if (!program)
-        gl_report(faults, effect->node, "bad-shader", fault.text);
+        report(faults, effect->node, "bad-shader", fault.text);
     return program;
 }
 

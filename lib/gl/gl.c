@@ -1,18 +1,9 @@
-// gl.c: opening and closing of a Gl; see gl.h.
+// gl.c: opens and closes a Gl, and tries out programs; see gl.h.
 #include "base/heap.h"
-#include "gl/functions.h"
 #include "gl/internal.h"
 
 #include <math.h>
-
-// By default, samplers have low precision and can return 16-bit floats, so the header ends with a precision for them.
-const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
-
-const GlFunctions gl_call = {
-#define MEMBER(name) .name = gl_##name,
-    GL_FUNCTIONS(MEMBER)
-#undef MEMBER
-};
+#include <stdio.h>
 
 static void read_limits(Gl *gl) {
     gl->retains_fences = gl_context_is(gl, "llvmpipe");
@@ -64,7 +55,8 @@ void gl_close(Gl *gl) {
     if (gl->context) {
         gl->lost = !gl_enter(gl, &problem);
         gl_programs_close(gl);
-        gpu_cache_close(gl);
+        if (gl->close_scenes)
+            gl->close_scenes(gl);
         if (!gl->lost) {
             gl_images_close(gl);
             glDeleteFramebuffers(1, &gl->framebuffer);
@@ -91,4 +83,61 @@ uint64_t gl_shader_work(const Gl *gl) {
 void gl_test_shaders(Gl *gl, GlShaderTest *test, void *user_data) {
     gl->shader_test = test;
     gl->shader_test_data = user_data;
+}
+
+// Draws a few pixels, because drivers also compile when a program first draws.
+static void draw_few_pixels(Gl *gl, unsigned program) {
+    uint32_t pixels[GL_TRY_SIDE * GL_TRY_SIDE];
+    GlImage image = gl_image_new(gl, GL_TRY_SIDE, GL_TRY_SIDE, GL_FORMAT_SRGB8);
+    if (!image.texture)
+        return;
+    // Programs of groups get unit matrices.
+    static const float unit[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    for (GLuint i = 0; i < 4; i++)
+        glVertexAttrib4fv(3 + i, unit + (size_t)4 * i);
+    gl_target(gl, image);
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "pv_matrix"), 1, GL_FALSE, unit);
+    gl_draw_quad(gl, program);
+    gl_read_bytes(gl, image, pixels);
+    gl_image_free(gl, image);
+}
+
+// A program that is tried out.
+typedef struct Trial {
+    Gl *gl;
+    Str vertex;
+    Str fragment;
+    Arena arena; // holds the message of the compiler
+    GlShaderError error;
+    unsigned program; // 0: it does not compile
+} Trial;
+
+static void compile(void *context) {
+    Trial *trial = context;
+    trial->program = gl_program(trial->gl, &trial->arena, trial->vertex, trial->fragment, &trial->error);
+}
+
+bool gl_try_program(const char *vertex, const char *fragment, GlShaderProblem *problem) {
+    const char *reason;
+    Gl *gl = gl_open(&reason);
+    if (!gl || !gl_enter(gl, &reason)) {
+        gl_close(gl);
+        *problem = (GlShaderProblem){.failed = true};
+        snprintf(problem->text, sizeof problem->text, "%s", reason ? reason : "out of memory");
+        return false;
+    }
+    Trial trial = {.gl = gl, .vertex = str_from(vertex), .fragment = str_from(fragment)};
+    arena_init(&trial.arena, "shader", SIZE_MAX);
+    Arena *arenas[] = {&trial.arena};
+    if (arena_protect(arenas, 1, compile, &trial) != ARENA_OK)
+        trial.error = (GlShaderError){.text = STR("out of memory"), .failed = true};
+    if (trial.program)
+        draw_few_pixels(gl, trial.program);
+    *problem = (GlShaderProblem){.failed = trial.error.failed, .in_vertex = trial.error.in_vertex};
+    snprintf(problem->text, sizeof problem->text, "%.*s", STR_ARGS(trial.error.text));
+    arena_free(&trial.arena);
+    gl_leave(gl);
+    gl_close(gl);
+    return trial.program != 0;
 }

@@ -17,22 +17,6 @@ struct CachedModel {
     bool refused; // true if the mesh would have exceeded the memory or work limit
 };
 
-GpuCache *gpu_cache(Gl *gl) {
-    if (gl->cache)
-        return gl->cache;
-    GpuCache *store = gl->cache = heap_calloc(1, sizeof *store);
-    if (!store)
-        return NULL;
-    glGenBuffers(1, &store->instances);
-    glGenBuffers(1, &store->light_block);
-    glGenBuffers(1, &store->group_block);
-    glGenTextures(1, &store->light_texture);
-    glBindTexture(GL_TEXTURE_2D, store->light_texture);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return store;
-}
-
 static void free_model(const Gl *gl, CachedModel *model_entry) {
     budget_release(gl->budget, model_entry->charged);
     if (!gl->lost) {
@@ -53,10 +37,8 @@ static void free_target(Gl *gl, SceneTarget *target) {
     *target = (SceneTarget){.framebuffer = 0};
 }
 
-void gpu_cache_close(Gl *gl) {
+static void close_cache(Gl *gl) {
     GpuCache *store = gl->cache;
-    if (!store)
-        return;
     for (CachedModel *model_entry = store->models, *next; model_entry; model_entry = next) {
         next = model_entry->next;
         free_model(gl, model_entry);
@@ -71,6 +53,24 @@ void gpu_cache_close(Gl *gl) {
     }
     heap_free(store);
     gl->cache = NULL;
+    gl->close_scenes = NULL;
+}
+
+GpuCache *gpu_cache(Gl *gl) {
+    if (gl->cache)
+        return gl->cache;
+    GpuCache *store = gl->cache = heap_calloc(1, sizeof *store);
+    if (!store)
+        return NULL;
+    gl->close_scenes = close_cache;
+    glGenBuffers(1, &store->instances);
+    glGenBuffers(1, &store->light_block);
+    glGenBuffers(1, &store->group_block);
+    glGenTextures(1, &store->light_texture);
+    glBindTexture(GL_TEXTURE_2D, store->light_texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return store;
 }
 
 static void evict_old_models(const Gl *gl) {

@@ -10,7 +10,7 @@
 #endif
 
 typedef struct GlProgram GlProgram;
-typedef struct GpuCache GpuCache; // GPU resources of scenes, defined in gpu_cache.h
+typedef struct GpuCache GpuCache; // GPU resources of scenes, defined by lib/scene3d
 
 enum { GL_SPARE_IMAGES = 32, GL_MAX_FENCES = 16 };
 
@@ -38,7 +38,8 @@ struct Gl {
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;
-    GpuCache *cache; // NULL until the first scene is drawn
+    GpuCache *cache;              // NULL until the first scene is drawn
+    void (*close_scenes)(Gl *gl); // frees `cache`; NULL until the first scene is drawn
 };
 
 // context.c or context_web.c: the platform part of gl_open, gl_adopt and gl_close. These files also define gl_enter and
@@ -60,4 +61,3 @@ static inline bool gl_is_refused(const Gl *gl) {
     return gl->budget && gl->budget->memory_refused;
 }
 void gl_programs_close(Gl *gl);
-void gpu_cache_close(Gl *gl);

@@ -4,8 +4,10 @@
 #include "gl/internal.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
+
+// By default, samplers have low precision and can return 16-bit floats, so the header ends with a precision for them.
+const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
 const char gl_quad[] = "#version 300 es\n"
                        "in vec2 position;\n"
@@ -157,52 +159,6 @@ unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderErro
 
 unsigned gl_own_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
     return make_program(gl, arena, vertex, fragment, true, fault);
-}
-
-// Draws a few pixels, because drivers also compile when a program first draws.
-static void draw_few_pixels(Gl *gl, unsigned program) {
-    uint32_t pixels[GL_TRY_SIDE * GL_TRY_SIDE];
-    GlImage image = gl_image_new(gl, GL_TRY_SIDE, GL_TRY_SIDE, GL_FORMAT_SRGB8);
-    if (!image.texture)
-        return;
-    // Programs of groups get unit matrices.
-    static const float unit[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    for (GLuint i = 0; i < 4; i++)
-        glVertexAttrib4fv(3 + i, unit + (size_t)4 * i);
-    gl_target(gl, image);
-    glUseProgram(program);
-    glUniformMatrix4fv(glGetUniformLocation(program, "pv_matrix"), 1, GL_FALSE, unit);
-    gl_draw_quad(gl, program);
-    gl_read_bytes(gl, image, pixels);
-    gl_image_free(gl, image);
-}
-
-bool gl_try_program(const char *vertex, const char *fragment, GlShaderProblem *problem) {
-    const char *reason;
-    Gl *gl = gl_open(&reason);
-    if (!gl || !gl_enter(gl, &reason)) {
-        gl_close(gl);
-        problem->failed = true;
-        snprintf(problem->text, sizeof problem->text, "%s", reason ? reason : "out of memory");
-        return false;
-    }
-    GlProgram *program = new_program(gl, str_from(vertex), str_from(fragment));
-    if (program)
-        link_program(program);
-    bool good = program && program->program != 0;
-    if (good) {
-        draw_few_pixels(gl, program->program);
-    } else {
-        problem->failed = !program;
-        problem->in_vertex = program && program->in_vertex;
-        const char *text = !program ? "out of memory" : program->problem ? program->problem : "?";
-        snprintf(problem->text, sizeof problem->text, "%s", text);
-    }
-    if (program)
-        free_program(gl, program);
-    gl_leave(gl);
-    gl_close(gl);
-    return good;
 }
 
 void gl_draw_quad(Gl *gl, unsigned program) {

@@ -135,8 +135,6 @@ Eye scene_eye(const Scene *scene, const SceneCamera *camera);
 // Creates the triangles of a model in the arena. Returns false, after a report, if that is not possible.
 struct Mesh;
 bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, struct Mesh *mesh);
-// Returns a hash of the data from which the triangles of a `!model` are created. The hash is never 0.
-uint64_t scene_model_hash(const Scene *scene, const DrawNode *node);
 // Returns the properties that a node gives its model. Reports a number of segments that is too large.
 SceneModel scene_model(const Scene *scene, const DrawNode *node);
 // Creates the triangles of a model other than a solid, as they are before `flat` and the following attributes change
@@ -147,6 +145,12 @@ bool scene_same_model(const SceneModel *a, const SceneModel *b);
 // `max`.
 uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max);
 
+// Returns the path of a file that a node names.
+const char *scene_path(const Scene *scene, Str name);
+// Returns x, limited to low..high. NaN becomes `low`.
+static inline double scene_clamp(double x, double low, double high) {
+    return x > low ? x < high ? x : high : low;
+}
 // Reports a problem of a node, unless the scene has no sink.
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem);
 // Reports, as an error, that a camera's view is left out because drawing it would exceed the work limit. The scene must
@@ -161,5 +165,6 @@ typedef struct ScenePictures {
 } ScenePictures;
 
 // Renders a camera's view and returns the picture, which the caller owns. On failure, reports the problem and returns
-// an image with texture 0.
-GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures);
+// an image with texture 0. The pointer is NULL in builds without OpenGL, in which no caller has a Gl.
+extern GlImage (*const scene_draw)(Gl *gl, const Scene *scene, const SceneCamera *camera,
+                                   const ScenePictures *pictures);

@@ -209,8 +209,8 @@ static GLuint use_program(Drawing *drawing, uint32_t group, unsigned variant) {
                                 "#define surface fragment_properties\n";
     GLuint program = 0;
     if (drawing->own)
-        program = gl_group_program(&drawing->group, drawing->scene->groups[group],
-                                   standard_fragment(drawing, variant & TEXTURED, names));
+        program = scene_group_program(&drawing->group, drawing->scene->groups[group],
+                                      standard_fragment(drawing, variant & TEXTURED, names));
     drawing->own = program != 0;
     if (program && draw_attr(drawing->scene->groups[group]->program, ATTR_FRAGMENT))
         return program;
@@ -250,7 +250,7 @@ static void set_textures(const Drawing *drawing, GLuint program, const SceneText
     }
     glActiveTexture(GL_TEXTURE0);
     if (drawing->own)
-        gl_group_set_textures(program, bits);
+        scene_group_set_textures(program, bits);
     set_integer(program, "textured", bits);
     set_integer(program, "bordered", textures->border);
     glUniform2i(glGetUniformLocation(program, "repeated"), textures->repeat[0], textures->repeat[1]);
@@ -311,7 +311,7 @@ static bool draw_shape(Drawing *drawing, const SceneDraw *draw, GLuint program) 
         set_textures(drawing, program, &scene->textures[draw->textures]);
     gpu_cache_bind_instances(drawing->store, shape, draw->first);
     if (drawing->own)
-        return gl_group_draw(&drawing->group, scene->groups[draw->group]->program, shape, draw->count);
+        return scene_group_draw(&drawing->group, scene->groups[draw->group]->program, shape, draw->count);
     glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
     return true;
 }
@@ -465,7 +465,7 @@ static bool charge_view(const Drawing *drawing, const SceneBox *boxes, int width
     return false;
 }
 
-GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures) {
+static GlImage draw_view(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures) {
     GlImage none = {0};
     int width = (int)fmax(1, floor(camera->width * scene->detail + 0.5));
     int height = (int)fmax(1, floor(camera->height * scene->detail + 0.5));
@@ -498,3 +498,6 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     gl_image_free(gl, image);
     return none;
 }
+
+GlImage (*const scene_draw)(Gl *gl, const Scene *scene, const SceneCamera *camera,
+                            const ScenePictures *pictures) = draw_view;

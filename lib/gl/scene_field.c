@@ -100,7 +100,7 @@ static Field *read_field(const Scene *scene, const DrawNode *node, const Matrix 
     }
     field->children = arena_alloc_array(arena, node->child_count, sizeof(Field *));
     for (uint32_t i = 0; i < node->child_count; i++) {
-        Matrix placed = scene_member_matrix(&matrix_identity, node->children[i]);
+        Matrix placed = matrix_of_member(&matrix_identity, node->children[i]);
         Field *child = read_field(scene, node->children[i], &placed, arena);
         if (child)
             field->children[field->child_count++] = child;

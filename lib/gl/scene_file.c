@@ -1,9 +1,10 @@
 // scene_file.c: reads triangles from files and lists (spec canvas3d.md 8); see scene_mesh.h.
 //
 // Sizes that are stored in a file are never trusted, but checked against the length of the file.
+#include "gl/scene_file.h"
+
 #include "base/hash_index.h"
 #include "base/number.h"
-#include "gl/scene_file_text.h"
 #include "gl/scene_matrix.h"
 
 #include <math.h>
@@ -48,53 +49,6 @@ bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbe
             vertex->uv[k] = (float)uv[2 * (size_t)i + (size_t)k];
     }
     return true;
-}
-
-static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r';
-}
-
-Str mesh_next_word(Str *line) {
-    while (line->len > 0 && is_blank(*line->bytes))
-        *line = (Str){line->bytes + 1, line->len - 1};
-    size_t len = 0;
-    while (len < line->len && !is_blank(line->bytes[len]))
-        len++;
-    Str word = {line->bytes, len};
-    *line = (Str){line->bytes + len, line->len - len};
-    return word;
-}
-
-Str mesh_next_line(Str *text) {
-    const char *end = memchr(text->bytes, '\n', text->len);
-    size_t len = end ? (size_t)(end - text->bytes) : text->len;
-    Str line = {text->bytes, len};
-    *text = (Str){text->bytes + len + (end != NULL), text->len - len - (end != NULL)};
-    return line;
-}
-
-static size_t skip_digits(Str word, size_t at) {
-    while (at < word.len && word.bytes[at] >= '0' && word.bytes[at] <= '9')
-        at++;
-    return at;
-}
-
-static size_t skip_one_of(Str word, size_t at, const char *which) {
-    return at < word.len && strchr(which, word.bytes[at]) ? at + 1 : at;
-}
-
-bool mesh_read_number(Str word, float *out) {
-    size_t start = skip_one_of(word, 0, "+-"), whole = skip_digits(word, start), point = skip_one_of(word, whole, ".");
-    size_t end = skip_digits(word, point), mark = skip_one_of(word, end, "eE");
-    if ((whole == start && end == point) || word.len > 60)
-        return false;
-    if (mark > end) {
-        size_t sign = skip_one_of(word, mark, "+-");
-        if ((end = skip_digits(word, sign)) == sign)
-            return false;
-    }
-    *out = (float)number_parse(word);
-    return end == word.len && fabsf(*out) < 1e30f;
 }
 
 static bool read_floats(Str line, int min, int max, float *out) {
@@ -249,7 +203,7 @@ static Str next_obj_line(Arena *arena, Str *bytes, uint32_t *number) {
     return joined.len ? text_str(&joined) : line;
 }
 
-static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
+bool mesh_read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     Obj obj = {.arena = arena, .normals = true};
     for (uint32_t line = 0; bytes.len > 0;) {
         uint32_t first = line + 1;
@@ -347,21 +301,14 @@ static bool read_stl_binary(Arena *arena, Str bytes, Floats *list) {
     return true;
 }
 
-bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
+bool mesh_is_stl(Str bytes) {
+    return is_binary_stl(bytes) || str_starts_with(bytes, STR("solid"));
+}
+
+bool mesh_read_stl(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
     Floats list = {0};
-    *fault = (MeshError){
-        "glTF is not supported; convert it to OBJ, for example with 'assimp export MODEL.glb MODEL.obj'", 0};
-    if (str_starts_with(bytes, STR("glTF")) || str_starts_with(bytes, STR("{")))
-        return false;
-    if (str_starts_with(bytes, STR("ply\n")) || str_starts_with(bytes, STR("ply\r\n")))
-        return mesh_read_ply(arena, bytes, mesh, fault);
-    if (str_starts_with(bytes, STR("OFF")) || str_starts_with(bytes, STR("COFF")))
-        return mesh_read_off(arena, bytes, mesh, fault);
-    bool binary = is_binary_stl(bytes), text = !binary && str_starts_with(bytes, STR("solid"));
-    if (!binary && !text)
-        return read_obj(arena, bytes, mesh, fault);
     *fault = (MeshError){"a coordinate is out of range, or there are more than 4 million triangles", 0};
-    if (binary ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list, fault))
+    if (is_binary_stl(bytes) ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list, fault))
         return false;
     *fault = (MeshError){"it contains no triangles", 0};
     if (list.count == 0)

@@ -204,6 +204,12 @@ Matrix matrix_placed(Matrix a, const DrawNode *node) {
     return a;
 }
 
+Matrix matrix_of_member(const Matrix *outside, const DrawNode *node) {
+    return node->kind == KIND_MIX           ? *outside
+           : node->kind == KIND_TRANSFORM3D ? matrix_transformed(*outside, node)
+                                            : matrix_placed(*outside, node);
+}
+
 Matrix matrix_view(const Eye *eye) {
     double z[3], y[3], x[3];
     for (int k = 0; k < 3; k++)

@@ -22,6 +22,8 @@ void matrix_direction(const Matrix *a, const double d[3], double out[3]); // `ou
 Matrix matrix_transformed(Matrix a, const DrawNode *node);
 // Returns `a` multiplied by the transform that the position, size and other attributes of a model describe.
 Matrix matrix_placed(Matrix a, const DrawNode *node);
+// Returns the matrix of a member of a solid or distance field, in the coordinates of the enclosing node.
+Matrix matrix_of_member(const Matrix *outside, const DrawNode *node);
 // The parameters of a camera's view and projection (spec 3.2, 3.3).
 typedef struct Eye {
     double position[3];

@@ -1,4 +1,4 @@
-// scene_model.c: identifies equal models and creates their triangles; see scene.h.
+// scene_model.c: the properties of models, which identify equal models; see scene.h.
 #include "base/file.h"
 #include "base/source.h"
 #include "gl/effect.h"
@@ -10,16 +10,13 @@ static uint64_t hash_list(uint64_t seed, const DrawNode *node, AttrName name) {
     return attr ? hash_bytes(seed, attr->as.list, attr->count * sizeof *attr->as.list) : seed + 1;
 }
 
-static const char *path_of(const Scene *scene, Str name) {
-    return str_to_c(scene->arena, path_join(scene->arena, scene->reach->directory, name));
-}
-
-uint64_t scene_model_hash(const Scene *scene, const DrawNode *node) {
+// Returns a hash of the data from which the triangles of a `!model` are created. The hash is never 0.
+static uint64_t hash_model(const Scene *scene, const DrawNode *node) {
     const AttrValue *name = draw_attr(node, ATTR_FILENAME);
     Str version = {0};
     if (!name || name->as.text.len == 0)
         return hash_list(hash_list(hash_list(1, node, ATTR_VERTICES), node, ATTR_FACES), node, ATTR_UV) | 1;
-    file_version(scene->arena, scene->reach, path_of(scene, name->as.text), &version);
+    file_version(scene->arena, scene->reach, scene_path(scene, name->as.text), &version);
     uint64_t seed = hash_bytes(2, name->as.text.bytes, name->as.text.len);
     return hash_bytes(seed, version.bytes, version.len) | 1;
 }
@@ -30,69 +27,72 @@ bool scene_same_model(const SceneModel *a, const SceneModel *b) {
            a->uv_map == b->uv_map && a->snap == b->snap;
 }
 
-static bool read_file(const Scene *scene, const DrawNode *node, Str name, Arena *arena, Mesh *mesh) {
-    enum { MAX_BYTES = 256 << 20 };
-    MeshError fault = {0};
-    Str bytes, text;
-    if (file_read(arena, scene->reach, path_of(scene, name), true, MAX_BYTES, &bytes, NULL, &fault.text) &&
-        mesh_from_file(arena, bytes, mesh, &fault))
-        return true;
-    Arena *report_arena = scene->faults->arena;
-    if (fault.line)
-        text = str_format(report_arena, "%.*s:%u: %s", STR_ARGS(name), fault.line, fault.text);
-    else
-        text = str_format(report_arena, "cannot read '%.*s': %s", STR_ARGS(name), fault.text);
-    scene_report(scene, "cannot-read", node, str_to_c(report_arena, text));
-    return false;
+// Adds the attributes that determine the shape, other than those of the placement.
+static uint64_t hash_attributes(const DrawNode *node, uint64_t seed) {
+    static const AttrName names[] = {ATTR_ORIGIN,  ATTR_NORMAL,  ATTR_MINIMUM,    ATTR_MIN,
+                                     ATTR_MAXIMUM, ATTR_MAX,     ATTR_RESOLUTION, ATTR_SMOOTH,
+                                     ATTR_FILLET,  ATTR_CHAMFER, ATTR_WEIGHTS,    ATTR_FUNCTION};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const AttrValue *attr = schema_row((NodeKind)node->kind, names[i]) ? draw_attr(node, names[i]) : NULL;
+        if (!attr)
+            seed++;
+        else if (names[i] == ATTR_WEIGHTS)
+            seed = hash_bytes(seed, attr->as.list, attr->count * sizeof *attr->as.list);
+        else if (names[i] == ATTR_FUNCTION)
+            seed = hash_bytes(seed, &attr->as.function->hash, sizeof attr->as.function->hash);
+        else
+            seed = hash_bytes(seed, attr->as.numbers, (i < 6 ? 3 : 1) * sizeof *attr->as.numbers);
+    }
+    return seed;
 }
 
-static bool read_triangles(const Scene *scene, const DrawNode *node, Arena *arena, Mesh *mesh) {
-    const AttrValue *name = draw_attr(node, ATTR_FILENAME), *vertices = draw_attr(node, ATTR_VERTICES),
-                    *faces = draw_attr(node, ATTR_FACES), *uv = draw_attr(node, ATTR_UV);
-    if (name && name->as.text.len > 0)
-        return read_file(scene, node, name->as.text, arena, mesh);
-    if (!vertices)
-        return false;
-    const double *corners = faces ? faces->as.list : NULL;
-    uint32_t count = faces ? faces->count : 0;
-    const char *problem = "a model without faces can have at most 2000 vertices, which must not all lie in one plane";
-    if (!faces && vertices->count % 3 == 0 && vertices->count <= 3 * MESH_MAX_HULL)
-        corners = mesh_hull(arena, vertices->as.list, vertices->count / 3, &count);
-    if (corners && mesh_from_lists(arena, vertices->as.list, vertices->count, corners, count, uv ? uv->as.list : NULL,
-                                   uv ? uv->count : 0, mesh, &problem))
-        return true;
-    scene_report(scene, "bad-model", node, problem);
-    return false;
+static uint64_t hash_children(const Scene *scene, const DrawNode *node, uint64_t seed);
+
+static uint64_t hash_member(const Scene *scene, const DrawNode *node, uint64_t seed) {
+    NodeKind kind = (NodeKind)node->kind;
+    Matrix matrix = matrix_of_member(&matrix_identity, node);
+    seed = hash_bytes(seed, matrix.m, sizeof matrix.m);
+    if (scene_is_operation(kind) || kind == KIND_SDF || kind == KIND_MIX)
+        return hash_children(scene, node, seed);
+    if (!scene_is_model(kind))
+        return seed;
+    SceneModel model = scene_model(scene, node);
+    uint64_t facts[] = {model.kind, model.source, model.segments, model.repair};
+    return hash_bytes(seed, facts, sizeof facts);
 }
 
-bool scene_triangles(const Scene *scene, const SceneModel *model, Arena *arena, Mesh *mesh) {
-    *mesh = (Mesh){.vertices = NULL};
-    if (model->kind == KIND_MODEL && !read_triangles(scene, model->node, arena, mesh))
-        return false;
-    if (model->kind != KIND_MODEL)
-        *mesh = model->kind == KIND_BOX        ? mesh_box(arena, model->uv_map == UV_REPEAT)
-                : model->disc                  ? mesh_disc(arena, model->segments)
-                : model->kind == KIND_SPHERE   ? mesh_sphere(arena, model->segments)
-                : model->kind == KIND_CYLINDER ? mesh_cylinder(arena, model->segments)
-                                               : mesh_cone(arena, model->segments);
-    return mesh->index_count > 0;
+// Returns a hash of everything that determines the triangles of a solid. The recursion is limited by the maximum depth
+// of nodes.
+static uint64_t hash_children(const Scene *scene, const DrawNode *node, uint64_t seed) {
+    arena_charge(scene->arena, 20 + (uint64_t)node->child_count * 20);
+    uint64_t facts[] = {node->kind, node->child_count};
+    seed = hash_bytes(seed, facts, sizeof facts);
+    seed = hash_attributes(node, seed);
+    for (uint32_t i = 0; i < node->child_count; i++)
+        seed = hash_member(scene, node->children[i], seed);
+    return seed;
 }
 
-bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, Mesh *mesh) {
-    bool solid = scene_is_solid((NodeKind)model->kind);
-    if (!(model->kind == KIND_SDF ? scene_field_mesh(scene, model->node, arena, mesh)
-          : solid                 ? scene_solid_mesh(scene, model->node, arena, mesh)
-                                  : scene_triangles(scene, model, arena, mesh)))
-        return false;
-    if (model->repair)
-        scene_repair_mesh(arena, mesh);
-    if (model->flat || model->snap == 0)
-        mesh_flat(arena, mesh);
-    else if (model->snap < 0.5 || solid || model->repair)
-        mesh_snap(arena, mesh, model->snap);
-    if (model->invert)
-        mesh_invert(mesh);
-    if (model->remap != REMAP_NONE)
-        mesh_remap(arena, mesh, model->remap);
-    return true;
+SceneModel scene_model(const Scene *scene, const DrawNode *node) {
+    NodeKind kind = (NodeKind)node->kind;
+    SceneModel model = {.kind = node->kind,
+                        .node = node,
+                        .snap = scene_clamp(draw_number(node, ATTR_SNAP_EDGES), 0, 0.5),
+                        .flat = draw_flag(node, ATTR_FLAT),
+                        .invert = draw_flag(node, ATTR_INVERT),
+                        .remap = (uint8_t)draw_word(node, ATTR_UV_REMAP)};
+    if (kind == KIND_BOX) {
+        model.uv_map = (uint8_t)draw_word(node, ATTR_UV_MAP);
+    } else if (scene_is_solid(kind)) {
+        model.source = hash_children(scene, node, 3) | 1;
+    } else if (kind == KIND_MODEL) {
+        model.source = hash_model(scene, node);
+        model.repair = draw_flag(node, ATTR_REPAIR);
+    } else {
+        double segments = draw_number(node, ATTR_SEGMENTS);
+        if (segments > MESH_MAX_SEGMENTS)
+            scene_report(scene, "too-many-segments", node, "the number of segments is limited to 1024");
+        model.segments = (uint32_t)scene_clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MAX_SEGMENTS);
+    }
+    return model;
 }

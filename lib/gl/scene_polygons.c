@@ -1,7 +1,7 @@
-// scene_polygons.c: reads PLY and OFF files, which consist of vertices and polygons; see scene_file_text.h.
+// scene_polygons.c: reads PLY and OFF files, which consist of vertices and polygons; see scene_file.h.
 //
 // Counts that are stored in a file only end loops that read the file, so a wrong count cannot allocate memory.
-#include "gl/scene_file_text.h"
+#include "gl/scene_file.h"
 
 #include <math.h>
 #include <string.h>

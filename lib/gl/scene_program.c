@@ -120,7 +120,7 @@ static void set_uniforms(const GroupView *view, const SceneGroup *group, GLuint 
     }
 }
 
-GLuint gl_group_program(const GroupView *view, const SceneGroup *group, Str standard) {
+GLuint scene_group_program(const GroupView *view, const SceneGroup *group, Str standard) {
     const DrawNode *node = group->program;
     const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
     Arena *arena = view->scene->arena;
@@ -147,7 +147,7 @@ GLuint gl_group_program(const GroupView *view, const SceneGroup *group, Str stan
     return program;
 }
 
-void gl_group_set_textures(GLuint program, int bits) {
+void scene_group_set_textures(GLuint program, int bits) {
     for (int i = 0; i < SCENE_TEXTURES; i++) {
         glUniform1i(glGetUniformLocation(program, texture_names[i]), i);
         glUniform1i(glGetUniformLocation(program, flag_names[i]), bits >> i & 1);
@@ -176,7 +176,7 @@ static double vertex_seconds(const GroupView *view, const SceneShape *shape, uin
     return seconds * all;
 }
 
-bool gl_group_draw(GroupView *view, const DrawNode *node, const SceneShape *shape, uint32_t count) {
+bool scene_group_draw(GroupView *view, const DrawNode *node, const SceneShape *shape, uint32_t count) {
     static const double BAND_SECONDS = 0.05, UNEVEN = 8, THREADS = 2;
     Gl *gl = view->gl;
     if (shape->index_count == 0)

@@ -18,9 +18,9 @@ typedef struct GroupView {
 
 // Returns the program of a group, with the uniforms set that do not depend on the model. `standard` is used instead of
 // a missing fragment shader. On failure, reports the problem and returns 0.
-GLuint gl_group_program(const GroupView *view, const SceneGroup *group, Str standard);
+GLuint scene_group_program(const GroupView *view, const SceneGroup *group, Str standard);
 // Sets the texture uniforms for a model. `bits` has one bit for each texture that is set.
-void gl_group_set_textures(GLuint program, int bits);
+void scene_group_set_textures(GLuint program, int bits);
 // Draws instances of a shape with the current program, that of `node`. Draws a few rows at a time and measures the
 // time. Returns false, after a report, if that exceeds the work limit.
-bool gl_group_draw(GroupView *view, const DrawNode *node, const SceneShape *shape, uint32_t count);
+bool scene_group_draw(GroupView *view, const DrawNode *node, const SceneShape *shape, uint32_t count);

@@ -17,23 +17,6 @@ typedef struct InheritedState {
     SceneGroup *group;
 } InheritedState;
 
-void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem) {
-    if (!scene->faults)
-        return;
-    Str text = str_format(scene->faults->arena, "!%s: %s", schema_kinds[node->kind].name, problem);
-    diag_report(scene->faults, &(Diag){DIAG_WARNING, node->origin, text, .code = code});
-}
-
-void scene_report_missing(const Scene *scene, const DrawNode *node) {
-    Str text = str_format(scene->faults->arena, "!%s: drawing exceeded the work limit (--work): the scene is left out",
-                          schema_kinds[node->kind].name);
-    diag_report(scene->faults, &(Diag){DIAG_ERROR, node->origin, text, .code = "drawing-limit"});
-}
-
-static double clamp(double x, double low, double high) {
-    return x > low ? x < high ? x : high : low;
-}
-
 static double *read_triple(const DrawNode *node, AttrName name, double out[3]) {
     const AttrValue *attr = draw_attr(node, name);
     if (!attr)
@@ -88,16 +71,16 @@ static uint32_t number_textures(Scene *scene, const InheritedState *place) {
 static void make_material(Scene *scene, InheritedState *place) {
     SceneMaterial *material = arena_alloc(scene->arena, sizeof *material);
     const GraphicsState3D *state = &place->look;
-    *material = (SceneMaterial){.surface = {.transparency = (float)clamp(state->transparency, 0, 1),
-                                            .translucency = (float)clamp(state->translucency, 0, 1e30),
-                                            .ior = (float)clamp(state->ior, 1, 1e30),
-                                            .metal = (float)clamp(state->metal, 0, 1),
+    *material = (SceneMaterial){.surface = {.transparency = (float)scene_clamp(state->transparency, 0, 1),
+                                            .translucency = (float)scene_clamp(state->translucency, 0, 1e30),
+                                            .ior = (float)scene_clamp(state->ior, 1, 1e30),
+                                            .metal = (float)scene_clamp(state->metal, 0, 1),
                                             .roughness = (float)state->roughness,
-                                            .ao = (float)clamp(state->ao, 0, 1)},
+                                            .ao = (float)scene_clamp(state->ao, 0, 1)},
                                 .textures = number_textures(scene, place)};
     for (int k = 0; k < 3; k++) {
-        material->surface.albedo[k] = (float)clamp(state->color[k], -1e30, 1e30);
-        material->surface.emissive[k] = (float)clamp(state->emissive[k], -1e30, 1e30);
+        material->surface.albedo[k] = (float)scene_clamp(state->color[k], -1e30, 1e30);
+        material->surface.emissive[k] = (float)scene_clamp(state->emissive[k], -1e30, 1e30);
     }
     place->material = material;
 }
@@ -133,7 +116,7 @@ static SceneGroup *add_group(Scene *scene, const SceneGroup *parent, const DrawN
 
 static void set_floats(float *out, const double *x, int count) {
     for (int k = 0; k < count; k++)
-        out[k] = (float)clamp(x[k], -1e18, 1e18);
+        out[k] = (float)scene_clamp(x[k], -1e18, 1e18);
 }
 
 static bool read_spot(const Matrix *matrix, const DrawNode *node, const double *direction, const double position[3],
@@ -150,8 +133,8 @@ static bool read_spot(const Matrix *matrix, const DrawNode *node, const double *
         return false;
     matrix_direction(matrix, towards, towards);
     set_floats(light->direction, towards, 3);
-    double outer = clamp(draw_number(node, ATTR_OUTER), 0, 1);
-    double inner = clamp(draw_number(node, ATTR_INNER), 0, outer);
+    double outer = scene_clamp(draw_number(node, ATTR_OUTER), 0, 1);
+    double inner = scene_clamp(draw_number(node, ATTR_INNER), 0, outer);
     light->kind = LIGHT_SPOT;
     light->radius = (float)maths_cos(3.141592653589793 * outer);
     light->length = (float)maths_cos(3.141592653589793 * inner);
@@ -171,7 +154,7 @@ static void read_kind(const Matrix *matrix, const DrawNode *node, SceneLight *li
             end[k] -= start[k];
         light->kind = LIGHT_LINE;
         light->length = (float)fmin(sqrt(vector_dot(end, end)), 1e18);
-        light->radius = (float)clamp(draw_number(node, ATTR_RADIUS), 0, 1e18);
+        light->radius = (float)scene_clamp(draw_number(node, ATTR_RADIUS), 0, 1e18);
         if (!vector_normalise(end))
             memcpy(end, (double[3]){1, 0, 0}, sizeof end);
         set_floats(light->direction, end, 3);
@@ -180,7 +163,7 @@ static void read_kind(const Matrix *matrix, const DrawNode *node, SceneLight *li
         matrix_point(matrix, position, world);
         set_floats(light->position, world, 3);
         if (!read_spot(matrix, node, towards, position, light)) {
-            light->radius = (float)clamp(draw_number(node, ATTR_RADIUS), 0, 1e18);
+            light->radius = (float)scene_clamp(draw_number(node, ATTR_RADIUS), 0, 1e18);
             light->kind = light->radius > 0 ? LIGHT_BALL : LIGHT_POINT;
         }
     } else if (towards) {
@@ -246,33 +229,9 @@ static void read_camera(Scene *scene, const InheritedState *place, const DrawNod
         schema_store(&node->attrs[i], &camera->state);
     read_points(camera, &place->matrix, node);
     if (draw_pair(node, ATTR_SIZE, size)) {
-        camera->width = (int)clamp(size[0], 0, 1e6);
-        camera->height = (int)clamp(size[1], 0, 1e6);
+        camera->width = (int)scene_clamp(size[0], 0, 1e6);
+        camera->height = (int)scene_clamp(size[1], 0, 1e6);
     }
-}
-
-SceneModel scene_model(const Scene *scene, const DrawNode *node) {
-    NodeKind kind = (NodeKind)node->kind;
-    SceneModel model = {.kind = node->kind,
-                        .node = node,
-                        .snap = clamp(draw_number(node, ATTR_SNAP_EDGES), 0, 0.5),
-                        .flat = draw_flag(node, ATTR_FLAT),
-                        .invert = draw_flag(node, ATTR_INVERT),
-                        .remap = (uint8_t)draw_word(node, ATTR_UV_REMAP)};
-    if (kind == KIND_BOX) {
-        model.uv_map = (uint8_t)draw_word(node, ATTR_UV_MAP);
-    } else if (scene_is_solid(kind)) {
-        model.source = scene_solid_hash(scene, node);
-    } else if (kind == KIND_MODEL) {
-        model.source = scene_model_hash(scene, node);
-        model.repair = draw_flag(node, ATTR_REPAIR);
-    } else {
-        double segments = draw_number(node, ATTR_SEGMENTS);
-        if (segments > MESH_MAX_SEGMENTS)
-            scene_report(scene, "too-many-segments", node, "the number of segments is limited to 1024");
-        model.segments = (uint32_t)clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MAX_SEGMENTS);
-    }
-    return model;
 }
 
 // Returns the index of a node's model in the scene. If there are too many models, reports this and returns UINT32_MAX.
@@ -367,24 +326,4 @@ Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int
         if (str_equal(scene->cameras[i].id, id->as.text))
             scene->shown = i;
     return scene;
-}
-
-Eye scene_eye(const Scene *scene, const SceneCamera *camera) {
-    const GraphicsState3D *state = &camera->state;
-    Eye eye = {.state = state, .aspect = (double)camera->width / camera->height};
-    memcpy(eye.position, camera->position, sizeof eye.position);
-    memcpy(eye.focus, camera->focus, sizeof eye.focus);
-    memcpy(eye.up, camera->up, sizeof eye.up);
-    eye.near = fmax(state->near, 1e-9);
-    eye.far = fmax(isnan(state->far) ? scene->width : state->far, eye.near + 1e-9);
-    eye.width = isnan(state->width) ? scene->width : state->width;
-    return eye;
-}
-
-uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t max) {
-    uint32_t count = 0, wanted = (uint32_t)clamp(group->state.max_lights, 1, max);
-    for (; group; group = group->parent)
-        for (uint32_t i = 0; i < group->light_count && count < wanted; i++)
-            lights[count++] = group->lights[i];
-    return count;
 }

@@ -32,70 +32,6 @@ typedef struct SolidBuild {
     uint32_t open_capacity;
 } SolidBuild;
 
-static bool is_operation(NodeKind kind) {
-    return (scene_is_solid(kind) && kind != KIND_SDF) || kind == KIND_TRANSFORM3D;
-}
-
-static bool is_model(NodeKind kind) {
-    return kind == KIND_BOX || kind == KIND_SPHERE || kind == KIND_CYLINDER || kind == KIND_CONE ||
-           kind == KIND_MODEL || kind == KIND_SDF;
-}
-
-Matrix scene_member_matrix(const Matrix *outside, const DrawNode *node) {
-    return node->kind == KIND_MIX           ? *outside
-           : node->kind == KIND_TRANSFORM3D ? matrix_transformed(*outside, node)
-                                            : matrix_placed(*outside, node);
-}
-
-// Adds the attributes that determine the shape, other than those of the placement.
-static uint64_t hash_attributes(const DrawNode *node, uint64_t seed) {
-    static const AttrName names[] = {ATTR_ORIGIN,  ATTR_NORMAL,  ATTR_MINIMUM,    ATTR_MIN,
-                                     ATTR_MAXIMUM, ATTR_MAX,     ATTR_RESOLUTION, ATTR_SMOOTH,
-                                     ATTR_FILLET,  ATTR_CHAMFER, ATTR_WEIGHTS,    ATTR_FUNCTION};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const AttrValue *attr = schema_row((NodeKind)node->kind, names[i]) ? draw_attr(node, names[i]) : NULL;
-        if (!attr)
-            seed++;
-        else if (names[i] == ATTR_WEIGHTS)
-            seed = hash_bytes(seed, attr->as.list, attr->count * sizeof *attr->as.list);
-        else if (names[i] == ATTR_FUNCTION)
-            seed = hash_bytes(seed, &attr->as.function->hash, sizeof attr->as.function->hash);
-        else
-            seed = hash_bytes(seed, attr->as.numbers, (i < 6 ? 3 : 1) * sizeof *attr->as.numbers);
-    }
-    return seed;
-}
-
-static uint64_t hash_children(const Scene *scene, const DrawNode *node, uint64_t seed);
-
-static uint64_t hash_member(const Scene *scene, const DrawNode *node, uint64_t seed) {
-    NodeKind kind = (NodeKind)node->kind;
-    Matrix matrix = scene_member_matrix(&matrix_identity, node);
-    seed = hash_bytes(seed, matrix.m, sizeof matrix.m);
-    if (is_operation(kind) || kind == KIND_SDF || kind == KIND_MIX)
-        return hash_children(scene, node, seed);
-    if (!is_model(kind))
-        return seed;
-    SceneModel model = scene_model(scene, node);
-    uint64_t facts[] = {model.kind, model.source, model.segments, model.repair};
-    return hash_bytes(seed, facts, sizeof facts);
-}
-
-// The recursion is limited by the maximum depth of nodes.
-static uint64_t hash_children(const Scene *scene, const DrawNode *node, uint64_t seed) {
-    arena_charge(scene->arena, 20 + (uint64_t)node->child_count * 20);
-    uint64_t facts[] = {node->kind, node->child_count};
-    seed = hash_bytes(seed, facts, sizeof facts);
-    seed = hash_attributes(node, seed);
-    for (uint32_t i = 0; i < node->child_count; i++)
-        seed = hash_member(scene, node->children[i], seed);
-    return seed;
-}
-
-uint64_t scene_solid_hash(const Scene *scene, const DrawNode *node) {
-    return hash_children(scene, node, 3) | 1;
-}
-
 // Rounds the coordinates of primitives, so that points at the same place become equal: at seams, they differ by
 // rounding errors.
 static double round_point(double x) {
@@ -157,7 +93,7 @@ static void read_plane(Part *part, const Matrix *matrix) {
 static Part *read_part(SolidBuild *build, const DrawNode *node, const Matrix *matrix) {
     Part *part = arena_alloc(build->arena, sizeof *part);
     *part = (Part){.node = node};
-    if (is_model((NodeKind)node->kind)) {
+    if (scene_is_model((NodeKind)node->kind)) {
         read_leaf(build, part, matrix);
         return part;
     }
@@ -166,11 +102,11 @@ static Part *read_part(SolidBuild *build, const DrawNode *node, const Matrix *ma
         read_plane(part, matrix);
     for (uint32_t i = 0; i < node->child_count; i++) {
         const DrawNode *child = node->children[i];
-        if (!is_model((NodeKind)child->kind) && !is_operation((NodeKind)child->kind)) {
+        if (!scene_is_model((NodeKind)child->kind) && !scene_is_operation((NodeKind)child->kind)) {
             scene_report(build->scene, "misplaced-node", child, "has no effect inside a solid; ignored");
             continue;
         }
-        Matrix placed = scene_member_matrix(matrix, child);
+        Matrix placed = matrix_of_member(matrix, child);
         part->children[part->child_count++] = read_part(build, child, &placed);
     }
     return part;
@@ -196,7 +132,7 @@ static bool make_leaf(SolidBuild *build, const Part *part, Solid *solid) {
 // Executes the operation of a part. Returns false if the part is not closed; it is then left out of other operations.
 static bool make_solid(SolidBuild *build, const Part *part, Solid *solid) {
     NodeKind kind = (NodeKind)part->node->kind;
-    if (is_model(kind))
+    if (scene_is_model(kind))
         return make_leaf(build, part, solid);
     uint32_t count = 0;
     Solid *members = arena_alloc_array(build->arena, part->child_count, sizeof *members);

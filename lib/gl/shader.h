@@ -23,7 +23,7 @@ void gl_report_shader(DiagSink *faults, const DrawNode *node, const GlShaderErro
 // Reports that the program of a node exceeded the work limit, so that `what` is left out.
 void gl_report_limit(DiagSink *faults, const DrawNode *node, const char *what);
 
-// effect.c
+// passes.c
 // Returns the processor time that the programs of scripts may still take in this picture, in seconds.
 double gl_seconds_left(const Gl *gl);
 // Notes that a shader needs `seconds` for each of the remaining passes. Its pixels may differ in cost.
@@ -34,5 +34,3 @@ typedef struct GlPass {
 } GlPass;
 // Runs the passes in order and stores the result of the last pass in *out. Returns false if the GPU is out of memory.
 bool gl_run_passes(Gl *gl, Arena *arena, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out);
-int gl_downsample(const DrawNode *node);
-void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem);

@@ -1,4 +1,4 @@
-// scene_file_text.h: words, lines and numbers of model files.
+// scene_file.h: model files: their formats, words, lines and numbers.
 #pragma once
 
 #include "gl/scene_mesh.h"
@@ -11,5 +11,8 @@ Str mesh_next_line(Str *text);
 bool mesh_read_number(Str word, float *out);
 
 // Read the files of these formats, as mesh_from_file does.
+bool mesh_is_stl(Str bytes);
+bool mesh_read_stl(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
+bool mesh_read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
 bool mesh_read_ply(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
 bool mesh_read_off(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
