@@ -29,11 +29,7 @@ void petri_archive_close(PetriArchive **archive) {
 }
 
 const char *petri_archive_problem(const PetriArchive *archive) {
-#ifdef __EMSCRIPTEN__
-    return archive ? "petri for Node.js has no archives; use the native petri" : NULL;
-#else
     return archive ? "petri was built without SQLite; on Debian, install libsqlite3-dev and build petri again" : NULL;
-#endif
 }
 
 PetriStatus petri_archive_add_note(PetriArchive *archive, const char *text) {

@@ -17,6 +17,8 @@ HOST(duplicate) int host_duplicate(int descriptor, int least);
 HOST(descriptor_flags) int host_descriptor_flags(int descriptor);
 // Ends the program as if by a signal.
 HOST(end_by_signal) _Noreturn void host_end_by_signal(int number);
+// Replaces the program by another one of the package, with the same open standard descriptors.
+HOST(execute) int host_execute(const char *program, char *const *argv);
 // Returns the number of processors.
 HOST(processors) int host_processors(void);
 // Starts petri with other arguments in another instance and thread, without standard input. Returns its process id.

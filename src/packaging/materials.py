@@ -14,14 +14,14 @@ from pathlib import Path
 root = Path(__file__).resolve().parents[2]
 # Development dependencies of these folders that are bundled; the others are tools and their dependencies.
 BUNDLED = {
-    "src/web/page": r"@codemirror/|@lezer/|sql\.js$",
+    "src/web/page": r"@codemirror/|@lezer/",
     "src/editors/vscode": r"vscode-languageclient$",
 }
 # Libraries of which machine code is in petri's programs or in engine.wasm.
 LINKED = [
     ("xxHash", "BSD-2-Clause", "the header, in all programs"),
     ("musl", "MIT", "in engine.wasm, from Emscripten, and in the static program"),
-    ("SQLite", "blessing", "in sql.js"),
+    ("SQLite", "blessing", "in engine-archives.wasm and petri-pictures.wasm"),
 ]
 
 

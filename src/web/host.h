@@ -53,18 +53,6 @@ double host_measure(const char *text, const char *family, double weight, int wid
 HOST(image) const uint32_t *host_image(const char *file, int *width, int *height);
 // Fills pixels, in the format of ImageData, with the paint of a filter (PetriPaintCallback).
 HOST(paint) void host_paint(const double *commands, size_t count, uint32_t *pixels);
-// The database of the archive that is open in JavaScript (sqlite/sqlite3.h). host_sql_prepare returns the number of a
-// statement, or 0 on failure; host_sql_step returns SQLITE_ROW, SQLITE_DONE or SQLITE_CORRUPT. host_sql_reset clears
-// the parameters, too. Columns count from 0. host_sql_bytes returns a block with the bytes of a text or blob and a NUL,
-// which the caller frees, or NULL if out of memory.
-HOST(sql_prepare) int host_sql_prepare(const char *sql);
-HOST(sql_finalize) void host_sql_finalize(int statement);
-HOST(sql_bind) void host_sql_bind(int statement, int parameter, double value);
-HOST(sql_step) int host_sql_step(int statement);
-HOST(sql_reset) void host_sql_reset(int statement);
-HOST(sql_type) int host_sql_type(int statement, int column);
-HOST(sql_integer) void host_sql_integer(int statement, int column, int64_t *value);
-HOST(sql_bytes) unsigned char *host_sql_bytes(int statement, int column, size_t *length);
 // Receives the contents of an archive, and a version of a file in it.
 HOST(archive)
 void host_archive(const char *script, const char *command, const char *version, const char *sha256, double first_frame,

@@ -245,29 +245,6 @@ END
     petri run film.fl --frames 3 --archive hard.petri
     check "another name of a replaced archive keeps its contents" eval 'status_is 0 && cmp -s film.petri kept'
 
-    # Two recordings of one file
-    "$petri" run film.fl --realtime --frames 60 --archive busy.petri >first 2>&1 &
-    pid=$!
-    while [ ! -s busy.petri ] && kill -0 $pid; do
-        sleep 0.05
-    done
-    petri run film.fl --frames 3 --archive busy.petri
-    check "a second recording says who holds the archive" eval \
-        'status_is 1 && has err "in use by another petri process" && { [ "$(uname)" != Linux ] || has err "($pid)"; }'
-    wait $pid
-    check "the first recording succeeds" [ $? -eq 0 ]
-    petri verify busy.petri
-    check "the first recording is complete" eval 'status_is 0 && has out "verified: 60 of 60 frames"'
-    for round in new old; do
-        for i in 1 2 3 4 5 6; do
-            ("$petri" run film.fl --frames "$((100 * i))" --archive race.petri >/dev/null 2>&1 && echo "$((100 * i))" >>won) &
-        done
-        wait
-        petri verify race.petri
-        check "of six recordings of a $round archive, the last that is not refused is complete" eval \
-            'status_is 0 && [ -s won ] && has out "verified: $(tail -n 1 won) of"'
-    done
-
     if command -v sqlite3 >/dev/null 2>&1; then
         # hidden names, and names that would forge lines or reverse letters in messages
         for name in "'.bashrc'" "'.git/hooks/x'" "'a/.b/c'" "'x' || char(10) || 'petri: forged' || char(8238) || 'lf.exe'"; do

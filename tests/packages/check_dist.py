@@ -52,7 +52,7 @@ def check_materials(document):
     check("the version in the bill of materials", described["versionInfo"] == version)
     check("checksum of the archive", described["checksums"] == [{"algorithm": "SHA256", "checksumValue": checksum}])
     names = {part["name"] for part in document["packages"]}
-    check("bundled and linked software", {"xxHash", "sql.js", "@codemirror/view", "vscode-languageclient", "cairo", "sqlite3"} <= names)
+    check("bundled and linked software", {"xxHash", "SQLite", "@codemirror/view", "vscode-languageclient", "cairo", "sqlite3"} <= names)
     check("no tools", not names & {"esbuild", "typescript", "playwright-core"})
 
 

@@ -1,9 +1,8 @@
 // archive.test.mjs: archives that the native program has written are verified in WebAssembly, and replayed by the page. Skipped without
-// petri or SQLite. PETRI_WEB is build/web.
+// the native program. PETRI_WEB is build/web.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
+import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
@@ -33,16 +32,23 @@ const tried = spawnSync(petri, ['repl', 'live.fl'], {
     cwd: scratch, encoding: 'utf8',
     input: '.archive live.petri\n.step 30\n.set N 7\nlet k=2\n!counter state=:q rate=k\n.step 20\n.tempo 90\n.step 9\n.back 12\n.step 16\n',
 });
-const missing = tried.error || !existsSync(live) ? 'petri writes no archives'
-    : !existsSync(join(folder, 'sql-wasm.wasm')) ? 'no sql.js' : false;
+const missing = tried.error || !existsSync(live) ? 'petri writes no archives' : false;
 const node = { skip: missing }, browser = { ...options, skip: options.skip || missing };
-const { loadEngine } = missing ? {} : await import(pathToFileURL(join(folder, 'petri/petri.mjs')));
-const SQL = missing ? null : await createRequire(join(root, 'src/web/page/build.mjs'))('sql.js')();
-const engine = missing ? null : await loadEngine();
+const edits = { skip: missing || (spawnSync('sqlite3', ['-version']).error ? 'missing: sqlite3' : false) };
+const { loadEngine } = await import(pathToFileURL(join(folder, 'petri/petri.mjs')));
+const engine = await loadEngine('./engine-archives.wasm');
 
-// Replays a database. Returns the number of frames that are the same, the first that differs, and the first problem.
-function verify(database) {
-    const archive = engine.openArchive(database), session = engine.open({ archive, keepForces: true });
+// Returns the bytes of an archive after the SQL statements.
+function changed(sql, file = live) {
+    const copy = join(scratch, 'changed.petri');
+    copyFileSync(file, copy);
+    execFileSync('sqlite3', [copy, sql]);
+    return readFileSync(copy);
+}
+
+// Replays an archive. Returns the number of frames that are the same, the first that differs, and the first problem.
+function verify(bytes) {
+    const archive = engine.openArchive(bytes), session = engine.open({ archive, keepForces: true });
     const found = { info: archive.info, problem: archive.check(), same: 0, differs: null };
     archive.load(session);
     while (session.frame.number < archive.info.lastFrame && found.differs === null) {
@@ -59,7 +65,7 @@ function verify(database) {
 
 test('an archive of the native program is verified in WebAssembly', node, () => {
     const printed = execFileSync(petri, ['verify', live], { encoding: 'utf8' });
-    const { info, problem, same, differs } = verify(new SQL.Database(readFileSync(live)));
+    const { info, problem, same, differs } = verify(readFileSync(live));
     assert.equal(problem, null);
     assert.equal(info.script, 'live.fl');
     assert.equal(info.lastFrame, 62);
@@ -70,7 +76,7 @@ test('an archive of the native program is verified in WebAssembly', node, () => 
 test('a replay starts at any keyframe and goes back', node, () => {
     const run = join(scratch, 'run.petri');
     execFileSync(petri, ['run', 'live.fl', '--frames', '60', '--keyframe-every', '20', '--archive', run], { cwd: scratch });
-    const database = new SQL.Database(readFileSync(run)), archive = engine.openArchive(database), session = engine.open({ archive });
+    const archive = engine.openArchive(readFileSync(run)), session = engine.open({ archive });
     archive.load(session, 45);
     assert.equal(session.frame.number, 39);
     const before = session.step().snapshot(), digest = session.digest();
@@ -87,21 +93,72 @@ test('a replay starts at any keyframe and goes back', node, () => {
     archive.close();
 });
 
-test('forged and damaged archives are detected', node, () => {
-    const changed = sql => {
-        const database = new SQL.Database(readFileSync(live));
-        database.run(sql);
-        return database;
-    };
+test('forged and damaged archives are detected', edits, () => {
     const forged = engine.openArchive(changed('UPDATE digest SET digest = zeroblob(16) WHERE frame = 13'));
     assert.match(forged.check(), /damaged: table keyframe: row \d+ has another SHA-256/);
     assert.throws(() => engine.openArchive(changed('CREATE VIEW v AS SELECT 1')), /its tables are not those of an archive/);
     assert.throws(() => engine.openArchive(changed('PRAGMA user_version = 9')), /newer version of petri: format 9/);
     assert.throws(() => engine.openArchive(changed('PRAGMA application_id = 1')), /not an archive/);
-    assert.throws(() => engine.openArchive(changed("UPDATE keyframe SET frame = 'x' || frame WHERE frame = -1")), /cannot read|mismatch/);
-    assert.throws(() => engine.openArchive(new SQL.Database(Buffer.from('no database at all'))), /not a database/);
+    assert.throws(() => engine.openArchive(changed('PRAGMA journal_mode = WAL')), /write-ahead log, which no archive is/);
+    assert.throws(() => engine.openArchive(Buffer.from('no database at all')), /not an archive/);
     const archive = engine.openArchive(changed("UPDATE keyframe SET state = 'x' WHERE frame = -1")), session = engine.open({ archive });
     assert.throws(() => archive.load(session), /cannot load the archive: the archive is damaged: table keyframe: row -1 is not valid/);
+});
+
+test('the engine without archives says so', async () => {
+    const small = await loadEngine();
+    assert.throws(() => small.openArchive(new Uint8Array(0)), /this engine has no archives; load engine-archives\.wasm/);
+});
+
+// The page and the command in Node.js have the checks of the native command, so that they find the same first problem. What SQLite says
+// about its pages depends on its version.
+test('damage is reported as by the native program', node, () => {
+    const good = readFileSync(live), file = join(scratch, 'damaged.petri'), problems = new Set();
+    const common = text => text?.replace(/ damaged: (?!database|its|reading|table)[^\n]+/, ' damaged: pages');
+    const reason = text => text.match(/: (?!cannot)([^\n]*)\n$/)?.[1];
+    const first = bytes => {
+        let archive;
+        try {
+            archive = engine.openArchive(bytes);
+            return archive.check() ?? undefined;
+        } catch (error) {
+            return error.message.replace('cannot read the archive: ', '');
+        } finally {
+            archive?.close();
+        }
+    };
+    const damages = [0, 50, 99, 512, 4096, 5000, good.length - 4096, good.length - 1].map(length => good.subarray(0, length));
+    for (let i = 0; i < 40; i++) {
+        const bytes = Buffer.from(good), at = i < 20 ? 5 * i : (i * 7919) % good.length;
+        bytes[at] ^= 1 << i % 8;
+        damages.push(bytes);
+    }
+    for (const [i, bytes] of damages.entries()) {
+        writeFileSync(file, bytes);
+        const native = spawnSync(petri, ['verify', file], { encoding: 'utf8' }), problem = common(first(bytes));
+        assert.equal(problem, native.status === 2 ? common(reason(native.stderr)) : undefined, `damage ${i}: ${native.stderr}`);
+        problems.add(problem);
+        if (i % 6 === 0) {
+            const other = spawnSync('node', [join(folder, 'petri/cli.mjs'), 'verify', file], { encoding: 'utf8' });
+            assert.deepEqual([common(other.stderr), other.status], [common(native.stderr), native.status], `damage ${i}`);
+        }
+    }
+    assert.ok(problems.size > 6, [...problems].join('; '));
+});
+
+test('the command in Node.js records the rows of the native command', edits, () => {
+    const rows = [[petri], ['node', join(folder, 'petri/cli.mjs')]].map(([program, ...words], i) => {
+        const run = (...args) => execFileSync(program, [...words, ...args], { cwd: scratch, encoding: 'utf8' });
+        run('run', 'live.fl', '-D', 'N=5', '--frames', '50', '--keyframe-every', '20', '--archive', 'rows.petri');
+        run('unpack', 'rows.petri', `unpacked${i}`);
+        return [
+            execFileSync('sqlite3', [join(scratch, 'rows.petri'), '.dump'], { encoding: 'utf8' }),
+            run('info', 'rows.petri'), run('verify', 'rows.petri'),
+            run('run', 'rows.petri', '--from', '30', '--frames', '10', '--print', 'digest'), readFileSync(join(scratch, `unpacked${i}/live.fl`), 'utf8'),
+        ];
+    });
+    assert.deepEqual(rows[1], rows[0]);
+    assert.ok(rows[0][0].includes('INSERT INTO keyframe VALUES(39,'));
 });
 
 const mark = page => page.textContent('#verified');
@@ -112,10 +169,10 @@ test('the page replays an archive and shows that its frames are the recorded one
         page.on('request', request => page.fetched.push(new URL(request.url()).pathname));
     },
     use: async page => {
-        assert.ok(!page.fetched.some(path => /sql/.test(path)), 'SQLite is loaded only when it is needed');
+        assert.ok(!page.fetched.some(path => /archives/.test(path)), 'SQLite is loaded only when it is needed');
         await page.setInputFiles('#file', live);
         await page.waitForFunction(() => /✓.*; 63 of 63 verified/.test(document.getElementById('verified').textContent));
-        assert.ok(page.fetched.some(path => /sql-wasm.wasm/.test(path)));
+        assert.ok(page.fetched.some(path => /engine-archives\.wasm$/.test(path)));
         await page.click('#run');
         assert.match(await page.textContent('.cm-content'), /import scale from/);
         await seek(page, 31);
@@ -147,14 +204,12 @@ test('the page says which frame of a dropped archive differs, and rejects damage
             document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, cancelable: true }));
         }, [...bytes]);
         await drop(readFileSync(live).subarray(0, 3000));
-        await page.waitForFunction(() => /malformed|damaged/.test(document.getElementById('message').textContent));
+        await page.waitForFunction(() => /the archive is damaged: /.test(document.getElementById('message').textContent));
         // An archive whose sums fit another script: the digests of a run with another rate.
         writeFileSync(join(scratch, 'other.fl'), '!counter state=:c rate=frame if frame<4 else 3\n');
         execFileSync(petri, ['run', 'other.fl', '--frames', '9', '--archive', 'other.petri'], { cwd: scratch });
-        const database = new SQL.Database(readFileSync(join(scratch, 'other.petri')));
-        database.run('DELETE FROM keyframe WHERE frame > 0');
-        database.run('UPDATE digest SET digest = zeroblob(16) WHERE frame = 5');
-        await drop(database.export());
+        await drop(changed('DELETE FROM keyframe WHERE frame > 0; UPDATE digest SET digest = zeroblob(16) WHERE frame = 5',
+            join(scratch, 'other.petri')));
         await page.waitForFunction(() => /✗ frame 5 differs from the archive/.test(document.getElementById('verified').textContent));
     },
 }));

@@ -15,10 +15,10 @@ END
 chmod +x "$work/petri"
 cd "$root"
 
-# The parts of tests/cli that need neither drawing nor SQLite, except those that test messages only (suggest, syntax_hints). Some need files
+# The parts of tests/cli that need neither drawing nor locks of files, except those that test messages only (suggest, syntax_hints). Some need files
 # of the parts before them. `state` follows `record`, because it kills a run: without locks of files, the run's temporary
 # file remains, and `record` checks that there is none.
-tests/cli/run.sh "$work/petri" command streams parameters check bad_input record state golden diff new fmt link complete \
+tests/cli/run.sh "$work/petri" command streams parameters check bad_input record archive state golden diff new fmt link complete \
     >"$work/cli" 2>&1 &
 cli=$!
 failed=0
@@ -33,6 +33,11 @@ echo "petri repl in Node.js: $(tail -n 1 "$work/repl")"
 python3 tests/lsp/features.py "$work/petri" >"$work/lsp" 2>&1 || true
 grep -q '^[0-9]* passed, [0-9]* failed$' "$work/lsp" || failed=1
 echo "petri lsp in Node.js: $(tail -n 1 "$work/lsp")"
+native=build/src/petri-pictures
+if [ -x "$native" ]; then
+    tests/hashes/archives.sh "$native" "$work/petri" >"$work/archives" 2>&1 || failed=1
+    echo "archives of the native command and of Node.js: $(tail -n 1 "$work/archives")"
+fi
 wait "$cli" || true
 grep -q '^[0-9]* passed, [0-9]* failed$' "$work/cli" || failed=1
 sed -n 's/^FAIL \([^:]*\).*/\1/p' "$work/cli" "$work/lsp" | sort -u >"$work/found"

@@ -102,13 +102,11 @@ test('deep recursion is reported as in the native command', () => within(work =>
     assert.notEqual(run.status, 134, run.stderr);
 }));
 
-test('plans, archives and HDF5 are reported as not supported', () => within(work => {
+test('plans and HDF5 are reported as not supported', () => within(work => {
     const run = (...args) => petri(args, { cwd: work }).stderr;
     fs.writeFileSync(join(work, 'a.fl'), '!physics state=:p dimensions=1\n    !particle id=0\n');
     fs.writeFileSync(join(work, 'plan.yaml'), 'script: a.fl\n');
     assert.match(run('sweep', '--plan', 'plan.yaml'), /^petri: cannot read plan\.yaml: petri for Node\.js cannot read plans/);
-    const archive = run('run', 'a.fl', '--frames', '1', '--archive', 'a.petri');
-    assert.match(archive, /: petri for Node\.js has no archives; use the native petri\n$/);
     const table = /(^|\n)petri: cannot write a\.h5: petri for Node\.js does not write HDF5; use the suffix \.csv\n$/;
     assert.match(run('sweep', 'a.fl', '-D', 'N=1..2', '--frames', '1', '--metric', 'energy', '-o', 'a.h5'), table);
     assert.match(run('run', 'a.fl', '--frames', '1', '--trajectory', 'a.h5'), table);
@@ -170,7 +168,8 @@ test('SIGTERM ends a run with its summary', async () => {
 });
 
 test('the command is small and starts quickly', () => {
-    assert.ok(gzipSync(fs.readFileSync(join(folder, 'petri-command.wasm')), { level: 9 }).length <= 800e3);
+    const size = name => gzipSync(fs.readFileSync(join(folder, name)), { level: 9 }).length;
+    assert.ok(size('petri-command.wasm') <= 560e3 && size('petri-pictures.wasm') <= 1050e3);
     const seconds = command => Math.min(...Array.from({ length: 5 }, () => {
         const start = performance.now();
         assert.equal(spawnSync('node', command).status, 0);
@@ -232,7 +231,7 @@ test('petri view serves the script below a token, and reloads it', async () => {
         assert.equal(await status(`/${'0'.repeat(32)}/`), 404);
         for (const path of ['../../package.json', '%2e%2e/cli.mjs', 'offline.js', 'a.fl'])
             assert.equal(await status(path), 404, path);
-        for (const path of ['', 'page.js', 'worker.js', 'petri/engine.wasm'])
+        for (const path of ['', 'page.js', 'worker.js', 'petri/engine.wasm', 'petri/engine-archives.wasm'])
             assert.equal(await status(path), 200, path);
         assert.ok((await text('')).includes('<script src="view.js">'));
         assert.ok((await text('view.js')).includes(linkTo('!n a=1\n', 'a.fl')));

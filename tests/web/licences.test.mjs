@@ -28,7 +28,7 @@ function containsLicences(path, folder, names) {
 test('the page contains the licences of its packages', options, () => {
     const onlyTools = ['build.mjs', 'serve.mjs'];
     const names = imported('page', readdirSync(join(source, 'page')).filter(name => name.endsWith('.mjs') && !onlyTools.includes(name)));
-    assert(names.includes('@codemirror/view') && names.includes('sql.js'), names.join(' '));
+    assert(names.includes('@codemirror/view'), names.join(' '));
     containsLicences('third-party-licences.txt', 'page', [...names, '@lezer/common', 'style-mod', 'w3c-keyname']);
     assert.equal(readFileSync(join(web, 'petri/page/third-party-licences.txt'), 'utf8'),
         readFileSync(join(web, 'third-party-licences.txt'), 'utf8'));

@@ -47,6 +47,10 @@ int fcntl(int descriptor, int command, ...) {
     }
 }
 
+int execvp(const char *program, char *const *argv) {
+    return return_or_set_errno(host_execute(program, argv));
+}
+
 // emscripten's function ignores signals without a handler.
 int raise(int number) {
     struct sigaction action;

@@ -1,85 +1,58 @@
-// archive.mjs: archives of runs. An archive is an SQLite database, which the engine reads through sql.js (https://sql.js.org).
+// archive.mjs: archives of runs, which engine-archives.wasm reads from the memory of JavaScript.
 import { callEngine } from './call.mjs';
 
-const APPLICATION_ID = 0x50745269; // "PtRi"
-const ROW = 100, DONE = 101, CORRUPT = 11; // results of SQLite
-const INTEGER = 1, FLOAT = 2, TEXT = 3, BLOB = 4, NULL = 5; // types of SQLite
-const encoder = new TextEncoder();
+const EBADF = 8, EINVAL = 28, ENOENT = 44; // errors of emscripten's C library
+const REGULAR = 0o100444;
 
-// The statements of all databases, by number, for the functions host_sql_... of src/web/host.h.
-export class Statements {
-    constructor() {
-        this.last = 0;
-        this.all = new Map();
-    }
-
-    prepare(database, sql) {
-        try {
-            this.all.set(++this.last, { own: database.prepare(sql), values: [], row: null, begun: false });
-            return this.last;
-        } catch {
+// The only files that an engine can open: archives. They can only be read. The path of a file is its descriptor after a slash.
+export class ArchiveFiles {
+    // memory: access to the memory of the engine (wasm.mjs).
+    constructor(memory) {
+        this.last = 2;
+        this.files = new Map();
+        const number = path => Number(memory.text(path).slice(1)), find = path => this.files.get(number(path));
+        const stat = (bytes, error, to) => {
+            if (!bytes)
+                return -error;
+            memory.bytes().fill(0, to, to + 88);
+            memory.setWord(to + 12, REGULAR);
+            memory.setLong(to + 40, BigInt(bytes.length));
             return 0;
-        }
+        };
+        this.functions = {
+            __syscall_openat: (folder, path) => (find(path) ? number(path) : -ENOENT),
+            __syscall_stat64: (path, to) => stat(find(path), ENOENT, to),
+            __syscall_lstat64: (path, to) => stat(find(path), ENOENT, to),
+            __syscall_fstat64: (descriptor, to) => stat(this.files.get(descriptor), EBADF, to),
+            __syscall_readlink: path => (find(path) ? -EINVAL : -ENOENT), // there are no links
+            fd_pread: (descriptor, list, count, position, moved) => {
+                const at = memory.word(list), start = Number(position);
+                const part = this.files.get(descriptor)?.subarray(start, start + memory.word(list + 4));
+                memory.bytes().set(part ?? [], at);
+                memory.setWord(moved, part?.length ?? 0);
+                return part ? 0 : EBADF;
+            },
+            fd_close: () => 0,
+        };
     }
 
-    finalize(number) {
-        this.all.get(number).own.free();
-        this.all.delete(number);
+    // Adds a file and returns its path.
+    add(bytes) {
+        this.files.set(++this.last, bytes);
+        return `/${this.last}`;
     }
 
-    bind(number, parameter, value) {
-        this.all.get(number).values[parameter - 1] = value;
-    }
-
-    step(number) {
-        const statement = this.all.get(number);
-        try {
-            if (!statement.begun)
-                statement.own.bind(statement.values);
-            statement.begun = true;
-            statement.row = statement.own.step() ? statement.own.get(null, { useBigInt: true }) : null;
-            return statement.row ? ROW : DONE;
-        } catch {
-            statement.row = null;
-            return CORRUPT;
-        }
-    }
-
-    reset(number) {
-        const statement = this.all.get(number);
-        statement.own.reset();
-        Object.assign(statement, { values: [], row: null, begun: false });
-    }
-
-    value(number, column) {
-        return this.all.get(number).row?.[column] ?? null;
-    }
-
-    type(number, column) {
-        const value = this.value(number, column);
-        return value === null ? NULL : typeof value === 'bigint' ? INTEGER : typeof value === 'number' ? FLOAT
-            : typeof value === 'string' ? TEXT : BLOB;
-    }
-
-    integer(number, column) {
-        const value = this.value(number, column);
-        return typeof value === 'bigint' ? value : 0n;
-    }
-
-    bytes(number, column) {
-        const value = this.value(number, column);
-        return typeof value === 'string' ? encoder.encode(value) : value instanceof Uint8Array ? value : new Uint8Array();
+    remove(path) {
+        this.files.delete(Number(path.slice(1)));
     }
 }
 
 // An archive that is replayed. petri.d.ts documents it.
 export class Archive {
-    constructor(engine, database, memory) {
-        Object.assign(this, { engine, database });
-        if (database.exec('PRAGMA application_id')[0]?.values[0][0] !== APPLICATION_ID)
-            throw new Error('cannot read the archive: it is not an archive');
-        database.run('PRAGMA trusted_schema = OFF');
-        this.handle = this.run(wasm => wasm.web_archive_open(memory));
+    constructor(engine, bytes, memory) {
+        this.engine = engine;
+        this.path = engine.memory.files.add(bytes);
+        this.handle = this.run(wasm => engine.memory.withText(this.path, path => wasm.web_archive_open(path, memory)));
         const problem = this.handle ? this.problem : 'out of memory';
         if (problem || !this.run(wasm => wasm.web_archive_info(this.handle))) {
             const reason = problem ?? this.problem;
@@ -97,6 +70,7 @@ export class Archive {
         if (this.handle)
             this.run(wasm => wasm.web_archive_close(this.handle));
         this.handle = 0;
+        this.engine.memory.files.remove(this.path);
     }
 
     get problem() {

@@ -3,9 +3,17 @@ import fs from 'node:fs';
 import { isMainThread, parentPort, receiveMessageOnPort, workerData } from 'node:worker_threads';
 import { linkFunctions } from './links.mjs';
 import { runtime } from './runtime.mjs';
-import { Exit, System } from './system.mjs';
+import { Execution, Exit, System } from './system.mjs';
 
 const ENOSYS = 52;
+
+const programs = new Map(); // compiled programs that petri-command.wasm executes, by name
+
+function compile(name) {
+    if (!programs.has(name))
+        programs.set(name, new WebAssembly.Module(fs.readFileSync(new URL(`./${name}.wasm`, import.meta.url))));
+    return programs.get(name);
+}
 
 // Runs the command until it ends. `options` are those of System. Returns { status, signal }.
 export function runCommand(module, options) {
@@ -27,6 +35,8 @@ export function runCommand(module, options) {
     } catch (error) {
         if (error instanceof Exit)
             return error;
+        if (error instanceof Execution)
+            return runCommand(compile(error.program), { ...options, args: error.args });
         fs.writeSync(options.files?.[2] ?? 2, `petri: the program failed: ${error.message}\n`);
         if (options.environment.some(entry => entry.startsWith('PETRI_TRACE=')))
             fs.writeSync(2, `${error.stack}\n`);

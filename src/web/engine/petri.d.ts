@@ -67,23 +67,11 @@ export interface Engine {
     onContextChange: ((lost: boolean) => void) | null;
     open(options?: Options): Session;
     /**
-     * Opens an archive that `petri run --archive` has written. `database` is an object of sql.js: `new SQL.Database(bytes)`; close it after
-     * the archive. Throws an error if it is not an archive. `memory` limits the size of its files in bytes (default: 1 GiB).
+     * Opens an archive that `petri run --archive` has written. Only the engine in `engine-archives.wasm` can do so:
+     * `loadEngine('./engine-archives.wasm')`. Do not change the bytes until the archive is closed. Throws an error if they are not an
+     * archive. `memory` limits the size of its files in bytes (default: 1 GiB).
      */
-    openArchive(database: Database, options?: { memory?: number }): Archive;
-}
-
-/** The functions of a database of sql.js that the engine calls. */
-export interface Database {
-    exec(sql: string): { values: unknown[][] }[];
-    run(sql: string): unknown;
-    prepare(sql: string): {
-        bind(values: number[]): unknown;
-        step(): boolean;
-        get(values: null, options: { useBigInt: boolean }): unknown[];
-        reset(): unknown;
-        free(): unknown;
-    };
+    openArchive(bytes: Uint8Array, options?: { memory?: number }): Archive;
 }
 
 export interface ArchiveInfo {

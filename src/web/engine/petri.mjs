@@ -1,6 +1,6 @@
 // petri.mjs: petri sessions for JavaScript, which load a script, step it and read values. petri.d.ts documents types and calls; otherwise
 // the contracts of petri.h apply.
-import { Archive, Statements } from './archive.mjs';
+import { Archive } from './archive.mjs';
 import { callEngine } from './call.mjs';
 import { LEVELS, SECTIONS, STATUSES, TOKENS } from './constants.mjs';
 import { drawPicture, measureText, needsEngine, pictureSize } from './drawing.mjs';
@@ -41,7 +41,7 @@ class Engine {
         this.module = module;
         this.session = null; // the session of the current call
         this.paint = null; // draws the paint of the current filter (pixels.mjs)
-        const text = at => this.memory.text(at), statements = new Statements();
+        const text = at => this.memory.text(at);
         const now = () => this.session;
         this.memory = instantiate(module, {
             write: (at, length) => now().written.push(this.memory.text(at, length)),
@@ -89,20 +89,6 @@ class Engine {
                 }),
             archived_file: (name, frame, at, length) =>
                 now().results.push({ name: text(name), frame, bytes: this.memory.bytes().slice(at, at + length) }),
-            sql_prepare: sql => statements.prepare(now().database, text(sql)),
-            sql_finalize: number => statements.finalize(number),
-            sql_bind: (number, parameter, value) => statements.bind(number, parameter, value),
-            sql_step: number => statements.step(number),
-            sql_reset: number => statements.reset(number),
-            sql_type: (number, column) => statements.type(number, column),
-            sql_integer: (number, column, at) => this.memory.setLong(at, statements.integer(number, column)),
-            sql_bytes: (number, column, length) => {
-                const bytes = statements.bytes(number, column), ended = new Uint8Array(bytes.length + 1);
-                ended.set(bytes);
-                const at = this.memory.keep(ended); // which can move the memory
-                this.memory.setWord(length, bytes.length);
-                return at;
-            },
             token: (kind, start, end) => now().results.push({ kind: TOKENS[kind], start, end }),
             help: (kind, name, parameters, defaultValue, unit, help) =>
                 now().results.push({
@@ -125,8 +111,10 @@ class Engine {
         return new Session(this, options);
     }
 
-    openArchive(database, { memory = MEMORY } = {}) {
-        return new Archive(this, database, memory);
+    openArchive(bytes, { memory = MEMORY } = {}) {
+        if (!this.memory.wasm.web_archive_open)
+            throw new Error('this engine has no archives; load engine-archives.wasm');
+        return new Archive(this, bytes, memory);
     }
 }
 
@@ -142,7 +130,6 @@ export class Session {
         this.shouldInterrupt = shouldInterrupt;
         this.image = image;
         this.archive = archive;
-        this.database = archive?.database; // for the functions host_sql_...
         this.painter = null; // null: not opened yet; 0: not available
         this.renders = null; // true if the painter has a WebGL context; null: not tried yet
         this.context = 0; // the WebGL context of the painter (Screen.context)

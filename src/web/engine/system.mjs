@@ -42,6 +42,15 @@ export class Exit extends Error {
     }
 }
 
+// Thrown when the command executes another program of the package (helper_exec.c).
+export class Execution extends Error {
+    constructor(program, args) {
+        super(`execute ${program}`);
+        this.program = program;
+        this.args = args;
+    }
+}
+
 const sleeper = new Int32Array(new SharedArrayBuffer(4));
 const sleep = milliseconds => Atomics.wait(sleeper, 0, 0, milliseconds);
 
@@ -525,6 +534,12 @@ export class System {
             end_by_signal: number => {
                 throw new Exit(128 + number, number);
             },
+            execute: (program, argv) => {
+                const name = this.string(program).split('/').at(-1);
+                if (!/^petri-\w+$/.test(name) || !fs.existsSync(new URL(`./${name}.wasm`, import.meta.url)))
+                    throw new SystemError('ENOENT');
+                throw new Execution(name, this.strings(argv));
+            },
             processors: () => os.availableParallelism?.() ?? os.cpus().length,
             start: (folder, argv, output, errors) => this.launch({
                 folder: this.realPath(this.paths.toSystem(joinPath(this.folder, this.string(folder)))),
@@ -561,7 +576,7 @@ export class System {
             try {
                 return call(...values);
             } catch (error) {
-                if (error instanceof Exit || error instanceof RangeError || error instanceof WebAssembly.RuntimeError || !error.code)
+                if (error instanceof RangeError || error instanceof WebAssembly.RuntimeError || !error.code)
                     throw error;
                 return sign * (ERRORS[error.code] ?? ERRORS.EIO);
             }

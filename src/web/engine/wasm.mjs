@@ -1,5 +1,6 @@
 // wasm.mjs: loads engine.wasm in pages, workers and Node.js without emscripten's runtime. The engine needs only a clock from the system,
 // and calls JavaScript through the functions of src/web/host.h.
+import { ArchiveFiles } from './archive.mjs';
 import { runtime } from './runtime.mjs';
 import { Screen } from './webgl.mjs';
 
@@ -59,11 +60,11 @@ export function instantiate(module, host) {
         setLong: (at, value) => new DataView(wasm.memory.buffer).setBigInt64(at, value, true),
         setWord: (at, value) => new DataView(wasm.memory.buffer).setUint32(at, value, true),
     };
-    const screen = new Screen(memory);
+    const screen = new Screen(memory), files = new ArchiveFiles(memory);
     const imports = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-        const none = from === 'env' ? () => -ENOSYS : () => EBADF; // there is no file system
-        const given = from === 'petri' ? host[name] : find(name) ?? system[name] ?? screen.functions[name];
+        const none = from === 'env' ? () => -ENOSYS : () => EBADF; // there is no other file system
+        const given = from === 'petri' ? host[name] : find(name) ?? system[name] ?? files.functions[name] ?? screen.functions[name];
         (imports[from] ??= {})[name] = given ?? none;
     }
     wasm = new WebAssembly.Instance(module, imports).exports;
@@ -72,6 +73,7 @@ export function instantiate(module, host) {
         ...memory,
         wasm,
         screen,
+        files,
         // Copies a string to the engine's memory for the duration of a call, and calls `use` with its address and length.
         withText: (string, use) => {
             const encoded = typeof string === 'string' ? encoder.encode(string) : string;

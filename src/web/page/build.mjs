@@ -11,7 +11,7 @@ const [, , output, samples] = process.argv;
 const { metafile } = await build({
     entryPoints: {
         page: join(here, 'main.mjs'), start: join(here, 'preload.mjs'), worker: join(here, 'worker.mjs'),
-        'petri-dish': join(here, 'embed.mjs'), sqlite: join(here, 'sqlite.mjs'),
+        'petri-dish': join(here, 'embed.mjs'),
     },
     outdir: output, bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.css': 'text' },
     external: ['node:fs/promises'], logLevel: 'warning', metafile: true,
@@ -19,7 +19,6 @@ const { metafile } = await build({
 writeLicences(join(output, 'third-party-licences.txt'), packagesOf(metafile));
 for (const name of ['index.html', 'style.css', 'offline.js'])
     copyFileSync(join(here, name), join(output, name));
-copyFileSync(join(here, 'node_modules/sql.js/dist/sql-wasm.wasm'), join(output, 'sql-wasm.wasm'));
 const files = folder => readdirSync(join(samples, folder)).filter(name => name.endsWith('.fl'))
     .map(name => [`${folder}/${name}`, readFileSync(join(samples, folder, name), 'utf8')]);
 const texts = Object.fromEntries(readdirSync(samples).filter(name => name.endsWith('.fl')).sort()

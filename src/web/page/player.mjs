@@ -27,7 +27,7 @@ export class Player {
         });
     }
 
-    // Opens a new session that replays an archive, like `load`. On success, the player closes the archive and its database.
+    // Opens a new session that replays an archive, like `load`. On success, the player closes the archive.
     replay(archive, text) {
         const { script, firstFrame, lastFrame } = archive.info;
         this.replace({ archive }, text, script, [], session => archive.load(session));
@@ -45,7 +45,6 @@ export class Player {
         this.forget(-2);
         this.session?.close();
         this.archive?.close();
-        this.archive?.database.close();
         Object.assign(this, {
             session, text, name, keyframes: [], every: EVERY, first: 0, frame: -1, lastFrame: -1, torn: false, lacksHistory: false,
             archive: null, recordedEnd: -1, replays: false, verified: new Set(), differing: new Set(),

@@ -10,7 +10,7 @@ import { StateTable, Watches } from './tables.mjs';
 
 const STEP_TIME = 30; // ms that the frames of one picture may take
 const SEEK_STEPS = 50; // frames between checks for new requests
-let engine, player, checker, reported = [], flag = null, current = 0;
+let engine, player, checker, hasArchives = false, reported = [], flag = null, current = 0;
 
 // The page sets the flag to the id of the last request to interrupt. All earlier requests are interrupted as well.
 const shouldInterrupt = () => flag !== null && Atomics.load(flag, 0) >= current;
@@ -40,15 +40,30 @@ function check(text, name) {
     return checker.diagnose(text, name);
 }
 
+async function load(source) {
+    const loaded = await loadEngine(source);
+    loaded.onContextChange = lost => {
+        if (!lost)
+            player.redraw();
+        postMessage({ type: 'context', lost });
+    };
+    return loaded;
+}
+
+// Replaces the engine by the one with archives, unless this was done before. The current session keeps its engine.
+async function loadArchives() {
+    if (hasArchives)
+        return;
+    engine = await load(new URL('./petri/engine-archives.wasm', import.meta.url));
+    hasArchives = true;
+    player.engine = engine;
+    checker = undefined;
+}
+
 const handlers = {
     async open({ source, flag: shared }) {
         flag = shared;
-        engine = await loadEngine(source);
-        engine.onContextChange = lost => {
-            if (!lost)
-                player.redraw();
-            postMessage({ type: 'context', lost });
-        };
+        engine = await load(source);
         const options = { keepForces: true, onDiagnostic: report, shouldInterrupt, image: name => imageOf(images, name) };
         player = new Player(engine, options, watches);
         return { type: 'ready', version: engine.version, help: engine.open().help() };
@@ -82,11 +97,9 @@ const handlers = {
     },
     // Replays an archive, whose bytes are in `bytes`.
     async archive({ bytes }) {
-        const { openDatabase } = await import(new URL('./sqlite.js', import.meta.url));
-        const database = openDatabase(bytes);
-        let archive = null;
+        await loadArchives();
+        const archive = engine.openArchive(bytes);
         try {
-            archive = engine.openArchive(database);
             const problem = archive.check(), { files, info } = archive;
             if (problem)
                 throw new Error(`cannot read the archive: ${problem}`);
@@ -95,8 +108,7 @@ const handlers = {
             const script = files.find(({ name }) => name === info.script);
             player.replay(archive, script ? new TextDecoder().decode(script.bytes) : '');
         } catch (error) {
-            archive?.close();
-            database.close();
+            archive.close();
             throw error;
         }
         watches.forget(-1);
