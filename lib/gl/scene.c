@@ -1,4 +1,4 @@
-// scene.c: what the files share that read scenes and draw them; see scene.h.
+// scene.c: functions that reading and drawing of scenes share; see scene.h.
 #include "gl/scene.h"
 
 #include "base/file.h"

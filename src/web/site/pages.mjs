@@ -39,6 +39,8 @@ export const GROUPS = [
         { name: 'nodes', title: 'All nodes', about: 'Every attribute with its type, unit and default', made: 'nodes' },
     ]],
     ['Using petri', [
+        { name: 'platforms', title: 'Platforms and packages', about: 'Other systems, packages, wheels',
+            parts: [['src/manual/platforms.md']] },
         { name: 'command', title: 'The command', about: 'Commands, examples, messages, exit status', parts: [['src/manual/command.md']] },
         { name: 'options', title: 'All commands and options', about: 'The text of petri help', made: 'options' },
         { name: 'diagnostics', title: 'Diagnostics', about: 'What the codes of errors and warnings mean',
