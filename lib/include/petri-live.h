@@ -85,6 +85,68 @@ PETRI_API size_t petri_snapshot_bytes(const PetriSnapshot *snapshot);
 // until the next step. On failure, returns PETRI_OUT_OF_MEMORY and changes nothing.
 PETRI_API PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
 
+// A timeline of the frames that a session has computed, to go back to any of them. Some frames are kept as snapshots.
+// The others are computed again from the snapshot before them, with bit-identical results.
+//
+// A change of the configuration (script, definitions, clock rates, prompt statements) applies to the frames after it. A
+// frame is always computed again with the configuration that it had. A step from a past frame under a configuration
+// that was changed there discards the frames after it. If the session follows the wall clock, a frame is computed again
+// at its recorded time; a step from a past frame computes the next frame at the current time and discards the old ones.
+//
+// Use petri_history_step instead of petri_step, and start the timeline again after a call that replaces frame number
+// and state: petri_load, petri_reset, petri_restore, petri_rewind.
+typedef struct PetriHistory PetriHistory;
+
+// Returns a history of the session that starts at the current frame, or NULL if out of memory. Its snapshots use at
+// most `max_bytes` bytes (0: 64 MiB); two are kept even if they are larger. Free it with petri_history_free before the
+// session is closed.
+PETRI_API PetriHistory *petri_history_new(PetriSession *session, size_t max_bytes);
+
+// Frees a history. NULL is ignored.
+PETRI_API void petri_history_free(PetriHistory *history);
+
+// Drops the timeline and starts a new one at the current frame. `reason` becomes PetriHistoryInfo.reason; it is NULL or
+// lives as long as the history.
+PETRI_API PetriStatus petri_history_start(PetriHistory *history, const char *reason);
+
+// Like petri_step, but adds the frame to the timeline. If a past frame still has the configuration that it had when it
+// was computed, the next frame gets the one that it had.
+PETRI_API PetriStatus petri_history_step(PetriHistory *history);
+
+// Goes to the last frame before `frame` that is kept as a snapshot, or to the first frame of the timeline if `frame` is
+// that frame. petri_history_step then leads to `frame` in short steps. The session gets the configuration that the
+// frame had. Returns PETRI_INVALID if there is no such frame.
+PETRI_API PetriStatus petri_history_rewind(PetriHistory *history, int64_t frame);
+
+// Goes to a frame of the timeline, or steps forward to a frame after its end. The session keeps its current
+// configuration. Returns PETRI_INVALID if the frame is before the first one. After PETRI_INTERRUPTED, the session is
+// at an intermediate frame.
+PETRI_API PetriStatus petri_history_goto(PetriHistory *history, int64_t frame);
+
+// Computes the current frame, with its systems and tree, again from the snapshot before it. Does nothing for the first
+// frame of the timeline. Changes nothing if it fails.
+PETRI_API PetriStatus petri_history_recompute(PetriHistory *history);
+
+// Goes to the frame at which the timeline was started, even if it was dropped since then. The session keeps its current
+// configuration.
+PETRI_API PetriStatus petri_history_reset(PetriHistory *history);
+
+typedef struct PetriHistoryInfo {
+    int64_t first; // first and last frame of the timeline; -1: before frame 0
+    int64_t last;
+    const char
+        *reason;      // why frames before `first` are missing: a string that the host gave, or English; NULL: none are
+    size_t keyframes; // number of snapshots, and their size in bytes
+    size_t bytes;
+} PetriHistoryInfo;
+
+// Gets facts about a history. `size` is sizeof(PetriHistoryInfo). Returns false if `history` is NULL.
+PETRI_API bool petri_history_info(const PetriHistory *history, PetriHistoryInfo *info, size_t size);
+
+// Returns the petri_config_revision with which a frame of the timeline was computed; 0 if the frame is not in the
+// timeline or is its first one.
+PETRI_API uint64_t petri_history_config(const PetriHistory *history, int64_t frame);
+
 #ifdef __cplusplus
 }
 #endif

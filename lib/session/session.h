@@ -8,8 +8,8 @@
 //     2   config, checkpoint, diagnostics, image_text
 //     3   run, state_lint, text_sink
 //     4   recorder, tree_lint; values, functions, systems, tokens, profile, drawn_files
-//     5   load, frame, host_state, save, snapshot
-//     6   parameters, prompt, session, print
+//     5   load, frame, host_state, save
+//     6   history, parameters, prompt, session, print
 //     7   script
 //     8   check, replay
 #pragma once

@@ -81,7 +81,7 @@ void repl_complete_frame(Repl *repl) {
     if (!repl->incomplete)
         return;
     repl_busy(repl);
-    PetriStatus status = history_recompute(&repl->history, repl->session);
+    PetriStatus status = petri_history_recompute(repl->history);
     repl_idle(repl);
     repl->incomplete = status != PETRI_OK;
     repl_status(repl, status);

@@ -122,12 +122,11 @@ static void print_plot(Repl *repl, const double *values, int64_t first, int64_t 
 }
 
 // Recomputes `count` frames, ending with the current frame, and evaluates the expression in each of them.
-static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t first, int64_t count, double *values,
-                                   Text *why) {
+static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t first, int64_t count, double *values) {
     PetriStatus status = PETRI_OK;
     for (int64_t i = 0; i < count && status == PETRI_OK; i++) {
         PetriEvaluation result = {0};
-        status = history_goto(&repl->history, repl->session, first + i, why);
+        status = petri_history_goto(repl->history, first + i);
         if (status == PETRI_OK)
             status =
                 petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
@@ -138,22 +137,22 @@ static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t f
 
 static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
     int64_t now = petri_frame_number(repl->session), first = now - count + 1;
-    int64_t min = repl->history.first + 1;
+    PetriHistoryInfo history;
+    petri_history_info(repl->history, &history, sizeof history);
+    int64_t min = history.first + 1;
     first = first < min ? min : first;
     if (now < first)
         return repl_fail(repl, "no frames to plot; run .step first");
-    SCOPED_TEXT why = {0};
     double *values = memory_calloc((size_t)(now - first + 1) * sizeof *values);
     repl_busy(repl);
-    PetriStatus status = evaluate_frames(repl, expression, first, now - first + 1, values, &why);
+    PetriStatus status = evaluate_frames(repl, expression, first, now - first + 1, values);
     bool stopped = repl_idle(repl);
     if (status == PETRI_OK) {
         print_plot(repl, values, first, now - first + 1);
     } else {
-        history_goto(&repl->history, repl->session, now, &why);
+        petri_history_goto(repl->history, now);
         repl_fail(repl, "%s",
                   stopped                         ? "interrupted"
-                  : why.len > 0                   ? why.bytes
                   : status == PETRI_OUT_OF_MEMORY ? "out of memory"
                                                   : "nothing to plot");
     }

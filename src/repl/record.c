@@ -30,21 +30,20 @@ static bool same_folder(const char *a, const char *b) {
 }
 
 static bool can_record(Repl *repl, const char *script) {
-    const FrameHistory *history = &repl->history;
-    if (petri_frame_number(repl->session) < 0)
+    int64_t now = petri_frame_number(repl->session);
+    PetriHistoryInfo history;
+    petri_history_info(repl->history, &history, sizeof history);
+    if (now < 0)
         return repl_fail(repl, "no frames to record; run .step first");
-    if (history->first != -1) {
+    if (history.first != -1) {
         return repl_fail(repl, "a golden must start at frame 0, but the history starts at frame %" PRId64 "%s%s",
-                         history->first, !history->why ? "" : ": ", !history->why ? "" : history->why);
+                         history.first, !history.reason ? "" : ": ", !history.reason ? "" : history.reason);
     }
-    for (size_t i = 1; i < history->epoch_count; i++) {
-        if (history->epochs[i].start < petri_frame_number(repl->session)) {
-            return repl_fail(repl,
-                             "cannot record changes made at the prompt (frame %" PRId64 "); run .reset and step again",
-                             history->epochs[i].start);
-        }
-    }
-    if (history->epochs[0].config != petri_config_revision(repl->session))
+    for (int64_t i = 1; i <= now; i++)
+        if (petri_history_config(repl->history, i) != petri_history_config(repl->history, i - 1))
+            return repl_fail(
+                repl, "cannot record changes made at the prompt (frame %" PRId64 "); run .reset and step again", i - 1);
+    if (petri_history_config(repl->history, 0) != petri_config_revision(repl->session))
         return repl_fail(repl, "cannot record: settings changed after these frames; run .reset and step again");
     if (repl->rates_changed)
         return repl_fail(repl, "cannot record frames after .tempo or .fps; to start again, run .load FILE");
@@ -99,10 +98,10 @@ static bool add_options(Repl *repl, Text *text, int64_t frames, int64_t every) {
 }
 
 // Recomputes frames 0 to `last` and collects the text of every `every`-th frame.
-static PetriStatus collect_output(Repl *repl, Text *text, int64_t last, int64_t every, Text *why) {
+static PetriStatus collect_output(Repl *repl, Text *text, int64_t last, int64_t every) {
     PetriStatus status = PETRI_OK;
     for (int64_t i = 0; i <= last && status == PETRI_OK; i++) {
-        status = history_goto(&repl->history, repl->session, i, why);
+        status = petri_history_goto(repl->history, i);
         if (status == PETRI_OK && i % every == 0)
             status = petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, text_collect, text);
     }
@@ -111,16 +110,15 @@ static PetriStatus collect_output(Repl *repl, Text *text, int64_t last, int64_t 
 
 static bool write_golden(Repl *repl, const char *golden, const char *script, int64_t every) {
     int64_t last = petri_frame_number(repl->session);
-    SCOPED_TEXT text = {0}, why = {0};
+    SCOPED_TEXT text = {0};
     bool good = can_record(repl, script) && add_options(repl, &text, last + 1, every) && write_script(repl, script);
     if (good) {
         repl_busy(repl);
-        PetriStatus status = collect_output(repl, &text, last, every, &why);
+        PetriStatus status = collect_output(repl, &text, last, every);
         bool stopped = repl_idle(repl);
         if (status != PETRI_OK) {
-            history_goto(&repl->history, repl->session, last, &why);
-            good = why.len > 0 ? repl_fail(repl, "%s", why.bytes)
-                               : repl_status(repl, stopped ? PETRI_INTERRUPTED : status);
+            petri_history_goto(repl->history, last);
+            good = repl_status(repl, stopped ? PETRI_INTERRUPTED : status);
         }
     }
     const char *problem = good ? file_replace(golden, text_str(&text), 0) : NULL;

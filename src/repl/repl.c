@@ -143,7 +143,8 @@ static void start_session(Repl *repl, const char *state) {
         repl_load(repl, repl->script);
     if (!read_state(repl, state))
         repl->failed = true;
-    if (!history_start(&repl->history, repl->session, NULL))
+    repl->history = petri_history_new(repl->session, 0);
+    if (!repl->history)
         repl_status(repl, PETRI_OUT_OF_MEMORY);
     repl->any_failed = repl->failed;
 }
@@ -175,7 +176,7 @@ static int repl_run(const CommandContext *host, Options *options) {
         status = output_finish(&repl.output, run_session(&repl, options->state_file));
     if (!archiving_end(&repl.archiving) && status == STATUS_DONE)
         status = STATUS_FAILED;
-    history_free(&repl.history);
+    petri_history_free(repl.history);
     petri_close(&repl.session);
     file_watch_free(repl.files);
     texts_free(&repl.watched);

@@ -11,16 +11,16 @@
 
 #include "cli/archive.h"
 #include "cli/file_watch.h"
-#include "cli/history.h"
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "petri-edit.h"
+#include "petri-live.h"
 
 typedef struct Repl {
     Options *options;
     PetriSession *session;
-    FrameHistory history;
+    PetriHistory *history;
     Archiving archiving; // the archive of .archive
     Output output;
     FileWatch *files;        // watches the script and the files that it uses

@@ -190,8 +190,8 @@ static bool run_reload(Repl *repl, const char *rest) {
     bool first = !repl->loaded;
     if (!finish_load(repl, status))
         return false;
-    if (first && !history_start(&repl->history, repl->session, NULL))
-        return repl_status(repl, PETRI_OUT_OF_MEMORY);
+    if (first && !repl_status(repl, petri_history_start(repl->history, NULL)))
+        return false;
     repl_note(repl, "%s reloaded", repl->script);
     return true;
 }
@@ -238,7 +238,7 @@ static bool run_load(Repl *repl, const char *rest) {
     if (!repl_load(repl, rest))
         return false;
     petri_reset(repl->session);
-    return history_start(&repl->history, repl->session, NULL) || repl_status(repl, PETRI_OUT_OF_MEMORY);
+    return repl_status(repl, petri_history_start(repl->history, NULL));
 }
 
 static bool run_save(Repl *repl, const char *rest) {
@@ -254,8 +254,7 @@ static bool run_restore(Repl *repl, const char *rest) {
     if (!repl_status(repl, petri_restore(repl->session, rest)))
         return false;
     repl_note(repl, "restored the state after frame %" PRId64, petri_frame_number(repl->session));
-    return history_start(&repl->history, repl->session, "a state was restored") ||
-           repl_status(repl, PETRI_OUT_OF_MEMORY);
+    return repl_status(repl, petri_history_start(repl->history, "a state was restored"));
 }
 
 const ReplCommand SCRIPT_COMMANDS[] = {

@@ -65,7 +65,7 @@ typedef enum Outcome { RUNNING, REACHED, ABORTED } Outcome;
 
 static Outcome step_once(Repl *repl, const StepRequest *request) {
     PetriEvaluation result = {0};
-    PetriStatus status = history_step(&repl->history, repl->session);
+    PetriStatus status = petri_history_step(repl->history);
     if (status == PETRI_OK && request->until)
         status =
             petri_evaluate(repl->session, request->until, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
@@ -115,14 +115,14 @@ static bool step_frames(Repl *repl, const StepRequest *request) {
 }
 
 // Goes to a frame. Within the history, goes there directly. Beyond its end, computes frame by frame and shows a
-// progress line.
-static PetriStatus seek_frame(Repl *repl, int64_t frame, Text *why) {
-    int64_t last = repl->history.last, made = 0;
+// progress line. `last` is the last frame of the history.
+static PetriStatus seek_frame(Repl *repl, int64_t frame, int64_t last) {
+    int64_t made = 0;
     Progress progress;
-    PetriStatus status = history_goto(&repl->history, repl->session, frame < last ? frame : last, why);
+    PetriStatus status = petri_history_goto(repl->history, frame < last ? frame : last);
     progress_start(&progress, repl->terminal && progress_possible(), frame - last);
     while (status == PETRI_OK && petri_frame_number(repl->session) < frame) {
-        status = history_goto(&repl->history, repl->session, last + ++made, why);
+        status = petri_history_goto(repl->history, last + ++made);
         progress_update(&progress, made);
     }
     progress_erase(&progress);
@@ -130,17 +130,21 @@ static PetriStatus seek_frame(Repl *repl, int64_t frame, Text *why) {
 }
 
 static bool go_to(Repl *repl, int64_t frame) {
-    SCOPED_TEXT why = {0};
+    PetriHistoryInfo history;
     repl_refresh(repl);
     repl->failed = false;
     repl_busy(repl);
-    PetriStatus status = seek_frame(repl, frame, &why);
+    petri_history_info(repl->history, &history, sizeof history);
+    PetriStatus status = seek_frame(repl, frame, history.last);
     bool stopped = repl_idle(repl);
     repl->incomplete = stopped;
     if (stopped)
         repl_fail(repl, "interrupted");
+    else if (status == PETRI_INVALID && frame < history.first)
+        repl_fail(repl, "cannot go to frame %" PRId64 ": the history starts at frame %" PRId64 "%s%s", frame,
+                  history.first, !history.reason ? "" : ": ", !history.reason ? "" : history.reason);
     else if (status == PETRI_INVALID)
-        repl_fail(repl, "%s", why.len == 0 ? "cannot go to that frame" : why.bytes);
+        repl_fail(repl, "cannot go to that frame");
     else
         repl_status(repl, status);
     if (status == PETRI_OK || stopped)
@@ -183,19 +187,20 @@ static bool run_until(Repl *repl, const char *rest) {
 }
 
 static bool run_back(Repl *repl, const char *rest) {
-    int64_t count = 1, ago = petri_frame_number(repl->session) - repl->history.first;
+    PetriHistoryInfo history;
+    petri_history_info(repl->history, &history, sizeof history);
+    int64_t count = 1, ago = petri_frame_number(repl->session) - history.first;
     if (!argument_count(repl, rest, 1, &count))
         return false;
     if (count <= ago)
         return go_to(repl, petri_frame_number(repl->session) - count);
     SCOPED_TEXT start = {0}; // the reason why the history does not start earlier
-    const char *why = repl->history.why;
-    text_add_format(&start, !why ? "this is the start" : "the history starts here (%s)", why);
+    text_add_format(&start, !history.reason ? "this is the start" : "the history starts here (%s)", history.reason);
     if (ago > 0)
         repl_note(repl, "went back only %" PRId64 " frame%s: %s", ago, ago == 1 ? "" : "s", start.bytes);
     else
         repl_fail(repl, "cannot go back: %s", start.bytes);
-    return ago > 0 && go_to(repl, repl->history.first);
+    return ago > 0 && go_to(repl, history.first);
 }
 
 static bool run_go(Repl *repl, const char *rest) {
@@ -205,11 +210,7 @@ static bool run_go(Repl *repl, const char *rest) {
 
 static bool run_reset(Repl *repl, const char *rest) {
     (void)rest;
-    PetriStatus status = history_reset(&repl->history, repl->session);
-    if (status == PETRI_OK && petri_frame_number(repl->session) < repl->history.first &&
-        !history_start(&repl->history, repl->session, NULL))
-        status = PETRI_OUT_OF_MEMORY;
-    if (!repl_status(repl, status))
+    if (!repl_status(repl, petri_history_reset(repl->history)))
         return false;
     repl_show_frame(repl);
     return true;

@@ -128,7 +128,7 @@ void live_script_close(LiveScript *live) {
     recording_free(&live->recording);
     petri_picture_free(&live->picture);
     petri_picture_free(&live->last_complete);
-    history_free(&live->history);
+    petri_history_free(live->history);
     archiving_end(&live->archiving);
     petri_close(&live->session);
     petri_painter_close(&live->painter);
@@ -221,8 +221,7 @@ void live_script_begin(LiveScript *live) {
 
 bool live_script_step(LiveScript *live) {
     size_t before = live->error_text.len;
-    PetriStatus status =
-        live->options->listen ? history_step(&live->history, live->session) : petri_step(live->session);
+    PetriStatus status = live->options->listen ? petri_history_step(live->history) : petri_step(live->session);
     PetriFrame frame;
     petri_frame(live->session, &frame, sizeof frame);
     if (status != PETRI_OK) {
@@ -296,24 +295,25 @@ bool live_script_set_parameter(LiveScript *live, const char *name, const char *v
 }
 
 bool live_script_enable_history(LiveScript *live) {
-    live->history.live = live->options->realtime;
-    bool started = history_start(&live->history, live->session, NULL);
-    if (!started)
+    live->history = petri_history_new(live->session, 0);
+    if (!live->history)
         message("out of memory");
-    return started;
+    return live->history;
 }
 
 bool live_script_go_back(LiveScript *live, int64_t count, Text *why) {
-    int64_t now = petri_frame_number(live->session), first = live->history.first + 1;
+    PetriHistoryInfo history;
+    petri_history_info(live->history, &history, sizeof history);
+    int64_t now = petri_frame_number(live->session), first = history.first + 1;
     if (now <= first) {
-        text_add_format(why, "cannot go back: %s", !live->history.why ? "this is the start" : live->history.why);
+        text_add_format(why, "cannot go back: %s", !history.reason ? "this is the start" : history.reason);
         return false;
     }
-    PetriStatus status = history_goto(&live->history, live->session, count < now - first ? now - count : first, why);
+    PetriStatus status = petri_history_goto(live->history, count < now - first ? now - count : first);
     if (status == PETRI_OK) {
         resume(live);
         update_picture(live);
-    } else if (why->len == 0) {
+    } else {
         text_add_c(why, petri_status_text(status));
     }
     petri_resync_clock(live->session);
@@ -322,8 +322,7 @@ bool live_script_go_back(LiveScript *live, int64_t count, Text *why) {
 
 void live_script_reset(LiveScript *live) {
     petri_reset(live->session);
-    if (live->options->listen)
-        history_start(&live->history, live->session, NULL);
+    petri_history_start(live->history, NULL);
     resume(live);
     if (!is_outdated(live))
         clear_error_text(live);

@@ -27,12 +27,12 @@
 
 #include "cli/archive.h"
 #include "cli/file_watch.h"
-#include "cli/history.h"
 #include "cli/memory.h"
 #include "cli/options.h"
 #include "cli/shader_test.h"
 #include "cli/state_file.h"
 #include "petri-draw.h"
+#include "petri-live.h"
 #include "render/recording.h"
 
 // The warnings about the current program.
@@ -66,7 +66,7 @@ typedef struct LiveScript {
     bool failed;          // true if an error occurred while reading, writing or recording
     bool memory_reported; // true if a failure to allocate memory for a picture was reported
     StateFile state_file;
-    FrameHistory history;    // used if other programs control the view (Options.listen), so that they can go back
+    PetriHistory *history;   // used if other programs control the view (Options.listen), so that they can go back
     bool invalid_definition; // true if a value of -D is invalid for the script
     // Messages
     // True if messages are collected in `log` until the display is closed, because the display uses the terminal to

@@ -1,6 +1,6 @@
-// test_session_images.c: a session continues with the same digests after it went back to a snapshot, and a new session
-// continues so from the texts of a keyframe, whatever happened before and after: frames, parameters, input, values that
-// the host stored, statements of the prompt.
+// test_session_images.c: a session continues with the same digests after it went back to a snapshot or within a
+// history, and a new session continues so from the texts of a keyframe, whatever happened before and after: frames,
+// parameters, input, values that the host stored, statements of the prompt.
 #include "petri-live.h"
 #include "player.h"
 #include "session/recorder.h"
@@ -153,7 +153,89 @@ static void test_sessions_continue_the_same(void **state) {
     }
 }
 
+// Changes the configuration, in some cases so that it is the same as before.
+static void change_config(PetriSession *session, uint64_t *random) {
+    uint32_t kind = next_random(random, 5), value = next_random(random, 9);
+    if (kind == 0)
+        set_parameter(session, "N", 1 + value);
+    else if (kind == 1)
+        set_parameter(session, "DIM", 1 + value % 3);
+    else if (kind == 2)
+        set_parameter(session, "KIND", value % 4);
+    for (uint32_t i = 0; kind > 2 && i < 3; i++)
+        assert_int_equal(petri_set_tempo(session, (i % 2 ? 100 : 110) + (kind == 3 ? value * i : 0)), PETRI_OK);
+}
+
+enum { MAX_FRAME = 400 };
+
+// Digests and configurations of the frames that were computed, by number.
+typedef struct Known {
+    uint8_t digests[MAX_FRAME][16];
+    uint64_t configs[MAX_FRAME];
+} Known;
+
+// Compares the current frame with its known digest, if the timeline still has all frames to `*last`, else stores it.
+// Sets `*last` to its last frame.
+static void check_frame(PetriSession *session, PetriHistory *history, int64_t *last, Known *known, uint64_t run) {
+    uint8_t digest[16];
+    int64_t frame = petri_frame_number(session);
+    PetriHistoryInfo info;
+    assert_true(petri_history_info(history, &info, sizeof info));
+    bool is_known = frame <= *last && info.last >= *last;
+    *last = info.last;
+    if (frame <= info.first)
+        return;
+    uint64_t config = petri_history_config(history, frame);
+    assert_true(config != 0 && frame < MAX_FRAME);
+    assert_int_equal(petri_digest(session, digest), PETRI_OK);
+    bool replaced = frame == info.last && known->configs[frame] != config; // the last frame, after a change before it
+    if (is_known && !replaced &&
+        (known->configs[frame] != config || memcmp(digest, known->digests[frame], sizeof digest) != 0))
+        fail_msg("run %llu: frame %lld differs", (unsigned long long)run, (long long)frame);
+    known->configs[frame] = config;
+    memcpy(known->digests[frame], digest, sizeof digest);
+}
+
+// Goes back and forth at random, changes the configuration at random, and compares each frame that is computed again.
+// The history may keep only few snapshots.
+static void test_history_gives_the_same_digests(void **state) {
+    static Known known;
+    Player *player = *state;
+    for (uint64_t run = 0; run < RUNS; run++) {
+        uint64_t random = run;
+        int64_t last = -1;
+        PetriSession *session = open_session(player);
+        assert_int_equal(petri_load(session, "t.fl"), PETRI_OK);
+        PetriHistory *history = petri_history_new(session, run % 3 ? 20000 : 0);
+        for (int i = 0; i < 150; i++) {
+            PetriHistoryInfo info;
+            assert_true(petri_history_info(history, &info, sizeof info));
+            uint32_t kind = next_random(&random, 12);
+            int64_t span = info.last - info.first + 1, frame = info.first + next_random(&random, (uint32_t)span);
+            if (kind == 0)
+                change_config(session, &random);
+            else if (kind == 1)
+                assert_int_equal(petri_history_goto(history, frame), PETRI_OK);
+            else if (kind == 2 && frame > info.first)
+                assert_int_equal(petri_history_rewind(history, frame), PETRI_OK);
+            else if (kind == 3)
+                assert_int_equal(petri_history_recompute(history), PETRI_OK);
+            else if (kind < 8 && petri_frame_number(session) < MAX_FRAME - 1)
+                assert_int_equal(petri_history_step(history), PETRI_OK);
+            else if (petri_frame_number(session) < MAX_FRAME - 40)
+                for (uint32_t k = next_random(&random, 30); k > 0; k--) {
+                    assert_int_equal(petri_history_step(history), PETRI_OK);
+                    check_frame(session, history, &last, &known, run);
+                }
+            check_frame(session, history, &last, &known, run);
+        }
+        petri_history_free(history);
+        petri_close(&session);
+    }
+}
+
 TEST_GROUP(session_images) {
-    const struct CMUnitTest tests[] = {PLAYER_TEST(test_sessions_continue_the_same)};
+    const struct CMUnitTest tests[] = {PLAYER_TEST(test_sessions_continue_the_same),
+                                       PLAYER_TEST(test_history_gives_the_same_digests)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,4 @@
-// test_src_history.c: tests that going back and forth in a session gives the same bits, and that memory is bounded.
-#include "cli/cli.h"
-#include "cli/history.h"
+// test_session_history.c: tests that going back and forth in a session gives the same bits, and that memory is bounded.
 #include "petri-inspect.h"
 #include "petri-live.h"
 #include "player.h"
@@ -24,26 +22,36 @@ static uint64_t state_hash(Player *player) {
 
 enum { FRAMES = 20000 };
 
-static FrameHistory history;
+static PetriHistory *history;
+enum { MAX_KEYFRAMES = 512, MAX_EPOCHS = 512, INTERVAL = 8 }; // as in history.c
 static uint64_t hashes[FRAMES];
 
 static void step(Player *player, int frames) {
     for (int i = 0; i < frames; i++) {
-        assert_int_equal(history_step(&history, player->session), PETRI_OK);
+        assert_int_equal(petri_history_step(history), PETRI_OK);
         hashes[petri_frame_number(player->session)] = state_hash(player);
     }
 }
 
 static void go_to(Player *player, int64_t frame) {
-    Text why = {0};
-    PetriStatus status = history_goto(&history, player->session, frame, &why);
-    if (status != PETRI_OK)
-        print_error("%lld: %s\n", (long long)frame, why.bytes ? why.bytes : "");
-    assert_int_equal(status, PETRI_OK);
+    assert_int_equal(petri_history_goto(history, frame), PETRI_OK);
     assert_int_equal(petri_frame_number(player->session), frame);
     if (frame >= 0)
         assert_true(state_hash(player) == hashes[frame]);
-    text_free(&why);
+}
+
+static PetriHistoryInfo info(void) {
+    PetriHistoryInfo found;
+    assert_true(petri_history_info(history, &found, sizeof found));
+    return found;
+}
+
+// Returns the number of configurations of the frames of the timeline.
+static int count_epochs(void) {
+    int count = 0;
+    for (int64_t frame = info().first + 1; frame <= info().last; frame++)
+        count += petri_history_config(history, frame) != petri_history_config(history, frame - 1);
+    return count;
 }
 
 static void start_history(Player *player) {
@@ -51,7 +59,8 @@ static void start_history(Player *player) {
     options.rollback_frames = true;
     player_reopen(player, &options);
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
-    assert_true(history_start(&history, player->session, NULL));
+    history = petri_history_new(player->session, 0);
+    assert_non_null(history);
 }
 
 static void test_goto_any_frame_gives_same_bits(void **state) {
@@ -59,8 +68,8 @@ static void test_goto_any_frame_gives_same_bits(void **state) {
     uint64_t random = 1;
     start_history(player);
     step(player, FRAMES);
-    assert_true(history.keyframe_count <= HISTORY_MAX);
-    assert_true(history.bytes <= HISTORY_BYTES);
+    assert_true(info().keyframes <= MAX_KEYFRAMES);
+    assert_true(info().bytes <= (size_t)64 << 20);
     for (int i = 0; i < 40; i++) {
         random = random * UINT64_C(6364136223846793005) + 1;
         go_to(player, (int64_t)((random >> 33) % FRAMES));
@@ -69,12 +78,12 @@ static void test_goto_any_frame_gives_same_bits(void **state) {
     go_to(player, 0);
     go_to(player, FRAMES - 1);
     // Recent frames have dense keyframes. The gap between keyframes is limited relative to their age.
-    for (size_t i = 1; i < history.keyframe_count; i++) {
-        int64_t gap = history.keyframes[i].frame - history.keyframes[i - 1].frame;
-        int64_t age = history.last - history.keyframes[i - 1].frame;
-        assert_true(gap <= HISTORY_INTERVAL || gap < age / 16 + 2 * HISTORY_INTERVAL);
+    for (int64_t frame = FRAMES - 1; frame > 0; frame -= 37) {
+        assert_int_equal(petri_history_rewind(history, frame), PETRI_OK);
+        int64_t from = petri_frame_number(player->session);
+        assert_true(from < frame && frame - from <= INTERVAL + (FRAMES - from) / 16 + 2 * INTERVAL);
     }
-    history_free(&history);
+    petri_history_free(history);
 }
 
 // A change applies only to later frames. Earlier frames are recomputed without it.
@@ -89,7 +98,7 @@ static void test_change_applies_to_later_frames(void **state) {
     step(player, 50);
     assert_int_equal(petri_set_tempo(player->session, 90), PETRI_OK);
     step(player, 50);
-    assert_int_equal(history.epoch_count, 3);
+    assert_int_equal(count_epochs(), 3);
     static const int64_t way[] = {20, 149, 49, 50, 99, 100, 3, 120, 60, 149};
     for (size_t i = 0; i < sizeof way / sizeof way[0]; i++)
         go_to(player, way[i]);
@@ -97,59 +106,56 @@ static void test_change_applies_to_later_frames(void **state) {
     go_to(player, 30);
     assert_float_equal(last_frame(player->session).tempo, 90, 0);
     step(player, 40);
-    assert_int_equal(history.last, 70);
-    assert_int_equal(history.epoch_count, 2);
+    assert_int_equal(info().last, 70);
+    assert_int_equal(count_epochs(), 2);
     static const int64_t again[] = {29, 30, 31, 70, 10, 45, 70};
     for (size_t i = 0; i < sizeof again / sizeof again[0]; i++)
         go_to(player, again[i]);
     // A step with the same settings keeps the later frames.
     go_to(player, 50);
     step(player, 5);
-    assert_int_equal(history.last, 70);
+    assert_int_equal(info().last, 70);
     go_to(player, 70);
-    history_free(&history);
+    petri_history_free(history);
 }
 
 static void test_goto_before_start_is_rejected(void **state) {
     Player *player = *state;
-    Text why = {0};
     start_history(player);
     step(player, 30);
-    assert_true(history_start(&history, player->session, "for a reason"));
+    assert_int_equal(petri_history_start(history, "for a reason"), PETRI_OK);
     step(player, 30);
-    assert_int_equal(history_goto(&history, player->session, 12, &why), PETRI_INVALID);
-    assert_non_null(strstr(why.bytes, "starts at frame 29: for a reason"));
+    assert_int_equal(petri_history_goto(history, 12), PETRI_INVALID);
+    assert_int_equal(info().first, 29);
+    assert_string_equal(info().reason, "for a reason");
     assert_int_equal(petri_frame_number(player->session), 59);
     go_to(player, 30);
-    assert_int_equal(history_reset(&history, player->session), PETRI_OK);
+    assert_int_equal(petri_history_reset(history), PETRI_OK);
     assert_int_equal(petri_frame_number(player->session), 29);
-    text_free(&why);
-    history_free(&history);
+    petri_history_free(history);
 }
 
-// Each change needs its own keyframe, so that the oldest frames are dropped if there are more changes than keyframes.
+// A history keeps a limited number of changes. If there are more, the oldest frames are dropped.
 static void test_many_changes_drop_the_oldest_frames(void **state) {
-    enum { CHANGES = HISTORY_MAX + 100 };
+    enum { CHANGES = MAX_EPOCHS + 100 };
     Player *player = *state;
-    Text why = {0};
     start_history(player);
     for (int i = 0; i < CHANGES; i++) {
         assert_int_equal(petri_set_tempo(player->session, 60 + i), PETRI_OK);
         step(player, 2);
     }
-    assert_true(history.keyframe_count <= HISTORY_MAX);
-    assert_true(history.epoch_count <= HISTORY_MAX);
-    assert_in_range(history.first, 2 * 100 - 2, 2 * 100 + 20);
-    assert_int_equal(history_goto(&history, player->session, history.first - 1, &why), PETRI_INVALID);
-    assert_non_null(strstr(why.bytes, "earlier frames were dropped to save memory"));
-    go_to(player, history.first);
-    go_to(player, history.first + 1);
+    assert_true(info().keyframes <= MAX_KEYFRAMES);
+    assert_true(count_epochs() <= MAX_EPOCHS);
+    assert_in_range(info().first, 2 * 100 - 2, 2 * 100 + 20);
+    assert_int_equal(petri_history_goto(history, info().first - 1), PETRI_INVALID);
+    assert_string_equal(info().reason, "earlier frames were dropped to save memory");
+    go_to(player, info().first);
+    go_to(player, info().first + 1);
     go_to(player, 2 * CHANGES - 1);
     go_to(player, CHANGES);
-    assert_int_equal(history_reset(&history, player->session), PETRI_OK); // the first frame itself is kept
+    assert_int_equal(petri_history_reset(history), PETRI_OK); // the first frame itself is kept
     assert_int_equal(petri_frame_number(player->session), -1);
-    text_free(&why);
-    history_free(&history);
+    petri_history_free(history);
 }
 
 // Drops all data except the state of the current frame, as after an interrupted step.
@@ -162,7 +168,7 @@ static void lose_systems(Player *player) {
 }
 
 // If only the state of a frame exists, history_recompute computes the rest of the frame again, with the configuration
-// of the epoch (history.h) to which the frame belongs.
+// of the epoch (history.c) to which the frame belongs.
 static void test_recompute_restores_whole_frame(void **state) {
     Player *player = *state;
     PetriSystem system;
@@ -173,7 +179,7 @@ static void test_recompute_restores_whole_frame(void **state) {
         lose_systems(player);
         assert_int_equal(petri_set_tempo(player->session, 90 + (double)frame), PETRI_OK);
         uint64_t config = petri_config_revision(player->session);
-        assert_int_equal(history_recompute(&history, player->session), PETRI_OK);
+        assert_int_equal(petri_history_recompute(history), PETRI_OK);
         assert_true(petri_system(player->session, 0, &system, sizeof system));
         assert_int_equal(system.particle_count, 4);
         assert_int_equal(petri_frame_number(player->session), frame);
@@ -183,16 +189,16 @@ static void test_recompute_restores_whole_frame(void **state) {
     lose_systems(player);
     int64_t frame = petri_frame_number(player->session);
     petri_interrupt(player->session);
-    assert_int_equal(history_recompute(&history, player->session), PETRI_INTERRUPTED);
+    assert_int_equal(petri_history_recompute(history), PETRI_INTERRUPTED);
     assert_int_equal(petri_frame_number(player->session), frame);
     assert_true(state_hash(player) == hashes[frame]);
     go_to(player, -1);
-    assert_int_equal(history_recompute(&history, player->session), PETRI_OK); // there is nothing to recompute
+    assert_int_equal(petri_history_recompute(history), PETRI_OK); // there is nothing to recompute
     assert_int_equal(petri_frame_number(player->session), -1);
-    history_free(&history);
+    petri_history_free(history);
 }
 
-TEST_GROUP(src_history) {
+TEST_GROUP(session_history) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_goto_any_frame_gives_same_bits), PLAYER_TEST(test_change_applies_to_later_frames),
         PLAYER_TEST(test_goto_before_start_is_rejected),  PLAYER_TEST(test_many_changes_drop_the_oldest_frames),
