@@ -36,9 +36,10 @@ bool hdf5_write(void *writer, const char *bytes, size_t length);
 // Waits until petri-hdf5 answers an HDF5_SYNC. All data that was sent before the HDF5_SYNC is then on disk. On failure,
 // returns false after a message from petri-hdf5.
 bool hdf5_wait(Hdf5 *writer);
-// Writes a whole table. `cells` (cli/cells.h) has the number of columns, the name and kind of each, then
-// the rows. A column is stored as int64, double or string. Cells without contents are NaN or an empty string. In a
-// column of numbers, a cell can be a text; the whole column is then stored as strings. Returns false after a message.
+// Writes a whole table. `cells` (cli/cells.h) has the number of columns and how many of them after the first are
+// parameters, the name and kind of each column, then the rows. A column is stored as int64, double or string. Cells
+// without contents are NaN or an empty string. A text in a column of numbers makes the whole column strings. Returns
+// false after a message.
 bool hdf5_table(const char *path, Str cells, int (*pending_signal)(void));
 // Returns true if the file name ends in .h5 or .hdf5. A table is then written as HDF5.
 bool hdf5_has_suffix(const char *path);

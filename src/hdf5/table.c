@@ -19,7 +19,8 @@ typedef struct Column {
 typedef struct Table {
     Cell *cells; // by row
     size_t rows;
-    size_t width; // number of cells in a row
+    size_t width;      // number of cells in a row
+    size_t parameters; // the columns after the first
     Column *columns;
     TextList texts; // of numbers in columns of strings
 } Table;
@@ -60,6 +61,8 @@ static Table read_table(Str data) {
     Cell cell = {CELL_NONE};
     cell_next(&data, &cell);
     table.width = (size_t)cell.as.integer;
+    cell_next(&data, &cell);
+    table.parameters = (size_t)cell.as.integer;
     table.columns = memory_calloc(table.width * sizeof *table.columns);
     for (size_t i = 0; i < table.width; i++) {
         cell_next(&data, &cell);
@@ -95,14 +98,6 @@ typedef struct Grid {
     size_t strides[H5S_MAX_RANK]; // number of rows with the same value of a parameter, one after the other
 } Grid;
 
-// Returns the number of parameters: their columns are between `run` and `frame`.
-static size_t count_parameters(const Table *table) {
-    size_t end = 1;
-    while (end < table->width && strcmp(table->columns[end].name, "frame") != 0)
-        end++;
-    return end - 1;
-}
-
 static bool is_grid(const Table *table, const Grid *grid) {
     for (size_t row = 0; row < table->rows; row++)
         for (int k = 0; k < grid->rank; k++) {
@@ -115,11 +110,11 @@ static bool is_grid(const Table *table, const Grid *grid) {
 
 // Finds the dimensions of a table. Returns false if it has other rows, such as those of a sample or of several frames.
 static bool find_grid(const Table *table, Grid *grid) {
-    size_t parameters = count_parameters(table), stride = 1;
-    grid->rank = (int)parameters;
-    if (parameters == 0 || parameters > H5S_MAX_RANK)
+    size_t stride = 1;
+    grid->rank = (int)table->parameters;
+    if (table->parameters == 0 || table->parameters > H5S_MAX_RANK)
         return false;
-    for (size_t k = parameters; k > 0; k--) {
+    for (size_t k = table->parameters; k > 0; k--) {
         size_t count = 1;
         while (count * stride < table->rows && !cell_equal(cell_at(table, count * stride, k), cell_at(table, 0, k)))
             count++;

@@ -95,7 +95,8 @@ static bool read_result(const Sweep *sweep, const Text *text, size_t at, CacheEn
         return false;
     at += (size_t)used + 1;
     Str rows = {text->bytes + at, length};
-    if (length != text->len - at - 1 || text->bytes[text->len - 1] != '\n' || !rows_are_valid(sweep, rows))
+    if (at == text->len || text->len - at - 1 != length || text->bytes[text->len - 1] != '\n' ||
+        !rows_are_valid(sweep, rows))
         return false;
     text_add(&entry->rows, rows);
     return true;

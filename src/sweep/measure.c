@@ -124,7 +124,7 @@ static PetriStatus add_value(Measure *measure, const char *expression) {
         return status;
     bool number = result.length == 1 && (isnan(result.number) ? strcmp(value.bytes, "nan") == 0
                                                               : !petri_symbol_name(measure->session, result.number));
-    cell_add(&measure->result.rows, number              ? (Cell){CELL_NUMBER, {.number = result.number}}
+    cell_add(&measure->result.rows, number ? (Cell){CELL_NUMBER, {.number = isnan(result.number) ? NAN : result.number}}
                                     : result.length > 0 ? (Cell){CELL_TEXT, {.text = value.bytes}}
                                                         : (Cell){CELL_NONE});
     return PETRI_OK;

@@ -30,8 +30,9 @@ bool sweep_is_failed(const Result *result) {
     return cell.kind == CELL_TEXT;
 }
 
-void sweep_report(Sweep *sweep, PetriLevel level, const char *rendered) {
+void sweep_report(void *context, PetriLevel level, const char *rendered) {
     enum { MAX_REPORTED = 100 };
+    Sweep *sweep = context;
     bool wanted = level == PETRI_ERROR || sweep->options->verbosity > LOG_QUIET;
     if (wanted && sweep->reported.count < MAX_REPORTED && !texts_contain(&sweep->reported, rendered)) {
         texts_add(&sweep->reported, rendered);

@@ -19,10 +19,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static void report_diagnostic(void *context, PetriLevel level, const char *rendered) {
-    sweep_report(context, level, rendered);
-}
-
 static void add_text(Sha256 *hash, const char *text) {
     sha256_add(hash, !text ? "" : text, !text ? 1 : strlen(text) + 1);
 }
@@ -58,7 +54,7 @@ static void compute_identity(Sweep *sweep) {
 // Finds errors in the script before the runs start. Uses a temporary session, because each worker has its own.
 static int dry_run(Sweep *sweep) {
     Measure measure;
-    if (!measure_open(&measure, sweep, report_diagnostic, sweep))
+    if (!measure_open(&measure, sweep, sweep_report, sweep))
         return STATUS_FAILED;
     int status = measure_dry_run(&measure);
     if (status == STATUS_DONE) {

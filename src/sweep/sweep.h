@@ -97,8 +97,8 @@ bool sweep_wants_run(const Sweep *sweep, size_t run);
 // Stores the result of a run and copies `rows`. Does nothing if the run already has a result.
 void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, Str rows);
 bool sweep_is_failed(const Result *result);
-// Shows a diagnostic, unless it was shown before or --quiet hides it.
-void sweep_report(Sweep *sweep, PetriLevel level, const char *rendered);
+// Shows a diagnostic, unless it was shown before or --quiet hides it. `sweep` points to the Sweep. For measure_open.
+void sweep_report(void *sweep, PetriLevel level, const char *rendered);
 
 // A row of a result, and the value of one metric in it.
 typedef struct Row {

@@ -63,8 +63,10 @@ static void add_run(const Sweep *sweep, bool csv, size_t run, Text *out) {
 
 void table_make(const Sweep *sweep, bool csv, Text *out) {
     size_t width = sweep->design.axis_count + sweep->metric_count + 3;
-    if (!csv)
+    if (!csv) {
         cell_add(out, (Cell){CELL_INTEGER, {.integer = (int64_t)width}});
+        cell_add(out, (Cell){CELL_INTEGER, {.integer = (int64_t)sweep->design.axis_count}});
+    }
     for (size_t i = 0; i < width; i++) {
         Column column = column_at(sweep, i);
         add_cell(sweep, csv, i, (Cell){CELL_TEXT, {.text = column.name}}, out);

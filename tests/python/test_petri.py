@@ -488,7 +488,7 @@ class CommandSweeps(unittest.TestCase):
         output = self.folder / "a.csv"
         program = ("import glob, os, petri, signal, sys, threading, time\n"
                    "def stop():\n"
-                   "    while not any(open(name).read().count('\\n') > 3 for name in glob.glob(sys.argv[2] + '.part*')):\n"
+                   "    while not any(open(name, 'rb').read().count(b'\\nrun ') > 1 for name in glob.glob(sys.argv[2] + '.part*')):\n"
                    "        time.sleep(0.01)\n"
                    "    os.kill(os.getpid(), signal.SIGINT)\n"
                    "if sys.argv[3] == 'stop':\n    threading.Thread(target=stop, daemon=True).start()\n"

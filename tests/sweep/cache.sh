@@ -127,6 +127,15 @@ for byte in 1 10 19; do # the kinds of the frame and of two metrics
     check "an entry whose rows are no cells is damaged: byte $byte" has err "the cache has a damaged result"
 done
 
+rm -r store
+through
+entry=$(find store -type f | sort | sed -n 1p)
+grep -a -B 99 '^rows ' "$entry" | sed 's/^rows .*/rows 18446744073709551615\nsha256/' >part # there are no rows
+cp part "$entry"
+seal "$entry"
+through
+check "an entry with fewer rows than it says is damaged" has err "the cache has a damaged result"
+
 # Runs without stored results.
 cat >fails.fl <<'END'
 let N=N or 1 BIG=sum(i*i for i in ..100000*N+0*frame)
