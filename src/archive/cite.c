@@ -1,4 +1,4 @@
-// cite.c: `petri cite`, which prints how to cite an archived run.
+// cite.c: `petri archive cite`, which prints how to cite an archived run.
 #include "archive/open.h"
 #include "cli/output.h"
 
@@ -30,13 +30,14 @@ static void print_citation(const PetriArchiveInfo *info, Output *output) {
     output_format(output, "digest: %s\n\n", info->sha256);
     output_format(output,
                   "@misc{petri-%.*s,\n  title = {Archive of a run of %s},\n  note = {petri %s, run digest %s},\n"
-                  "  howpublished = {verify with: petri verify}\n}\n\n",
+                  "  howpublished = {verify with: petri archive verify}\n}\n\n",
                   SHORT_DIGEST, info->sha256, bibtex.bytes, version.bytes, info->sha256);
-    output_format(output,
-                  "cff-version: 1.2.0\nmessage: If you use this run, please cite it.\ntype: dataset\n"
-                  "title: \"Archive of a run of %s\"\nauthors:\n  - name: \"your name\"\nidentifiers:\n"
-                  "  - type: other\n    value: \"sha256:%s\"\n    description: digest of the run, see petri verify\n",
-                  yaml.bytes, info->sha256);
+    output_format(
+        output,
+        "cff-version: 1.2.0\nmessage: If you use this run, please cite it.\ntype: dataset\n"
+        "title: \"Archive of a run of %s\"\nauthors:\n  - name: \"your name\"\nidentifiers:\n"
+        "  - type: other\n    value: \"sha256:%s\"\n    description: digest of the run, see petri archive verify\n",
+        yaml.bytes, info->sha256);
 }
 
 static int cite_run(const CommandContext *context, Options *options) {
@@ -63,17 +64,17 @@ static int cite_run(const CommandContext *context, Options *options) {
 }
 
 const Command CITE_COMMAND = {
-    .name = "cite",
+    .name = "archive cite",
     .operands = "RUN.petri",
     .summary = "print how to cite an archived run",
     .details =
         "Prints the digest of a run, an entry for BibTeX, and the text of a file CITATION.cff. The digest covers\n"
         "everything in the archive: script, files, inputs and results. A run that has another digest is another run.\n"
         "Checks first that the archive is not damaged.",
-    .examples = "  petri cite run.petri\n",
+    .examples = "  petri archive cite run.petri\n",
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",
-    .second_operand_error = "too many arguments: '%s'; petri cite takes one archive",
+    .second_operand_error = "too many arguments: '%s'; petri archive cite takes one archive",
     .options = FOR_INFO,
     .run = cite_run,
 };

@@ -1,4 +1,4 @@
-// info.c: `petri info`, which prints what is in an archive.
+// info.c: `petri archive info`, which prints what is in an archive.
 #include "archive/open.h"
 #include "cli/output.h"
 
@@ -68,18 +68,17 @@ static int info_run(const CommandContext *context, Options *options) {
 }
 
 const Command INFO_COMMAND = {
-    .name = "info",
+    .name = "archive info",
     .operands = "RUN.petri",
     .summary = "print what is in an archive of a run",
     .details =
         "Prints the script, command line, parameters, files, frames and digest of an archive. Control characters\n"
         "in them are printed as '?'. Exits with 2 if the archive is damaged or was made by a newer version of\n"
-        "petri; 'petri verify' checks it completely.",
-    .examples = "  petri run dish.fl --archive run.petri    write an archive\n"
-                "  petri info run.petri                     print what is in it\n",
+        "petri; 'petri archive verify' checks it completely.",
+    .examples = "  petri archive info run.petri\n",
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",
-    .second_operand_error = "too many arguments: '%s'; petri info takes one archive",
+    .second_operand_error = "too many arguments: '%s'; petri archive info takes one archive",
     .options = FOR_INFO,
     .run = info_run,
 };

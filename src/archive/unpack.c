@@ -1,4 +1,4 @@
-// unpack.c: `petri unpack`, which writes the files of an archive to a folder.
+// unpack.c: `petri archive unpack`, which writes the files of an archive to a folder.
 #include "archive/open.h"
 #include "base/file.h"
 #include "base/file_access.h"
@@ -128,7 +128,7 @@ static int unpack_files(PetriArchive *archive, const char *folder) {
 static int unpack_run(const CommandContext *context, Options *options) {
     (void)context;
     if (!options->second) {
-        message("no folder given; usage: petri unpack RUN.petri DIR");
+        message("no folder given; usage: petri archive unpack RUN.petri DIR");
         return STATUS_USAGE;
     }
     PetriArchive *archive = archive_open(options, options->script);
@@ -142,17 +142,17 @@ static int unpack_run(const CommandContext *context, Options *options) {
 }
 
 const Command UNPACK_COMMAND = {
-    .name = "unpack",
+    .name = "archive unpack",
     .operands = "RUN.petri DIR",
     .summary = "write the files of an archived run to a folder",
     .details =
         "Writes the script and all other files in an archive to the folder DIR, which is created if it does not\n"
         "exist. Writes the last version of each file. Existing files are not overwritten. Files outside the script's\n"
         "folder, hidden files and folders, such as '.git/hooks', and names with control characters are skipped.",
-    .examples = "  petri unpack run.petri dish        write the files to the folder dish\n",
+    .examples = "  petri archive unpack run.petri dish             write the files to the folder dish\n",
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",
-    .second_operand_error = "too many arguments: '%s'; petri unpack takes one archive and one folder",
+    .second_operand_error = "too many arguments: '%s'; petri archive unpack takes one archive and one folder",
     .options = FOR_INFO,
     .accepts_two = true,
     .run = unpack_run,

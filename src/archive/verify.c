@@ -1,4 +1,4 @@
-// verify.c: `petri verify`, which computes a run again and compares it with its archive.
+// verify.c: `petri archive verify`, which computes a run again and compares it with its archive.
 #include "archive/open.h"
 #include "archive/ranks.h"
 #include "archive/segments.h"
@@ -75,7 +75,7 @@ static int verify_run(const CommandContext *context, Options *options) {
 }
 
 const Command VERIFY_COMMAND = {
-    .name = "verify",
+    .name = "archive verify",
     .operands = "RUN.petri",
     .summary = "compute an archived run again and compare every frame",
     .details =
@@ -83,13 +83,13 @@ const Command VERIFY_COMMAND = {
         "The frames between two keyframes are a segment; segments are verified in parallel. Under\n"
         "mpirun, the processes share them. Exits with 0 if the run is verified, 1 if a frame differs, and 2 if the\n"
         "archive is damaged or was made by a newer version of petri.",
-    .examples = "  petri run dish.fl --archive run.petri    write an archive\n"
-                "  petri verify run.petri                   verify all frames\n"
-                "  petri verify run.petri --sample 5        verify five random segments\n"
-                "  mpirun -n 16 petri verify run.petri      divide the segments among 16 processes\n",
+    .examples = "  petri run dish.fl --archive run.petri           write an archive\n"
+                "  petri archive verify run.petri                  verify all frames\n"
+                "  petri archive verify run.petri --sample 5       verify five random segments\n"
+                "  mpirun -n 16 petri archive verify run.petri     divide the segments among 16 processes\n",
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",
-    .second_operand_error = "too many arguments: '%s'; petri verify takes one archive",
+    .second_operand_error = "too many arguments: '%s'; petri archive verify takes one archive",
     .options = FOR_VERIFY,
     .run = verify_run,
 };

@@ -24,7 +24,7 @@ enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128
 // clang-format off
 enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64,
        FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512, FOR_LINK = 1024, FOR_OPEN = 2048, FOR_DIFF = 4096, FOR_VERIFY = 8192,
-       FOR_INFO = 16384 };
+       FOR_INFO = 16384, FOR_SEND = 32768 };
 // clang-format on
 
 typedef struct OptionSpec {
@@ -57,8 +57,9 @@ typedef struct CommandContext {
     void (*leave_ranks)(void);        // stops waiting for the other ranks; can be called by a signal handler
 } CommandContext;
 
-typedef struct Command {
-    const char *name;
+typedef struct Command Command;
+struct Command {
+    const char *name;                 // may be two words, such as "archive info"
     const char *operands;             // operands as shown in the usage line
     const char *summary;              // one line, for the list of commands
     const char *details;              // a few sentences, for the command's help
@@ -75,32 +76,24 @@ typedef struct Command {
     // draw. NULL: none does.
     bool (*needs_pictures)(char *const *words);
     int (*run)(const CommandContext *context, struct Options *options); // returns the exit status
-} Command;
+    // Commands that the help of this command also explains, then NULL; NULL: none. A part that is named `NAME WORD`,
+    // where NAME is the name of this command, is executed if WORD is the first operand.
+    const Command *const *parts;
+};
 
-extern const Command RUN_COMMAND;
-extern const Command RENDER_COMMAND;
-extern const Command REPL_COMMAND;
-extern const Command SWEEP_COMMAND;
-extern const Command VIEW_COMMAND;
-extern const Command TEST_COMMAND;
-extern const Command CHECK_COMMAND;
-extern const Command DIFF_COMMAND;
-extern const Command FMT_COMMAND;
-extern const Command LSP_COMMAND;
-extern const Command SEND_COMMAND;
-extern const Command LINK_COMMAND;
-extern const Command OPEN_COMMAND;
-extern const Command VERIFY_COMMAND;
-extern const Command INFO_COMMAND;
-extern const Command CITE_COMMAND;
-extern const Command UNPACK_COMMAND;
-extern const Command NEW_COMMAND;
-extern const Command HELP_COMMAND;
+extern const Command RUN_COMMAND, VIEW_COMMAND, RENDER_COMMAND, REPL_COMMAND, SWEEP_COMMAND, TEST_COMMAND, DIFF_COMMAND;
+extern const Command CHECK_COMMAND, FMT_COMMAND, LSP_COMMAND, LINK_COMMAND, ARCHIVE_COMMAND, NEW_COMMAND, HELP_COMMAND;
+// The parts of `petri archive`.
+extern const Command VERIFY_COMMAND, INFO_COMMAND, CITE_COMMAND, UNPACK_COMMAND;
+// Forms of run, render and view: with a link instead of a script, and with --send; and the old name of the latter.
+extern const Command RUN_LINK_COMMAND, VIEW_LINK_COMMAND, SEND_COMMAND, OLD_SEND_COMMAND;
 // Commands that help does not list: `petri complete`, for the completion scripts of shells, and the test of a shader.
-extern const Command COMPLETE_COMMAND;
-extern const Command SHADER_TEST_COMMAND;
+extern const Command COMPLETE_COMMAND, SHADER_TEST_COMMAND;
 
-// Parses the arguments that follow the command's name and runs the command. Returns the exit status.
+// Returns the part of a command that this operand selects, or NULL.
+const Command *command_part(const Command *command, const char *operand);
+// Parses the arguments that follow the command's name and runs the command, or the part that the first argument
+// selects. Returns the exit status.
 int command_run(const Command *command, const CommandContext *context, int argc, char **argv);
 
 // These print help to standard output and return the exit status.

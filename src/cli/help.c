@@ -110,15 +110,30 @@ void help_option(Text *text, const OptionSpec *spec) {
     text_add_format(text, "%-*s  %s\n", OPTION_COLUMN, head, spec->help);
 }
 
+// Adds the parts of a command, each with its operands and summary.
+static void help_parts(Text *text, const Command *command) {
+    enum { SUMMARY_COLUMN = 36 };
+    if (!command->parts)
+        return;
+    text_add_c(text, "\n");
+    for (const Command *const *part = command->parts; *part; part++) {
+        char head[80];
+        snprintf(head, sizeof head, "  petri %s %s", (*part)->name, (*part)->operands);
+        text_add_format(text, "%-*s  %s\n", SUMMARY_COLUMN, head, (*part)->summary);
+    }
+    text_add_format(text, "\n'petri help %s' explains its options.\n", command->parts[0]->name);
+}
+
 int help_for(const Command *command) {
     SCOPED_TEXT text = {0};
-    text_add_format(&text, "usage: petri %s%s %s\n\n", command->name, command->options == 0 ? "" : " [options]",
-                    command->operands);
+    text_add_format(&text, "usage: petri %s%s%s%s\n\n", command->name, command->options == 0 ? "" : " [options]",
+                    command->operands[0] == '\0' ? "" : " ", command->operands);
     help_prose(&text, command->details);
     text_add_c(&text, command->options == 0 ? "" : "\n");
     for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
         if (spec->commands & command->options)
             help_option(&text, spec);
+    help_parts(&text, command);
     if (command->examples)
         text_add_format(&text, "\nExamples:\n%s", command->examples);
     return help_print(&text);

@@ -1,4 +1,4 @@
-// link_work.h: the limit of work for opening a link, used by `petri open`, `petri link` and the playground.
+// link_work.h: the limit of work for opening a link, used by `petri run LINK`, `petri link` and the playground.
 #pragma once
 
 #include <stdint.h>

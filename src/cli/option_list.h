@@ -4,7 +4,7 @@
 // OPTION(commands, "name", 'letter' or 0, "VALUE" or NULL, reader, field, "help"): an option. The readers are in
 // options.c. FOR_GOLDEN marks options that are allowed in a golden file, because they write no files.
 // clang-format off
-FIELD(const char *, output,       NULL)           // render, open, sweep: output file
+FIELD(const char *, output,       NULL)           // render, run LINK, sweep: output file
 FIELD(const char *, format,       NULL)           // render: format for `-o -`; NULL: not given
 FIELD(int64_t,      frame,        -1)             // render, link: frame number; -1: not given
 FIELD(bool,         terminal,     false)          // view: show in the terminal
@@ -70,6 +70,7 @@ FIELD(bool,         colour,       colour_by_default())
 FIELD(bool,         monochrome,   no_colour())    // no colours even in terminal pictures
 FIELD(bool,         werror,       false)
 FIELD(const char *, listen,       NULL)           // view: path of a Unix socket
+FIELD(const char *, send,         NULL)           // view --send: path of the socket
 FIELD(const char *, html,         NULL)           // link: file; NULL: not given
 FIELD(const char *, page,         NULL)           // link: URL of the page; NULL: not given
 FIELD(bool,         stdio,        false)
@@ -91,7 +92,8 @@ OPTION(FOR_VIEW, "terminal", 0, NULL, read_flag, terminal, "show the picture in 
 OPTION(FOR_VIEW, "fullscreen", 0, NULL, read_flag, full_screen, "fill the screen; the key f switches it off")
 OPTION(FOR_VIEW, "screen", 0, "N", WHOLE(0, 63), screen, "open the window on screen N, counted from 0 (default: 0)")
 OPTION(FOR_VIEW, "auto", 0, NULL, read_flag, automatic, "show the particles instead of the script's canvas")
-OPTION(FOR_VIEW, "listen", 0, "SOCKET", read_text, listen, "accept text from `petri send` on the Unix socket SOCKET, only from the same user")
+OPTION(FOR_VIEW, "listen", 0, "SOCKET", read_text, listen, "accept code from `petri view --send` on the Unix socket SOCKET, only from the same user")
+OPTION(FOR_VIEW | FOR_SEND, "send", 0, "SOCKET", read_text, send, "send code, the operand, to the view that listens on SOCKET, and print its answer")
 OPTION(FOR_TEST, "update", 0, NULL, read_flag, update, "update goldens to the current output")
 OPTION(FOR_TEST, "filter", 0, "TEXT", read_text, filter, "run only scripts whose path relative to PATH contains TEXT")
 OPTION(FOR_TEST, "junit", 0, "FILE", read_text, junit, "also write the results to FILE as JUnit XML, for CI")
@@ -158,7 +160,7 @@ OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "print timings 
 OPTION(FOR_CHECK, "stats", 0, NULL, read_flag, stats, "print how many triangles the solids, distance fields and models of the first frame have")
 OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write all particles to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state, append to FILE")
 OPTION(FOR_RUN, "energies", 0, NULL, read_flag, energies, "also write kinetic and potential energy of each system to the trajectory, which takes time")
-OPTION(FOR_RUN | FOR_VIEW, "archive", 0, "FILE", read_text, archive, "write an archive of the run, which 'petri verify' can verify, to FILE.petri")
+OPTION(FOR_RUN | FOR_VIEW, "archive", 0, "FILE", read_text, archive, "write an archive of the run, which 'petri archive verify' can verify, to FILE.petri")
 OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW | FOR_REPL, "from", 0, "FRAME", WHOLE(0, INT64_MAX - 1), from, "start the replay of an archive with this frame (default: the first)")
 OPTION(FOR_RUN | FOR_VIEW, "keyframe-every", 0, "N", WHOLE(1, INT64_MAX - 1), keyframe_every, "store the state in the archive every N frames (default: 1000)")
 OPTION(FOR_RUN | FOR_VIEW, "digest-every", 0, "K", WHOLE(1, INT64_MAX - 1), digest_every, "store a digest of every K-th frame in the archive (default: 1)")

@@ -319,7 +319,18 @@ void options_free(Options *options) {
     petri_archive_close(&options->replayed);
 }
 
+const Command *command_part(const Command *command, const char *operand) {
+    size_t length = strlen(command->name);
+    for (const Command *const *part = command->parts; part && *part && operand[0] != '-'; part++)
+        if (strncmp((*part)->name, command->name, length) == 0 && strcmp((*part)->name + length + 1, operand) == 0)
+            return *part;
+    return NULL;
+}
+
 int command_run(const Command *command, const CommandContext *host, int argc, char **argv) {
+    const Command *part = argc > 0 ? command_part(command, argv[0]) : NULL;
+    if (part)
+        return command_run(part, host, argc - 1, argv + 1);
     Options options;
     int status = options_parse(&options, command, argc, argv);
     status = status == OPTIONS_READ ? command->run(host, &options) : status;

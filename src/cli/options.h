@@ -32,10 +32,12 @@ typedef struct Options {
     // PetriOptions.on_file_read; NULL: none
     void (*on_file_read)(void *context, const char *name, const char *bytes, size_t length);
     bool (*should_interrupt)(void *context); // PetriOptions.should_interrupt; NULL: none
-    bool keep_forces;                        // PetriOptions.keep_forces
-    struct PetriArchive *replayed;           // archive that is used instead of a script; NULL: none
-    bool prompt; // true if the session must keep forces for display and roll back interrupted frames
-    int argc;    // arguments after the command's name
+    // view: called after each frame, with `unsaved_host`; NULL: none
+    void (*after_frame)(void *context, PetriSession *session);
+    bool keep_forces;              // PetriOptions.keep_forces
+    struct PetriArchive *replayed; // archive that is used instead of a script; NULL: none
+    bool prompt;                   // true if the session must keep forces for display and roll back interrupted frames
+    int argc;                      // arguments after the command's name
     char **argv;
 } Options;
 

@@ -4,6 +4,7 @@
 #include "petri-archive.h"
 
 #include <string.h>
+#include <unistd.h>
 
 bool word_is_option(const char *word, const char *name) {
     size_t length = strlen(name);
@@ -21,4 +22,11 @@ bool words_name_archive(char *const *words) {
         if (petri_archive_is(*word))
             return true;
     return words_have_option(words, "archive");
+}
+
+bool words_name_link(char *const *words) {
+    for (; *words; words++)
+        if ((**words == '#' || (strstr(*words, "://") && strchr(*words, '#'))) && access(*words, F_OK) != 0)
+            return true;
+    return false;
 }

@@ -35,7 +35,7 @@ static int print_link(const Linked *linked, const char *page) {
         return STATUS_FAILED;
     text_add_c(&link, "\n");
     if (!page && isatty(STDERR_FILENO))
-        message("append this text to the playground's URL, as --page does, or open it with 'petri open'");
+        message("append this text to the playground's URL, as --page does, or run it with 'petri run'");
     return output_text(link.bytes, link.len, STATUS_DONE);
 }
 
@@ -78,7 +78,8 @@ const Command LINK_COMMAND = {
     .summary = "print a link, or write a page, that contains a script",
     .details =
         "Prints a link that contains the compressed script, its parameters (-D) and, with --frame, a frame number and\n"
-        "the digest of the state. 'petri open' and the playground run it to that frame and verify that the state is\n"
+        "the digest of the state. 'petri run LINK' and the playground run it to that frame and verify that the state "
+        "is\n"
         "bit-identical. The data follows the '#', so browsers do not send it to any server. Scripts that read files,\n"
         "modules or images cannot be linked, nor scripts of more than 100000 characters when compressed.\n"
         "--html writes a page instead, which also contains the engine and the files below the script's folder that "
@@ -90,5 +91,6 @@ const Command LINK_COMMAND = {
                 "  petri link dish.fl --html dish.html             a page that runs without a network\n",
     .missing_operand = "no script given",
     .options = FOR_LINK,
+    .parts = (const Command *const[]){&RUN_LINK_COMMAND, &VIEW_LINK_COMMAND, NULL},
     .run = link_run,
 };

@@ -68,19 +68,34 @@ static void draw_last_frame(PetriSession *session) {
     petri_painter_close(&painter);
 }
 
-static bool set_parameters(LinkSession *link_session, int64_t frame) {
-    const Linked *linked = &link_session->linked;
-    while (link_session->next_change < linked->change_count &&
-           linked->changes[link_session->next_change].frame <= frame) {
-        const LinkedChange *change = &linked->changes[link_session->next_change++];
-        if (change->frame == frame &&
-            petri_set_parameter(link_session->frames.session, change->name, change->value) != PETRI_OK) {
+bool link_change_parameters(const Linked *linked, PetriSession *session, int64_t frame) {
+    size_t first = 0;
+    for (size_t end = linked->change_count; first < end;) { // binary search for the first change after this frame
+        size_t middle = first + (end - first) / 2;
+        if (linked->changes[middle].frame < frame)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    for (size_t i = first; i < linked->change_count && linked->changes[i].frame == frame; i++) {
+        const LinkedChange *change = &linked->changes[i];
+        if (petri_set_parameter(session, change->name, change->value) != PETRI_OK) {
             message("the link sets %s to %s after frame %d, but the script does not accept it", change->name,
                     change->value, (int)frame);
             return false;
         }
     }
     return true;
+}
+
+void link_define_parameters(const Linked *linked, TextList *definitions) {
+    for (size_t i = 0; i < linked->change_count; i++) {
+        if (linked->changes[i].frame < 0) {
+            SCOPED_TEXT definition = {0};
+            text_add_format(&definition, "%s=%s", linked->changes[i].name, linked->changes[i].value);
+            texts_add(definitions, definition.bytes);
+        }
+    }
 }
 
 // Renders the current frame if it is before the frame of the link and later pictures depend on it.
@@ -120,7 +135,8 @@ static int make_frames(LinkSession *link_session) {
     frames_begin(frames);
     bool going = true;
     while (going && frames_due(frames)) {
-        going = frames_step(frames) && set_parameters(link_session, petri_frame_number(frames->session));
+        going = frames_step(frames) &&
+                link_change_parameters(&link_session->linked, frames->session, petri_frame_number(frames->session));
         if (going)
             render_if_needed(link_session);
         going = going && !exceeds_limit(link_session);
@@ -136,13 +152,7 @@ static int make_frames(LinkSession *link_session) {
 
 int link_session_run(LinkSession *link_session, const CommandContext *host, Options *options) {
     const Linked *linked = &link_session->linked;
-    for (size_t i = 0; i < linked->change_count; i++) {
-        if (linked->changes[i].frame < 0) {
-            SCOPED_TEXT definition = {0};
-            text_add_format(&definition, "%s=%s", linked->changes[i].name, linked->changes[i].value);
-            texts_add(&options->definitions, definition.bytes);
-        }
-    }
+    link_define_parameters(linked, &options->definitions);
     options->read = provide_file;
     options->unsaved_host = link_session;
     options->frames = linked->frame + 1;

@@ -17,13 +17,18 @@ typedef struct LinkSession {
     char *folder;      // folder of the script, whose files the script may read; NULL: it may read no files
     LinkedFile *files; // files that the script has read
     Frames frames;
-    size_t next_change; // index in linked.changes of the first change that was not made yet
     size_t file_count;
     TextList requested_files; // files that the script tried to read but may not
     PetriPainter *painter;    // has the earlier pictures on which later ones depend; NULL: not needed yet
 } LinkSession;
 
 extern ShaderTester link_shader_tester; // for painters of links
+
+// Adds the parameters that the link sets before the first frame, as NAME=VALUE.
+void link_define_parameters(const Linked *linked, TextList *definitions);
+// Sets the parameters that the link changes after this frame. Returns false after a message if the script does not
+// accept one.
+bool link_change_parameters(const Linked *linked, PetriSession *session, int64_t frame);
 
 // Opens a session without access to files, except those below `folder`, loads the script and computes the frames up to
 // the frame of the link, with the changes of parameters in the link. Returns OPTIONS_READ, or an exit status after a

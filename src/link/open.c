@@ -1,4 +1,5 @@
-// open.c: the command `petri open`, which runs the script of a link and verifies its frame.
+// open.c: `petri run LINK` and `petri render LINK`, which run the script of a link and verify its frame, and `petri
+// view LINK`, which shows it.
 #include "base/file.h"
 #include "cli/output.h"
 #include "cli/script.h"
@@ -128,16 +129,16 @@ static int open_link(const CommandContext *context, Options *options, LinkSessio
     return wrote != STATUS_DONE ? wrote : status;
 }
 
-static int open_run(const CommandContext *context, Options *options) {
+static int run_link(const CommandContext *context, Options *options) {
     LinkSession link_session = {0};
     int status = open_link(context, options, &link_session);
     link_session_close(&link_session);
     return status;
 }
 
-const Command OPEN_COMMAND = {
-    .name = "open",
-    .operands = "LINK",
+const Command RUN_LINK_COMMAND = {
+    .name = "run LINK",
+    .operands = "",
     .summary = "run a link's script and verify its frame",
     .details =
         "Runs the script in a link (from petri link or the playground) to the frame of the link, with the same\n"
@@ -146,13 +147,55 @@ const Command OPEN_COMMAND = {
         "read nor write files. All frames together may use three times the limit of --work, about half a minute by\n"
         "default.\n"
         "\n"
-        "LINK is the whole URL or the part from '#', in quotes; - reads it from standard input.",
-    .examples = "  petri open 'http://127.0.0.1:8080/#q1bKU...'    verify the frame\n"
-                "  petri open '#q1bKU...' -o dish.fl               also save the script\n"
-                "  petri open '#q1bKU...' -o dish.png              also save the picture\n"
-                "  petri link dish.fl --frame 99 | petri open -    make a link and open it\n",
+        "LINK is the whole URL or the part from '#', in quotes. 'petri render LINK' does the same. 'petri view LINK' "
+        "shows\n"
+        "the script from its first frame on, with the options of petri view.",
+    .examples = "  petri run 'http://127.0.0.1:8080/#q1bKU...'     verify the frame\n"
+                "  petri run '#q1bKU...' -o dish.fl                also save the script\n"
+                "  petri render '#q1bKU...' -o dish.png            also save the picture\n"
+                "  petri run \"$(petri link dish.fl --frame 99)\"   make a link and run it\n",
     .missing_operand = "no link given (put it in quotes)",
-    .second_operand_error = "too many arguments: '%s'; petri open takes one link, in quotes",
+    .second_operand_error = "too many arguments: '%s'; petri run takes one link, in quotes",
     .options = FOR_OPEN,
-    .run = open_run,
+    .run = run_link,
+};
+
+// A PetriOptions.read_file that provides only the script of the link.
+static const char *provide_script(void *host, const char *path, size_t *length) {
+    const Linked *linked = host;
+    bool is_script = strcmp(path, linked->name) == 0;
+    *length = is_script ? linked->text.len : 0;
+    return is_script ? linked->text.bytes : NULL;
+}
+
+// Makes the changes that follow the session's current frame.
+static void change_parameters(void *host, PetriSession *session) {
+    link_change_parameters(host, session, petri_frame_number(session));
+}
+
+static int view_link(const CommandContext *context, Options *options) {
+    Linked linked = {0};
+    int status = STATUS_FAILED;
+    if (link_possible() && read_link(&linked, options->script)) {
+        link_define_parameters(&linked, &options->definitions);
+        options->script = linked.name;
+        options->read = provide_script;
+        options->unsaved_host = &linked;
+        options->after_frame = change_parameters;
+        status = VIEW_COMMAND.run(context, options);
+    }
+    link_free(&linked);
+    return status;
+}
+
+const Command VIEW_LINK_COMMAND = {
+    .name = "view LINK",
+    .operands = "",
+    .live = true,
+    .summary = "show a link's script",
+    .details =
+        "Like petri view, but shows the script in a link, with the same changes of parameters. The script cannot read\n"
+        "files.",
+    .options = FOR_VIEW,
+    .run = view_link,
 };

@@ -31,6 +31,19 @@ static void offer_commands(const Completion *completion) {
         offer(completion, row->name, row->command->summary);
 }
 
+// Offers the words that select a part of the command. Returns false if there are none.
+static bool offer_parts(const Completion *completion) {
+    bool offered = false;
+    for (const Command *const *part = completion->command->parts; part && *part; part++) {
+        const char *word = strchr((*part)->name, ' ') + 1;
+        if (command_part(completion->command, word) == *part) {
+            offer(completion, word, (*part)->summary);
+            offered = true;
+        }
+    }
+    return offered;
+}
+
 static void offer_topics(const Completion *completion) {
     PetriBuiltin builtin;
     PetriNodeKind kind;
@@ -91,10 +104,10 @@ static void offer_values(Completion *completion, const OptionSpec *option) {
     if (option->letter == 'D' && completion->script)
         offer_parameters(completion);
     output_format(completion->output, "%s",
-                  is_list                              ? ":nospace\n"
-                  : strcmp(option->value, "FILE") == 0 ? ":files\n"
-                  : strcmp(option->value, "DIR") == 0  ? ":folders\n"
-                                                       : "");
+                  is_list                                                                      ? ":nospace\n"
+                  : strcmp(option->value, "FILE") == 0 || strcmp(option->value, "SOCKET") == 0 ? ":files\n"
+                  : strcmp(option->value, "DIR") == 0                                          ? ":folders\n"
+                                                                                               : "");
 }
 
 // Completes the last of `count` words, those after the command. args_next reports an option that still expects its
@@ -114,7 +127,7 @@ static void complete_argument(Completion *completion, int count, char **words) {
     if (expecting) {
         offer_values(completion, expecting);
     } else if (completion->word[0] != '-' || args.operands_only) {
-        output_format(completion->output, completion->command == &SEND_COMMAND ? ":files\n" : ":scripts\n");
+        output_format(completion->output, ":scripts\n");
     } else if (args_next(&args) == ARG_OPTION && args.value) {
         completion->kept = (size_t)(args.value - completion->word);
         offer_values(completion, args.option);
@@ -129,17 +142,18 @@ static int complete_run(const CommandContext *context, Options *options) {
         message("no words given; 'petri complete' is for the completion scripts of shells");
         return STATUS_USAGE;
     }
-    const CommandRow *named = command_find(options->argv[0]);
-    bool is_first = options->argc == 1, has_command = named && !is_first;
-    Completion completion = {.output = help_begin(),
-                             .word = options->argv[options->argc - 1],
-                             .command = has_command ? named->command : &RUN_COMMAND};
-    if (is_first && completion.word[0] != '-')
+    const CommandRow *named = options->argc > 1 ? command_find(options->argv[0]) : NULL;
+    const Command *command = named ? named->command : &RUN_COMMAND;
+    const Command *part = options->argc > 2 ? command_part(command, options->argv[1]) : NULL;
+    int skipped = (named ? 1 : 0) + (part ? 1 : 0);
+    Completion completion = {
+        .output = help_begin(), .word = options->argv[options->argc - 1], .command = part ? part : command};
+    if (options->argc == 1 && completion.word[0] != '-')
         offer_commands(&completion);
     if (completion.command == &HELP_COMMAND)
         offer_topics(&completion);
-    else
-        complete_argument(&completion, options->argc - has_command, options->argv + has_command);
+    else if (options->argc != 2 || !offer_parts(&completion))
+        complete_argument(&completion, options->argc - skipped, options->argv + skipped);
     return help_end(completion.output);
 }
 

@@ -67,20 +67,28 @@ static int help_nodes(void) {
     return help_print(&text);
 }
 
-// Adds the help for the option `--NAME` or `-X`, for each command that has the option. Returns false if none has it.
-static bool print_option(Text *text, const char *word) {
+// Adds the help for the option `--NAME` or `-X` if the command or one of its parts has it. Returns false if none has
+// it.
+static bool print_option(Text *text, const char *word, const Command *command) {
     bool found = false, is_long = word[1] == '-';
-    for (const CommandRow *row = COMMANDS; row->listed; row++) {
-        for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
-            if (!(spec->commands & row->command->options))
-                continue;
-            if (is_long ? strcmp(spec->name, word + 2) == 0 : spec->letter != '\0' && spec->letter == word[1]) {
-                text_add_format(text, "petri %s\n", row->name);
-                help_option(text, spec);
-                found = true;
-            }
+    for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
+        if (!(spec->commands & command->options))
+            continue;
+        if (is_long ? strcmp(spec->name, word + 2) == 0 : spec->letter != '\0' && spec->letter == word[1]) {
+            text_add_format(text, "petri %s\n", command->name);
+            help_option(text, spec);
+            found = true;
         }
     }
+    for (const Command *const *part = command->parts; part && *part; part++)
+        found = print_option(text, word, *part) || found;
+    return found;
+}
+
+static bool print_options(Text *text, const char *word) {
+    bool found = false;
+    for (const CommandRow *row = COMMANDS; row->listed; row++)
+        found = print_option(text, word, row->command) || found;
     return found;
 }
 
@@ -109,7 +117,7 @@ static bool help_prompt(Text *text, const char *name) {
 
 static int help_word(const char *topic) {
     SCOPED_TEXT text = {0};
-    bool found = topic[0] == '-'   ? print_option(&text, topic)
+    bool found = topic[0] == '-'   ? print_options(&text, topic)
                  : topic[0] == '.' ? help_prompt(&text, topic)
                                    : topics_print(&text, topic);
     if (found)
@@ -125,7 +133,19 @@ static int help_topic(const char *topic) {
     if (strcmp(topic, "version") == 0)
         return help_version();
     const CommandRow *row = topic[0] == '-' ? NULL : command_find(topic);
-    return row ? help_for(row->command) : help_word(topic);
+    return row && row->command->details ? help_for(row->command) : help_word(topic);
+}
+
+// Prints the help for the part of a command that two words name, such as `archive verify`.
+static int help_part(char *const *words) {
+    SCOPED_TEXT name = {0};
+    text_add_format(&name, "%s %s", words[0], words[1]);
+    for (const CommandRow *row = COMMANDS; row->listed && !words[2]; row++)
+        for (const Command *const *part = row->command->parts; part && *part; part++)
+            if (strcmp((*part)->name, name.bytes) == 0)
+                return help_for(*part);
+    message("too many arguments: '%s'", words[1]);
+    return STATUS_USAGE;
 }
 
 // Except for --help and -h, the argument is a topic, even if it has the form of an option.
@@ -134,10 +154,8 @@ static int help_run(const CommandContext *context, Options *options) {
     (void)context;
     if (options->argc > 0 && (strcmp(words[0], "--help") == 0 || strcmp(words[0], "-h") == 0))
         return help_for(&HELP_COMMAND);
-    if (options->argc > 1) {
-        message("too many arguments: '%s'", words[1]);
-        return STATUS_USAGE;
-    }
+    if (options->argc > 1)
+        return help_part(words);
     return options->argc == 0 ? help_overview() : help_topic(words[0]);
 }
 

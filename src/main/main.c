@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 #include "cli/helper_exec.h"
 #include "cli/memory.h"
+#include "cli/words.h"
 #include "main/commands.h"
 #include "main/large_stack.h"
 #include "mpi/ranks.h"
@@ -49,6 +50,17 @@ static bool is_version(const char *word) {
     return strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0 || strcmp(word, "version") == 0;
 }
 
+// Returns the row for a form of the command that the words request, such as `run LINK`, or the command's own row.
+static const CommandRow *find_form(const CommandRow *row, char *const *words) {
+    SCOPED_TEXT name = {0};
+    bool sends = words_have_option(words, "send");
+    if (!sends && !words_name_link(words))
+        return row;
+    text_add_format(&name, "%s %s", row->name, sends ? "--send" : "LINK");
+    const CommandRow *form = command_find(name.bytes);
+    return form ? form : row;
+}
+
 // Runs the command if this program can. Otherwise executes the program that can.
 static int dispatch(const CommandContext *host, int argc, char **argv) {
     if (argc < 2) {
@@ -58,11 +70,13 @@ static int dispatch(const CommandContext *host, int argc, char **argv) {
     if (is_version(argv[1]))
         return help_version();
     const CommandRow *row = command_find(argv[1]);
-    bool is_script = !row && (argv[1][0] == '-' || looks_like_file(argv[1]));
+    bool is_script = !row && (strchr("-#", argv[1][0]) || looks_like_file(argv[1]));
     if (is_script)
         row = command_find(RUN_COMMAND.name);
     if (!row)
         return unknown_command(argv[1]);
+    int first = is_script ? 1 : 2;
+    row = find_form(row, argv + first);
     bool divides = PROGRAM != RANKS && row->programs & RANKS;
     int status = divides ? helper_exec_ranks(argv, row->programs & NEEDS_RANKS) : -1;
     if (status >= 0)
@@ -70,7 +84,6 @@ static int dispatch(const CommandContext *host, int argc, char **argv) {
     const Command *command = row->command;
     if (!command || (PROGRAM == PETRI && command->needs_pictures && command->needs_pictures(argv + 1)))
         return helper_exec_pictures(argv);
-    int first = is_script ? 1 : 2;
     return command_run(command, host, argc - first, argv + first);
 }
 

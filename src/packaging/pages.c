@@ -4,6 +4,7 @@
 #include "packaging/roff.h"
 #include "repl/repl.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -105,20 +106,44 @@ static void write_prompt_commands(Output *output) {
     }
 }
 
+static void write_synopsis(Output *output, const Command *command) {
+    output_format(output, ".B petri %s\n%s", command->name, command->options == 0 ? "" : "[options]\n");
+    roff_text(output, command->operands);
+    output_format(output, "\n");
+}
+
+static void write_options(Output *output, const Command *command) {
+    for (const OptionSpec *option = NULL; (option = option_after(command, option));)
+        write_option(output, option);
+}
+
+// Writes the description, options and examples of a part, in a separate section.
+static void write_part(Output *output, const Command *part) {
+    char heading[40];
+    snprintf(heading, sizeof heading, "PETRI %s", part->name);
+    for (char *letter = heading; *letter != '\0'; letter++)
+        *letter = (char)toupper((unsigned char)*letter);
+    roff_heading(output, heading);
+    roff_paragraphs(output, part->details);
+    write_options(output, part);
+    write_examples(output, !part->examples ? "" : part->examples);
+}
+
 void page_of_command(Output *output, const Command *command) {
     char name[32];
     snprintf(name, sizeof name, "petri-%s", command->name);
     roff_begin(output, name, 1, command->summary);
     roff_heading(output, "SYNOPSIS");
-    output_format(output, ".B petri %s\n%s", command->name, command->options == 0 ? "" : "[options]\n");
-    roff_text(output, command->operands);
-    output_format(output, "\n");
+    write_synopsis(output, command);
+    for (const Command *const *part = command->parts; part && *part; part++) {
+        output_format(output, ".br\n");
+        write_synopsis(output, *part);
+    }
     roff_heading(output, "DESCRIPTION");
     roff_paragraphs(output, command->details);
     if (command->options != 0)
         roff_heading(output, "OPTIONS");
-    for (const OptionSpec *option = NULL; (option = option_after(command, option));)
-        write_option(output, option);
+    write_options(output, command);
     if (command == &REPL_COMMAND) {
         roff_heading(output, "PROMPT COMMANDS");
         write_prompt_commands(output);
@@ -127,5 +152,7 @@ void page_of_command(Output *output, const Command *command) {
         roff_heading(output, "EXAMPLES");
         write_examples(output, command->examples);
     }
+    for (const Command *const *part = command->parts; part && *part; part++)
+        write_part(output, *part);
     roff_see_also(output, (const char *const[]){"petri(1)", "petri(5)", NULL});
 }

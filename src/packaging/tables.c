@@ -19,18 +19,22 @@ static const char *or_none(const char *text) {
     return !text ? "" : text;
 }
 
-static void add_commands(JsonWriter *json) {
-    for (const CommandRow *row = COMMANDS; row->listed; row++) {
-        const Command *command = row->command;
-        OPEN_ROW(json, "name", command->name, "operands", command->operands, "summary", command->summary, "details",
-                 command->details, "examples", or_none(command->examples));
-        json_open(json, "options", "[");
-        for (const OptionSpec *option = NULL; (option = option_after(command, option));) {
-            ROW(json, "letter", (char[]){option->letter, '\0'}, "name", option->name, "value", or_none(option->value),
-                "help", option->help);
-        }
-        json_close(json, "]}");
+static void add_command(JsonWriter *json, const Command *command) {
+    OPEN_ROW(json, "name", command->name, "operands", command->operands, "summary", command->summary, "details",
+             command->details, "examples", or_none(command->examples));
+    json_open(json, "options", "[");
+    for (const OptionSpec *option = NULL; (option = option_after(command, option));) {
+        ROW(json, "letter", (char[]){option->letter, '\0'}, "name", option->name, "value", or_none(option->value),
+            "help", option->help);
     }
+    json_close(json, "]}");
+    for (const Command *const *part = command->parts; part && *part; part++)
+        add_command(json, *part);
+}
+
+static void add_commands(JsonWriter *json) {
+    for (const CommandRow *row = COMMANDS; row->listed; row++)
+        add_command(json, row->command);
 }
 
 static void add_prompt(JsonWriter *json) {

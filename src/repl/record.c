@@ -162,7 +162,7 @@ static bool run_archive(Repl *repl, const char *rest) {
 }
 
 const ReplCommand RECORD_COMMANDS[] = {
-    {".archive", "FILE", "a file", "write an archive of all later frames, for petri verify", run_archive,
+    {".archive", "FILE", "a file", "write an archive of all later frames, for petri archive verify", run_archive,
      COMPLETE_FILES},
     {".record", "FILE [K]", "a file", "write every K-th frame (default: 1) as a golden for petri test", run_record,
      COMPLETE_FILES},

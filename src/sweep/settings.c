@@ -100,7 +100,7 @@ static bool check_cache(const Sweep *sweep) {
         return false;
     }
     if (sweep->options->cache && petri_archive_is(sweep->options->script)) {
-        message("cannot use '--cache' with an archive; write its files to a folder with 'petri unpack'");
+        message("cannot use '--cache' with an archive; write its files to a folder with 'petri archive unpack'");
         return false;
     }
     return true;

@@ -1,4 +1,4 @@
-// listen.h: a socket for `petri view --listen`, on which editors send text to a view with `petri send`.
+// listen.h: a socket for `petri view --listen`, on which editors send text to a view with `petri view --send`.
 //
 // A client connects, writes code or a command, and shuts down its writing side. It then receives lines of JSON until
 // the connection is closed. Code is evaluated as in petri repl. The commands are `.set NAME VALUE`, `.set NAME` (reset

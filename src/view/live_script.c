@@ -235,6 +235,8 @@ bool live_script_step(LiveScript *live) {
         live->state = is_outdated(live) ? LIVE_OUTDATED_HALTED : LIVE_HALTED;
         return false;
     }
+    if (live->options->after_frame)
+        live->options->after_frame(live->options->unsaved_host, live->session);
     archiving_check(&live->archiving);
     watch_sources(live); // the frame may have imported modules
     update_picture(live);

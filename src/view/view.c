@@ -516,5 +516,6 @@ const Command VIEW_COMMAND = {
     .no_stdin = "'petri view' watches the script file and cannot read the script from standard input; "
                 "'petri render -' can",
     .options = FOR_VIEW,
+    .parts = (const Command *const[]){&SEND_COMMAND, NULL},
     .run = view_run,
 };

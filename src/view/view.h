@@ -21,7 +21,7 @@ typedef struct Pane {
 typedef struct View {
     const CommandContext *host; // borrowed
     LiveScript live;
-    Listener listener;       // for `petri send`
+    Listener listener;       // for `petri view --send`
     const DisplayKind *kind; // functions of `display`
     Display *display;        // shows the first window; NULL: the null display
     Pane others[MAX_OTHERS]; // the other windows

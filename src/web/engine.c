@@ -71,7 +71,7 @@ EXPORT(double, web_work, const PetriSession *session) {
     return (double)petri_work(session);
 }
 
-// Returns the maximum work to open a link, as in `petri open`.
+// Returns the maximum work to open a link, as in `petri run LINK`.
 EXPORT(double, web_link_work_limit, void) {
     return (double)link_work_limit(petri_default_options().work_limit);
 }

@@ -1,4 +1,4 @@
-# archive.sh: tests of archives: `petri run --archive`, `petri verify` and `petri info`. Part of run.sh.
+# archive.sh: tests of archives: `petri run --archive`, `petri archive verify` and `petri archive info`. Part of run.sh.
 
 # reseal ARCHIVE: computes the SHA-256 sums of an archive again, as its README defines them.
 reseal() {
@@ -43,7 +43,7 @@ if petri run dish.fl --frames 1 --archive run.petri && status_is 0; then
     petri run "$work/dish.fl" -D N=7 --frames 45 --keyframe-every 10 --archive run.petri
     check "run writes an archive without output" status_is 0
     check "the archive has the run's tables" [ "$(head -c 15 run.petri)" = "SQLite format 3" ]
-    petri info run.petri
+    petri archive info run.petri
     check "info prints the script, its parameters, files and frames" eval \
         'status_is 0 && has out "script      dish.fl" && has out "parameter   N=7" && has out "file        mass.fl: 11 bytes" &&
         has out "frames      0 to 44" && has out "keyframes   6" && has out "digests     45"'
@@ -56,11 +56,23 @@ if petri run dish.fl --frames 1 --archive run.petri && status_is 0; then
     fi
     rm mass.fl dish.fl
     for threads in 1 2; do
-        petri verify run.petri --threads "$threads"
+        petri archive verify run.petri --threads "$threads"
         check "verify succeeds without the files, with $threads threads" eval \
             'status_is 0 && has out "verified: 45 of 45 frames, 5 of 5 segments" && has out "digest $digest" && empty err'
     done
-    petri verify run.petri --sample 2
+    # The commands of petri 0.2 still work.
+    for action in verify info cite 'unpack run.petri old'; do
+        set -- $action run.petri
+        rm -rf old
+        petri archive "$1" "${2:-run.petri}" ${3:+old}
+        cp out expected
+        rm -rf old
+        petri "$1" "${2:-run.petri}" ${3:+old}
+        check "the old command $1 does the same" eval 'status_is 0 && cmp -s out expected && empty err'
+    done
+    check "the old command unpack writes the files" [ "$(cd old && ls | tr '\n' ' ')" = "dish.fl mass.fl " ]
+    rm -r old
+    petri archive verify run.petri --sample 2
     check "verify checks a sample" eval 'status_is 0 && has out "of 45 frames, 2 of 5 segments"'
 
 
@@ -71,40 +83,40 @@ if petri run dish.fl --frames 1 --archive run.petri && status_is 0; then
         cp first.petri strange.petri
         sqlite3 strange.petri "UPDATE meta SET value = 'a' || char(27, 10, 155) || 'b' WHERE key = 'command';
             UPDATE file SET name = 'c' || char(27) || 'd' WHERE name = 'mass.fl'"
-        petri info strange.petri
+        petri archive info strange.petri
         check "info prints no control characters" eval 'has out "command     a???b" && has out "file        c?d: 11 bytes"'
-        petri unpack strange.petri strange
+        petri archive unpack strange.petri strange
         check "unpack writes no names with control characters" eval 'has err "c?d" && [ "$(ls strange)" = dish.fl ]'
         cp first.petri forged.petri
         sqlite3 forged.petri "UPDATE digest SET digest = zeroblob(16) WHERE frame = 13"
-        petri verify forged.petri
+        petri archive verify forged.petri
         check "verify reports damage with the table and row" eval \
             'status_is 2 && has err "damaged: table keyframe: row 19 has another SHA-256"'
     fi
     head -c 3000 first.petri >cut.petri
-    petri verify cut.petri
+    petri archive verify cut.petri
     check "verify reports a truncated archive" eval 'status_is 2 && has err "the archive is damaged"'
-    petri info dish.fl
+    petri archive info dish.fl
     check "info rejects other files" eval 'status_is 2 && has err "it is not an archive"'
-    petri verify missing.petri
+    petri archive verify missing.petri
     check "verify rejects missing files" status_is 2
     petri run dish.fl --frames 1 --archive mass.fl
     check "run does not overwrite other files" eval \
         'status_is 1 && has err "exists and is not an archive" && has mass.fl "let mass=3"'
     petri run dish.fl --frames 3 --archive first.petri
     check "run replaces an archive" status_is 0
-    petri info first.petri
+    petri archive info first.petri
     check "the replaced archive has the new run" has out "frames      0 to 2"
     petri run dish.fl --frames 10 --digest-every 4 --archive sparse.petri
-    petri info sparse.petri
+    petri archive info sparse.petri
     check "run keeps fewer digests" has out "digests     3"
-    petri verify sparse.petri
+    petri archive verify sparse.petri
     check "verify needs no digest of each frame" has out "verified: 10 of 10 frames"
     petri run dish.fl --frames 5 --state saved.txt
     petri run dish.fl --frames 5 --state saved.txt --archive later.petri
-    petri info later.petri
+    petri archive info later.petri
     check "an archive can begin with a saved state" has out "frames      5 to 9"
-    petri verify later.petri
+    petri archive verify later.petri
     check "verify starts at the saved state" has out "verified: 5 of 5 frames"
 
     # Archives instead of scripts
@@ -143,15 +155,15 @@ END
     printf '%s\n' '.step 3' '.archive prompt.petri' '.step' 'let k=2' '!counter state=:q rate=k' '.step 20' '.set R 3' \
         '.step 4' '.tempo 90' '.step 3' | timeout 60 "$petri" repl film.fl >out 2>err
     check "the prompt writes an archive" has out "all later frames are written to prompt.petri"
-    petri verify prompt.petri
+    petri archive verify prompt.petri
     check "the frames of the prompt with their changes are verified" eval \
         'status_is 0 && has out "verified: 28 of 28 frames"'
     petri run prompt.petri --from 30 --frames 1 --print state
     check "the replay has the statements of the prompt" has out '$:q = '
     printf '%s\n' '.archive back.petri' '.step 30' '.back 12' '.step 5' | timeout 60 "$petri" repl film.fl >out 2>err
-    petri info back.petri
+    petri archive info back.petri
     check "frames that were undone are not in the archive" has out "frames      0 to 22"
-    petri verify back.petri
+    petri archive verify back.petri
     check "verify counts states that were given" eval 'status_is 0 && has out "states that were given, not computed: 1"'
 
     # A picture that only drawing reads
@@ -172,7 +184,7 @@ END
         petri run other/film.fl -D R=6 --frames 40 --keyframe-every 7 --archive forged.petri
         sqlite3 forged.petri "ATTACH 'film.petri' AS own; UPDATE file SET bytes = (SELECT bytes FROM own.file), sha256 = (SELECT sha256 FROM own.file)"
         reseal forged.petri
-        petri verify forged.petri
+        petri archive verify forged.petri
         check "verify finds the first frame of a forged archive, and what differs" eval \
             'status_is 1 && has out "frame 1 differs" && has out "- digest" && has out "--- archive" && has out "first: \$:size"'
         check "verify says how to compare the forces" has out "'petri diff forged.petri --with PROGRAM'"
@@ -193,12 +205,12 @@ END
     petri diff moving.petri --with ./author
     check "diff names the force that differs from that of the program that wrote an archive" eval \
         'status_is 1 && grep -q "^force on :p;.*: drag$" out && has out "  moving.fl:5" && has out "  author.fl:5"'
-    petri cite film.petri
+    petri archive cite film.petri
     check "cite prints the digest, BibTeX and CITATION.cff" eval \
         'status_is 0 && has out "digest: " && has out "@misc{petri-" && has out "cff-version: 1.2.0"'
-    petri unpack first.petri unpacked
+    petri archive unpack first.petri unpacked
     check "unpack writes the files" eval 'status_is 0 && cmp -s mass.fl unpacked/mass.fl && cmp -s dish.fl unpacked/dish.fl'
-    petri unpack first.petri unpacked
+    petri archive unpack first.petri unpacked
     check "unpack does not overwrite files" eval 'status_is 1 && has err "File exists"'
     if command -v sqlite3 >/dev/null 2>&1; then
         for name in /tmp/evil.fl ../evil.fl a/../../evil.fl link/evil.fl; do
@@ -207,7 +219,7 @@ END
             mkdir evil outside 2>/dev/null
             ln -sfn ../outside evil/link
             sqlite3 evil.petri "UPDATE file SET name = '$name' WHERE name = 'mass.fl'"
-            petri unpack evil.petri evil
+            petri archive unpack evil.petri evil
             check "unpack writes nothing outside its folder: $name" eval '[ ! -e evil.fl ] && [ ! -e outside/evil.fl ] && [ ! -e /tmp/evil.fl ]'
         done
     fi
@@ -251,7 +263,7 @@ END
             cp first.petri evil.petri
             rm -rf evil
             sqlite3 evil.petri "UPDATE file SET name = $name WHERE name = 'mass.fl'"
-            petri unpack evil.petri evil
+            petri archive unpack evil.petri evil
             check "unpack skips the name $name" eval 'status_is 0 && lines_are err 1 && has err "skipped " && [ "$(ls -A evil)" = dish.fl ]'
         done
         check "unsafe characters are shown as ?" has err "skipped 'x?petri: forged?lf.exe'"
@@ -266,7 +278,7 @@ END
         kill -9 $pid
         wait $pid 2>/dev/null
         computed=$(grep -c '^=' out)
-        petri verify killed.petri
+        petri archive verify killed.petri
         kept=$(sed -n 's/^verified: \([0-9]*\) of.*/\1/p' out)
         check "after kill -9 at $delay s, at most a second is lost" eval \
             '[ "$computed" -le 27 ] || { status_is 0 && [ $((computed - kept)) -le 26 ]; }'
@@ -282,7 +294,7 @@ END
     status=$?
     check "a full disk ends the archive, not the run" eval \
         'status_is 1 && cmp -s out expected && has err "ends here: "'
-    petri verify full.petri
+    petri archive verify full.petri
     check "the frames before the disk was full can be verified, or none was written" eval \
         'status_is 0 || has err "it has no frames"'
 else

@@ -25,15 +25,43 @@ done
 check "wrapped lines of a list are indented to the column of its texts" grep -Eq '^ {30}[a-z]' run_help
 petri help --help
 check "help has help" has out "usage: petri help [TOPIC]"
-petri help run sin
-check "help on two topics is a usage error" status_is 2
-check "the message names the second topic" has err "too many arguments: 'sin'"
-petri send --help
-check "send has help" has out "usage: petri send SOCKET TEXT"
+for topics in 'run sin' 'archive sin' 'archive verify run'; do
+    petri help $topics
+    check "help on several topics is a usage error: $topics" status_is 2
+    check "the message names the second topic: $topics" has err "too many arguments: '$(echo "$topics" | cut -d ' ' -f 2)'"
+done
+for old in open send verify info cite unpack; do
+    check "help does not list the old command $old" lacks overview "  $old "
+    petri help $old
+    check "the old command $old has help" eval 'status_is 0 && has out "usage: petri "'
+done
+petri help archive
+for action in verify info cite unpack; do
+    check "help lists the action $action" has out "  petri archive $action RUN.petri"
+    petri archive $action --help
+    mv out action_help
+    check "an action has help: $action" has action_help "usage: petri archive $action [options] RUN.petri"
+    petri help archive $action
+    check "help of an action is the same: $action" cmp -s out action_help
+    petri archive $action
+    check "an action needs an archive: $action" has err "no archive given; usage: petri archive $action [options] RUN.petri"
+    petri help archive
+done
+for wrong in 'verfy x.petri' verfy; do
+    petri archive $wrong
+    check "a mistyped action is a usage error: $wrong" status_is 2
+done
+check "the message suggests an action" has err "no such action: 'verfy'; did you mean 'petri archive verify'?"
+petri archive
+check "archive needs an action" has err "no action given: petri archive ACTION RUN.petri"
+petri view --send socket --help
+check "view --send has help" has out "usage: petri view --send"
+petri view --send socket
+check "view --send needs code" has err "no code given; usage: petri view --send"
 for arguments in '' socket 'socket text more'; do
     petri send $arguments
     check "send needs a socket and code, not '$arguments'" status_is 2
-    check "send reports what it needs, not '$arguments'" has err "expected a socket and code, as in: petri send"
+    check "send reports what it needs, not '$arguments'" has err "expected a socket and code, as in: petri view --send"
 done
 mkdir -p no-scripts
 petri fmt no-scripts
@@ -52,6 +80,8 @@ petri help builtins
 check "help builtins lists functions" grep -q '^sin(' out
 petri help nonsense
 check "help on an unknown topic is a wrong command line" status_is 2
+petri help complete
+check "a command without help is an unknown topic" status_is 2
 
 # invalid command lines
 petri
@@ -243,10 +273,12 @@ alone rendr plain.fl
 check "petri alone suggests a command that it cannot execute" has err "'rendr'; did you mean 'petri render'?"
 check "an unknown command is a usage error" status_is 2
 for words in 'render disc.fl -o x.png' 'check --stats plain.fl' 'sweep --plan p' 'sweep plain.fl --plot=x.svg' --help \
-    'run plain.fl --archive x.petri' 'plain.fl --archive=x.petri'; do
+    'run plain.fl --archive x.petri' 'plain.fl --archive=x.petri' 'archive info x' 'run #q1' '#q1' 'view http://a/#q1'; do
     alone $words
     check "'petri $words' needs petri-pictures" one_message "cannot start petri-pictures: No such file or directory"
 done
+alone view --send socket 1
+check "'petri view --send' needs no other program" has err "cannot reach a view at socket"
 for words in 'run plain.fl --frames 1 --print state' 'plain.fl --frames 1' 'check plain.fl' 'fmt --check plain.fl' \
     'diff plain.fl plain.fl --frames 2' 'sweep plain.fl -D SIZE=1;2 --frames 1 --metric n=1' --version; do
     alone $words

@@ -34,7 +34,15 @@ check "a file" completes ":files" render -o ''
 check "a file in the word of its option" completes ":files" render -oout
 check "a folder" completes ":folders" run --allow-read ''
 check "an operand that starts with a dash" completes ":scripts" run -- --q
-check "the socket of send" completes ":files" send ''
+check "the socket of view --send" completes ":files" view --send ''
+check "the actions of archive" completes "verify info cite unpack" archive ''
+check "an action has its summary" has out "cite	print how to cite an archived run"
+check "an action that was begun" completes "unpack" archive un
+check "an option of an action" completes "--sample" archive verify --sam
+check "only options of the action" completes "" archive info --sam
+check "an operand of an action" completes ":scripts" archive info ''
+check "old names are not offered" completes ":scripts" veri
+check "an option of an old name" completes "--sample" verify --sam
 check "an unknown option before the word" completes "never" run --no-such --neighbours n
 check "topics of help" completes "electrostatic" help electro
 check "words of the language are topics" completes "tempo template" help temp

@@ -1,4 +1,4 @@
-# link.sh: tests of `petri link` and `petri open`, and of links from and to the playground. Part of run.sh.
+# link.sh: tests of `petri link` and `petri run LINK`, and of links from and to the playground. Part of run.sh.
 
 if "$petri" link --help | grep -q . && ! "$petri" open '#' 2>&1 | grep -q 'built without'; then
 
@@ -12,34 +12,34 @@ page_link='#JcdBCsIwEEDRq4x_PUpDKcJAr5ALpFmUkOKipBBHEcS7i7h6vDdPLCiOsVeXOEc5uoxL
 petri link count.fl
 check "link prints a link" status_is 0
 check "the link is printed without a URL and nothing else is printed" grep -Eq '^#[A-Za-z0-9_-]+$' out
-petri open "$(cat out)"
-check "open accepts the link" status_is 0
+petri run "$(cat out)"
+check "run accepts the link" status_is 0
 check "a link without a frame has no state to compare" has err "no state to compare"
 petri link count.fl -D N=5 --frame 30 --page http://127.0.0.1:8080/
 check "a link contains a URL, a parameter and a frame" grep -q '^http://127.0.0.1:8080/#' out
 link=$(cat out)
 petri run count.fl -D N=5 --frames 31 --every 30 --print digest
 tail -n 1 out >digest
-petri open "$link"
-check "open runs to the frame of the link" status_is 0
-check "open prints the same digest as run" [ "$(tail -n 1 out)" = "$(cat digest)" ]
-check "open reports that the state matches" has err "count.fl: frame 30: state matches the link exactly"
+petri run "$link"
+check "run runs to the frame of the link" status_is 0
+check "run prints the same digest as run" [ "$(tail -n 1 out)" = "$(cat digest)" ]
+check "run reports that the state matches" has err "count.fl: frame 30: state matches the link exactly"
 echo "$link" | timeout 100 "$petri" open - >out 2>err
-check "open reads a link from standard input" has err "frame 30: state matches the link exactly"
-petri open "$link" -o there.fl
-check "open writes the script" cmp -s count.fl there.fl
-check "open reports the parameters of the link that are not in the script" has err "the link also sets N=5"
-petri open "$link" -o there.mp4
-check "open rejects a film as output" status_is 2
-petri open "$link" -o absent/there.fl
-check "open reports a file that cannot be written" status_is 1
-petri open "$link" -o -
-check "open writes the script to standard output" cmp -s count.fl out
+check "open, the old name, reads a link from standard input" has err "frame 30: state matches the link exactly"
+petri run "$link" -o there.fl
+check "run writes the script" cmp -s count.fl there.fl
+check "run reports the parameters of the link that are not in the script" has err "the link also sets N=5"
+petri run "$link" -o there.mp4
+check "run rejects a film as output" status_is 2
+petri run "$link" -o absent/there.fl
+check "run reports a file that cannot be written" status_is 1
+petri run "$link" -o -
+check "run writes the script to standard output" cmp -s count.fl out
 
 printf '!window size=40;30\n    !feedback mixer=0.6 translate=5;5\n        !canvas\n            !rect size=20;20 fill=true color=1\n' >back.fl
 for frame in 1 8; do
     "$petri" link back.fl --frame $frame >link 2>/dev/null
-    petri open "$(cat link)" -o back$frame.png
+    petri render "$(cat link)" -o back$frame.png
 done
 if [ -s back8.png ] && ! grep -Eq "OpenGL|without" err; then
     check "the picture contains the feedback of earlier frames" eval '! cmp -s back1.png back8.png'
@@ -57,19 +57,20 @@ petri link heavy.fl --frame 50 --work 1M
 check "link stops at the limit of work for the whole link" status_is 1
 check "link reports the frame after which it stopped and the option that raises the limit" \
     one_message "heavy.fl: stopped after frame 9: the link exceeded its limit of 3145728 units of work; --work 1G or more would allow it"
-petri open "$heavy_link" --work 1M
-check "open stops at the limit of work for the whole link" one_message "stopped after frame 9: the link exceeded its limit"
-petri open "$heavy_link"
-check "open runs a link within its limit" has err "frame 50: state matches the link exactly"
+petri run "$heavy_link" --work 1M
+check "run stops at the limit of work for the whole link" one_message "stopped after frame 9: the link exceeded its limit"
+petri run "$heavy_link"
+check "run runs a link within its limit" has err "frame 50: state matches the link exactly"
 
-petri open "$page_link"
+petri run "$page_link"
 check "a link with another state fails" status_is 1
-check "open reports that the state differs" has err "state differs from the link"
-petri open "$page_link" -o there.fl
-check "open writes the script of a link with another state" cmp -s count.fl there.fl
-check "open lists all changes of parameters in the link" has err "N=5, N=7 after frame 10"
+check "run reports that the state differs" has err "state differs from the link"
+petri run "$page_link" -o there.fl
+check "run writes the script of a link with another state" cmp -s count.fl there.fl
+check "run lists all changes of parameters in the link" has err "N=5, N=7 after frame 10"
 
-# Bad links with a part of the message: truncated links, newer links, and links of other programs.
+# Bad links with a part of the message: truncated links, newer links, and links of other programs. `open`, the old
+# name of `run LINK`, also accepts what does not look like a link.
 while read -r bad reason; do
     petri open "$bad"
     check "a bad link is reported: $bad" one_message "$reason"
@@ -86,9 +87,9 @@ http://127.0.0.1:8080/ check that it was copied completely
 dish.fl check that it was copied completely
 TEXT
 # A name with escape sequences.
-petri open '#q1YqU7Iy1FEqUbJSUkxUSLJNVtJRygNyYkoNDAyToo0Nc0EsyyS9tBygTLKSVXS0LlC9I5BjqBQbq6OUBtRfCwA'
+petri run '#q1YqU7Iy1FEqUbJSUkxUSLJNVtJRygNyYkoNDAyToo0Nc0EsyyS9tBygTLKSVXS0LlC9I5BjqBQbq6OUBtRfCwA'
 check "a name with escape sequences is refused" one_message "not a petri link"
-petri open "#$(repeat 25001 AAAA)"
+petri run "#$(repeat 25001 AAAA)"
 check "a link that is too long is reported" one_message "too long: 100004 characters, at most 100000"
 # Prints a link with this JSON.
 pack() {
@@ -102,21 +103,21 @@ if /usr/bin/python3 -I -c 'import zlib' 2>/dev/null; then
     petri run count.fl --frames 31 --every 30 --print hash
     tail -n 1 out >hash
     old_link=$(pack "{\"v\": 1, \"t\": \"let N=N or 3\\n!counter state=:c rate=N\\n\", \"f\": 30, \"h\": \"$(cut -c 3- hash)\"}")
-    petri open "$old_link"
+    petri run "$old_link"
     check "a link of petri 0.2 is compared by its hash" has err "frame 30: state matches the link exactly"
     check "for a link of petri 0.2, open prints the hash" [ "$(tail -n 1 out)" = "$(cat hash)" ]
-    petri open "$(pack '{"v": 1, "t": "!a\n", "n": "a.fl: frame 0: state matches the link exactly\nb.fl", "f": 0}')"
+    petri run "$(pack '{"v": 1, "t": "!a\n", "n": "a.fl: frame 0: state matches the link exactly\nb.fl", "f": 0}')"
     check "a name with a line break is refused" one_message "not a petri link"
-    petri open "$(pack "{\"v\": 1, \"t\": \"!a\\n\", \"c\": [$(repeat 10000 '[0,"N","1"],')[0,\"N\",\"1\"]]}")"
+    petri run "$(pack "{\"v\": 1, \"t\": \"!a\\n\", \"c\": [$(repeat 10000 '[0,"N","1"],')[0,\"N\",\"1\"]]}")"
     check "a link with too many changes is refused" one_message "more than 10000 changes"
     # A search through all 10000 changes after each of the 1000000 frames would take 10^10 steps, and so exceed the
     # timeout.
-    timeout 60 "$petri" open "$(pack "{\"v\": 1, \"t\": \"let N=N or 1\\n!a\\n\", \"f\": 1000000, \"h\": \"\", \"c\": [
+    timeout 60 "$petri" run "$(pack "{\"v\": 1, \"t\": \"let N=N or 1\\n!a\\n\", \"f\": 1000000, \"h\": \"\", \"c\": [
         $(repeat 9999 '[0,"N","1"],')[0,\"N\",\"1\"]]}")" >out 2>err
     check "a link with many changes and frames ends" has err "frame 1000000: state differs from the link"
-    petri open "$(pack '{"v": 1, "t": "let N=N or 1\n!counter state=:c rate=N\n", "f": 9, "c": [[5,"N","7"],[1,"N","3"]]}')"
+    petri run "$(pack '{"v": 1, "t": "let N=N or 1\n!counter state=:c rate=N\n", "f": 9, "c": [[5,"N","7"],[1,"N","3"]]}')"
     cp out unordered
-    petri open "$(pack '{"v": 1, "t": "let N=N or 1\n!counter state=:c rate=N\n", "f": 9, "c": [[1,"N","3"],[5,"N","7"]]}')"
+    petri run "$(pack '{"v": 1, "t": "let N=N or 1\n!counter state=:c rate=N\n", "f": 9, "c": [[1,"N","3"],[5,"N","7"]]}')"
     check "changes are made in the order of frames" cmp -s out unordered
 fi
 petri open
@@ -178,7 +179,7 @@ TEXT
     node page.mjs "${link#*8080/}" >page_output
     check "the playground reads links of petri" has page_output '"name":"count.fl","changes":[[-1,"N","5"]]'
     check "the playground reads text, frame and digest" has page_output "\"frame\":30,\"digest\":\"$(cut -c 3- digest)\",\"hash\":null"
-    petri open "$(tail -n 1 page_output)" -o -
+    petri run "$(tail -n 1 page_output)" -o -
     check "petri reads links of the playground" [ "$(tail -n 1 out)" = '-- é' ]
     check "open applies the changes of parameters in a playground's link" has err "state differs from the link"
 fi

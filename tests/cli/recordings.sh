@@ -16,14 +16,14 @@ if petri run film.fl --frames 3 --archive film.petri && status_is 0; then
         'status_is 1 && has err "in use by another petri process" && { [ "$(uname)" != Linux ] || has err "($pid)"; }'
     wait $pid
     check "the first recording succeeds" [ $? -eq 0 ]
-    petri verify busy.petri
+    petri archive verify busy.petri
     check "the first recording is complete" eval 'status_is 0 && has out "verified: 60 of 60 frames"'
     for round in new old; do
         for i in 1 2 3 4 5 6; do
             ("$petri" run film.fl --frames "$((100 * i))" --archive race.petri >/dev/null 2>&1 && echo "$((100 * i))" >>won) &
         done
         wait
-        petri verify race.petri
+        petri archive verify race.petri
         check "of six recordings of a $round archive, the last that is not refused is complete" eval \
             'status_is 0 && [ -s won ] && has out "verified: $(tail -n 1 won) of"'
     done

@@ -30,7 +30,7 @@ start() {
 # survives NUMBER: succeeds if what is in the archive can be verified, and if the last second at most is missing.
 survives() {
     computed=$(grep -c '^=' "$1/out")
-    petri verify "$1/run.petri" --sample 20
+    petri archive verify "$1/run.petri" --sample 20
     kept=$(sed -n 's/^verified: [0-9]* of \([0-9]*\) frames.*/\1/p' out)
     if [ $status -ne 0 ]; then
         # Killed before the first commit, one second after the first frame. On a busy machine, that frame is late.

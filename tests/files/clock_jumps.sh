@@ -33,9 +33,9 @@ for seed in 1 2 3; do
         check "seed $seed: a run in real time ends" status_is 0
         check "seed $seed: the clock has jumped" [ "$(sed -n 's/^ *wall time *\([0-9]*\).*/\1/p' err)" -gt 100 ]
         check "seed $seed: a run in real time writes all frames" [ "$(wc -l <a.csv)" -eq 1201 ]
-        petri verify r.petri
+        petri archive verify r.petri
         check "seed $seed: an archive can be verified" has out "verified: 60 of 60 frames"
-        jumping verify r.petri
+        jumping archive verify r.petri
         check "seed $seed: verifying does not depend on clocks" has out "verified: 60 of 60 frames"
     fi
 done

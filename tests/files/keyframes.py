@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """keyframes.py PETRI COUNT [FOLDER...]: tests that archives and state files do not depend on where a run was resumed.
 
-Records COUNT random scripts, and each script in the folders, with three distances of keyframes. `petri verify` starts at
+Records COUNT random scripts, and each script in the folders, with three distances of keyframes. `petri archive verify` starts at
 each keyframe, so it must find that the restored sessions compute the same. A random script is also run in two parts
 with --state, whose file must have the same bytes as that of one run. The scripts have systems that appear, vanish, wait
 or restart, particles that have no entry in the state yet, and counters that share their keys.
@@ -89,7 +89,7 @@ class Case:
         recorded = self.run("run", self.script, "--frames", FRAMES, "--keyframe-every", every, "--archive", archive)
         if not archive.exists():
             return recorded
-        verified = self.run("verify", archive)
+        verified = self.run("archive", "verify", archive)
         self.archives += 1
         # A script with an error has an archive without frames.
         if verified.returncode and "it has no frames" not in verified.stderr:

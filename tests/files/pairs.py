@@ -44,10 +44,10 @@ COMMANDS = {
     "format": "fmt dish.fl",
     "check": "check dish.fl",
     "draw": "render dish.fl --frames 2 -o p.png",
-    "info": "info r.petri",
-    "verify": "verify r.petri",
+    "info": "archive info r.petri",
+    "verify": "archive verify r.petri",
     "replay": "run r.petri --frames 5",
-    "unpack": "unpack r.petri unpacked",
+    "unpack": "archive unpack r.petri unpacked",
     "compare": "diff r.petri dish.fl",
     "differ": "diff s.state dish.fl",
 }
@@ -115,7 +115,7 @@ class Pairs:
         lines = (self.folder / "way.csv").read_text().splitlines()
         self.expect(len(lines) % 40 == 1 and len({line.count(",") for line in lines}) == 1, pair, "the trajectory is damaged")
         if self.succeeded(pair, statuses, "record") or "record" not in pair:
-            status, out, err = self.run("verify r.petri")
+            status, out, err = self.run("archive verify r.petri")
             self.expect(status == 0, pair, "the archive is damaged: " + out + err)
         else:
             self.expect(None in statuses, pair, "no recording has succeeded")

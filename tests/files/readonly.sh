@@ -60,10 +60,10 @@ if [ "$(id -u)" -eq 0 ] && mkdir disk && mount -t tmpfs -o size=64m tmpfs disk 2
     reads check disk/w.fl
     reads diff disk/w.state disk/w.fl
     if [ "$archives" ]; then
-        reads info disk/w.petri
-        reads verify disk/w.petri
+        reads archive info disk/w.petri
+        reads archive verify disk/w.petri
         reads run disk/w.petri --frames 2
-        reads unpack disk/w.petri unpacked
+        reads archive unpack disk/w.petri unpacked
     fi
     check "no command has changed a file" diff -r before disk
 

@@ -44,6 +44,6 @@ record() {
 record native "${native[@]}"
 record other "${other[@]}"
 rm live.fl scale.fl
-"${native[@]}" verify other.petri | tee verified
-"${other[@]}" verify native.petri | cmp - verified
+"${native[@]}" archive verify other.petri | tee verified
+"${other[@]}" archive verify native.petri | cmp - verified
 grep -q '^verified: 67 of 67 frames' verified

@@ -121,7 +121,7 @@ archives() {
     "$1" "$dish" own.petri >out 2>&1
     status=$?
     if [ $status -eq 2 ]; then has out "built without SQLite"; else
-        [ $status -eq 0 ] && "$prefix/bin/petri" verify own.petri | grep -q '^verified: 10 of 10 frames'
+        [ $status -eq 0 ] && "$prefix/bin/petri" archive verify own.petri | grep -q '^verified: 10 of 10 frames'
     fi
 }
 # shellcheck disable=SC2046 # options are words

@@ -41,9 +41,9 @@ forge() {
     state >before
 }
 # each NAME WANTED: runs some commands that read archives. WANTED is a pattern of statuses. all NAME WANTED: runs all.
-each() { commands "$@" 'info IT' 'unpack IT out.dir' 'run IT --print state --from 20'; }
+each() { commands "$@" 'archive info IT' 'archive unpack IT out.dir' 'run IT --print state --from 20'; }
 all() {
-    commands "$@" 'info IT' 'verify IT' 'cite IT' 'unpack IT out.dir' 'check IT' 'diff base.petri IT' 'run IT --from 20' 'repl IT' \
+    commands "$@" 'archive info IT' 'archive verify IT' 'archive cite IT' 'archive unpack IT out.dir' 'check IT' 'diff base.petri IT' 'run IT --from 20' 'repl IT' \
         'render IT --frame 1 -o picture.png' "sweep IT -D N=1;2 --frames 2 --metric x=time"
 }
 commands() {
@@ -63,7 +63,7 @@ source=base.petri
 for table in sqlite_schema meta parameter file input input_frame digest keyframe note; do
     forge branches $table
     each "a tree of $table that shares pages" '0 | 1 | 2'
-    petri verify files/it.petri
+    petri archive verify files/it.petri
     check "verify finds the shared pages of $table" eval 'status_is 2 && [ -s err ]'
 done
 for column in 'meta 1' 'parameter 1' 'file 2' 'file 3' 'file 4' 'input 2' 'input 3' 'digest 1' 'keyframe 2' 'keyframe 3' \
@@ -71,13 +71,13 @@ for column in 'meta 1' 'parameter 1' 'file 2' 'file 3' 'file 4' 'input 2' 'input
     # shellcheck disable=SC2086
     forge chain $column
     each "a chain of pages in $column" '0 | 1 | 2'
-    petri verify files/it.petri
+    petri archive verify files/it.petri
     check "verify finds the chain in $column" eval 'status_is 2 && [ -s err ]'
 done
 for table in digest input keyframe file; do
     forge distant $table
     each "a distant row in $table" '0 | 1 | 2'
-    petri verify files/it.petri
+    petri archive verify files/it.petri
     check "verify finds the distant row in $table" eval 'status_is 2 && [ -s err ]'
 done
 forge wal
@@ -93,13 +93,13 @@ check "a forged journal names no script" eval '! has err b.fl'
 source=whole.petri
 forge killed
 all "a killed recording" 0
-"$petri" info whole.petri >expected
-petri info files/it.petri
+"$petri" archive info whole.petri >expected
+petri archive info files/it.petri
 check "the archive of a killed recording has its committed frames" cmp -s expected out
-petri verify files/it.petri
+petri archive verify files/it.petri
 check "the archive of a killed recording is verified" has out 'verified: 30 of 30 frames'
 cp files/it.petri torn.petri
-petri verify torn.petri
+petri archive verify torn.petri
 check "without its journal, it is damaged" status_is 2
 petri run a.fl --frames 3 --archive files/it.petri
 check "a killed recording can be replaced" eval 'status_is 0 && [ ! -e files/it.petri-journal ]'
@@ -109,7 +109,7 @@ check "a killed recording can be replaced" eval 'status_is 0 && [ ! -e files/it.
 pid=$!
 reads=0
 while kill -0 $pid 2>/dev/null; do
-    for command in info verify 'run --frames 9'; do
+    for command in 'archive info' 'archive verify' 'run --frames 9'; do
         # shellcheck disable=SC2086
         [ ! -s live.petri ] || petri $command live.petri
         reads=$((reads + 1))
@@ -119,6 +119,6 @@ done
 wait $pid
 check "a recording is not disturbed by $reads readers" [ $? -eq 0 ]
 check "readers read a recording, or say that it is being recorded" [ ! -s odd ]
-petri verify live.petri
+petri archive verify live.petri
 check "the recording is complete" has out 'verified: 240 of 240 frames'
 finish

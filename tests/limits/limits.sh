@@ -61,7 +61,7 @@ refused print_dag memory-limit run --frames 1 --print tree print_dag.fl
 if [ "$("$petri" help run | grep -c -- --archive)" -gt 0 ] && "$petri" run --frames 1 --archive first.petri eq_dag.fl 2>err; then
     # The search for the files that drawing reads.
     fits $limit archive_dag run --frames 1 --archive dag.petri archive_dag.fl
-    "$petri" info dag.petri >out
+    "$petri" archive info dag.petri >out
     check "the archive has the file of a shared node" grep -q 'archive_dag.fl: .* bytes' out
     refused archive_wide work-limit run --frames 1 --archive wide.petri archive_wide.fl
     check "the archive ends with the search" grep -q "the archive 'wide.petri' ends here: limit exceeded" err

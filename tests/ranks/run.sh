@@ -149,11 +149,11 @@ check "without petri-ranks, an installation names the package" count_is err "; o
 # Archives: the ranks share the segments.
 if "$petri" run dish.fl --frames 60 --keyframe-every 10 --archive run.petri 2>err; then
     for count in 1 3 8; do
-        ranks $count verify run.petri --quiet
+        ranks $count archive verify run.petri --quiet
         check "$count ranks verify an archive together" eval 'status_is 0 && has out "verified: 60 of 60 frames, 6 of 6 segments"'
         check "$count ranks print the result once" count_is out "digest " 1
     done
-    ranks 2 verify run.petri --sample 3
+    ranks 2 archive verify run.petri --sample 3
     check "ranks verify the same sample" eval 'status_is 0 && has out "3 of 6 segments"'
     # Digests that no run has, as in an archive of another build, in the fifth segment, which rank 1 of 3 verifies.
     python3 - <<'END'
@@ -163,12 +163,12 @@ database.execute("DELETE FROM keyframe WHERE frame > 39")
 database.execute("UPDATE digest SET digest = zeroblob(16) WHERE frame IN (44, 57)")
 database.commit()
 END
-    "$petri" verify run.petri >one 2>err
-    ranks 3 verify run.petri
+    "$petri" archive verify run.petri >one 2>err
+    ranks 3 archive verify run.petri
     check "ranks find the first frame that differs" eval 'status_is 1 && has out "frame 44 differs"'
     check "ranks print the report of one process" same one out
     head -c 3000 run.petri >cut.petri
-    ranks 2 verify cut.petri
+    ranks 2 archive verify cut.petri
     check "ranks report a damaged archive once" eval 'status_is 2 && count_is err "archive is damaged" 1'
 else
     check "a build without SQLite says what is missing" has err "built without SQLite"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# listen.sh: tests of `petri view --listen` and `petri send`, which evaluate text in a running view, under tmux.
+# listen.sh: tests of `petri view --listen` and `petri view --send`, which evaluate text in a running view, under tmux.
 # usage: tests/view/listen.sh PATH-OF-PETRI chafa|none
 
 # shellcheck source=tests/view/support.sh
@@ -8,7 +8,7 @@
 . "$here/tmux.sh"
 
 send() {
-    timeout 60 "$petri" send sock "$@" >out 2>err </dev/null
+    timeout 60 "$petri" view --send sock "$@" >out 2>err </dev/null
     status=$?
 }
 done_is() { tail -n 1 out | grep -Fq "{\"done\": $1"; }
@@ -81,7 +81,7 @@ check ".back at the start exits with status 1" status_is 1
 type_keys Space
 send '1/0;"\x01é"'
 check "any output is valid JSON" sh -c 'python3 -c "import json, sys; [json.loads(line) for line in sys.stdin]" <out'
-echo '2*SIZE' | "$petri" send sock - >out
+echo '2*SIZE' | "$petri" view --send sock - >out
 check "- reads standard input" has out '{"text": "6"}'
 "$petri" view --terminal --quiet --listen sock script.fl >out 2>err </dev/null
 status=$?

@@ -64,12 +64,20 @@ check "without a terminal, --show prints a summary" has err 'petri: 2 frames in 
 
 if ! "$petri" open '#' 2>&1 | grep -q 'built without'; then
     "$petri" link dish.fl --frame 9 >link
-    typed "$(quoted "$petri") open - <link"
-    check "petri open reports that the state matches" soon shows 'frame 9: state matches the link exactly'
-    check "petri open shows the picture" eval 'screen | grep -q "[▀▄█▌▐]"'
-    typed "$(quoted "$petri") open --quiet - <link"
-    check "petri open --quiet prints the hash" soon shows 'status 0'
-    check "petri open --quiet shows no picture" eval '! screen | grep -q "[▀▄█▌▐]"'
+    typed "$(quoted "$petri") run \"\$(cat link)\""
+    check "petri run reports that the state matches" soon shows 'frame 9: state matches the link exactly'
+    check "petri run of a link shows the picture" eval 'screen | grep -q "[▀▄█▌▐]"'
+    typed "$(quoted "$petri") run --quiet \"\$(cat link)\""
+    check "petri run --quiet of a link prints the hash" soon shows 'status 0'
+    check "petri run --quiet of a link shows no picture" eval '! screen | grep -q "[▀▄█▌▐]"'
+    # A link to frame 30 of this script, with N=5 from the start and N=7 after frame 10 (tests/cli/link.sh).
+    link='#JcdBCsIwEEDRq4x_PUpDKcJAr5ALpFmUkOKipBBHEcS7i7h6vDdPLCiOsVeXOEc5uoxLO5Xj0bx2ufvqdbYi_WdcGkrDKJdtRylYSuegRJSJrCkM_1zJWdmwcVBuGC8-Xw'
+    typed "$(quoted "$petri") view --terminal --lockstep --frames 31 --archive seen.petri '$link'"
+    check "petri view shows a link" soon shows 'status 0'
+    "$petri" run "$link" >expected 2>err
+    "$petri" run seen.petri --print hash >out 2>err
+    check "petri view makes the changes of a link" [ "$(tail -n 1 out)" = "$(tail -n 1 expected)" ]
+    check "the last frame is that of the link" has out "@30 "
 fi
 
 finish

@@ -64,7 +64,7 @@ function verify(bytes) {
 }
 
 test('an archive of the native program is verified in WebAssembly', node, () => {
-    const printed = execFileSync(petri, ['verify', live], { encoding: 'utf8' });
+    const printed = execFileSync(petri, ['archive', 'verify', live], { encoding: 'utf8' });
     const { info, problem, same, differs } = verify(readFileSync(live));
     assert.equal(problem, null);
     assert.equal(info.script, 'live.fl');
@@ -135,11 +135,11 @@ test('damage is reported as by the native program', node, () => {
     }
     for (const [i, bytes] of damages.entries()) {
         writeFileSync(file, bytes);
-        const native = spawnSync(petri, ['verify', file], { encoding: 'utf8' }), problem = common(first(bytes));
+        const native = spawnSync(petri, ['archive', 'verify', file], { encoding: 'utf8' }), problem = common(first(bytes));
         assert.equal(problem, native.status === 2 ? common(reason(native.stderr)) : undefined, `damage ${i}: ${native.stderr}`);
         problems.add(problem);
         if (i % 6 === 0) {
-            const other = spawnSync('node', [join(folder, 'petri/cli.mjs'), 'verify', file], { encoding: 'utf8' });
+            const other = spawnSync('node', [join(folder, 'petri/cli.mjs'), 'archive', 'verify', file], { encoding: 'utf8' });
             assert.deepEqual([common(other.stderr), other.status], [common(native.stderr), native.status], `damage ${i}`);
         }
     }
@@ -150,10 +150,10 @@ test('the command in Node.js records the rows of the native command', edits, () 
     const rows = [[petri], ['node', join(folder, 'petri/cli.mjs')]].map(([program, ...words], i) => {
         const run = (...args) => execFileSync(program, [...words, ...args], { cwd: scratch, encoding: 'utf8' });
         run('run', 'live.fl', '-D', 'N=5', '--frames', '50', '--keyframe-every', '20', '--archive', 'rows.petri');
-        run('unpack', 'rows.petri', `unpacked${i}`);
+        run('archive', 'unpack', 'rows.petri', `unpacked${i}`);
         return [
             execFileSync('sqlite3', [join(scratch, 'rows.petri'), '.dump'], { encoding: 'utf8' }),
-            run('info', 'rows.petri'), run('verify', 'rows.petri'),
+            run('archive', 'info', 'rows.petri'), run('archive', 'verify', 'rows.petri'),
             run('run', 'rows.petri', '--from', '30', '--frames', '10', '--print', 'digest'), readFileSync(join(scratch, `unpacked${i}/live.fl`), 'utf8'),
         ];
     });

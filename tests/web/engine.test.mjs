@@ -76,7 +76,7 @@ test('petri.d.ts declares exactly the methods that exist', () => {
     session.close();
 });
 
-test('the limit of work for links is three times the default limit of `petri open --work`', () => {
+test('the limit of work for links is three times the default limit of `petri run --work`', () => {
     assert.equal(engine.memory.wasm.web_link_work_limit(), 3 * 2 ** 30);
     const session = opened(DISH), loaded = session.work;
     assert.ok(loaded > 0);

@@ -1,4 +1,4 @@
-// link.test.mjs: links from the page to `petri open`, and from `petri link` to the page. Skipped without petri or the libraries for links.
+// link.test.mjs: links from the page to `petri run`, and from `petri link` to the page. Skipped without petri or the libraries for links.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { mkdtempSync, writeFileSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { deflateRawSync } from 'node:zlib';
 import { packLink } from '../../src/web/page/link.mjs';
 import { atFrame, frameOf, opened, options, root } from './browser.mjs';
 
-const petri = join(root, 'build/petri'), tried = spawnSync(petri, ['open', '#'], { encoding: 'utf8' });
+const petri = join(root, 'build/petri'), tried = spawnSync(petri, ['run', '#'], { encoding: 'utf8' });
 const ways = { ...options, skip: options.skip || (tried.error || /built without/.test(tried.stderr) ? 'petri opens no links' : false) };
 const linked = (...words) => execFileSync(petri, ['link', join(root, 'samples/dish.fl'), ...words], { encoding: 'utf8' }).trim();
 
@@ -43,11 +43,11 @@ test('a link of petri 0.2 is compared by its hash', ways, async () => {
     }
 });
 
-// With `petri open --work 1M`, the limit of the link is 3 * 2^20. The page has no options, so the test changes its limit.
+// With `petri run --work 1M LINK`, the limit of the link is 3 * 2^20. The page has no options, so the test changes its limit.
 test('a link that exceeds the limit of work stops in the page after the same frame as in petri', ways, async () => {
     const LIMIT = 3 * 2 ** 20, text = '!a v=len(i for i in ..300000+0*frame)\n!counter state=:c rate=1\n';
     const link = await packLink({ text, name: 'heavy.fl', changes: [], frame: 1000000, digest: '0'.repeat(32) });
-    const { status, stderr } = spawnSync(petri, ['open', '--work', '1M', link], { encoding: 'utf8' });
+    const { status, stderr } = spawnSync(petri, ['run', '--work', '1M', link], { encoding: 'utf8' });
     assert.equal(status, 1);
     const [, frame] = stderr.match(new RegExp(`stopped after frame (\\d+): the link exceeded its limit of ${LIMIT} units`));
     await opened(link, {
@@ -80,7 +80,7 @@ test('a link of the page opens in petri with the changed parameters', ways, () =
         const before = await page.evaluate(() => location.hash);
         await page.click('#link');
         await page.waitForFunction(hash => location.hash !== hash, before);
-        const { status, stderr } = spawnSync(petri, ['open', await page.evaluate(() => location.href)], { encoding: 'utf8' });
+        const { status, stderr } = spawnSync(petri, ['run', await page.evaluate(() => location.href)], { encoding: 'utf8' });
         assert.match(stderr, /frame 8: state matches the link exactly/);
         assert.equal(status, 0);
     },

@@ -65,7 +65,7 @@ function runCommand(words) {
 }
 
 const words = process.argv.slice(2);
-if (words[0] === 'view' && !words.some(word => word === '--help' || word === '-h')) {
+if (words[0] === 'view' && !words.some(word => /^(-h|--help|--send(=.*)?)$/.test(word))) {
     for (const name of ['SIGINT', 'SIGTERM', 'SIGHUP'])
         process.on(name, () => process.exit(128 + constants.signals[name]));
     const { view } = await import('./view.mjs');

@@ -1,4 +1,4 @@
-// links.mjs: compression for `petri link` and `petri open` in Node.js (src/web/command/links.c).
+// links.mjs: compression for `petri link` and `petri run LINK` in Node.js (src/web/command/links.c).
 import { createRequire } from 'node:module';
 
 // Returns the imports. `system` is the System of the command.

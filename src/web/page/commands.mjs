@@ -302,7 +302,7 @@ export const COMMANDS = [
     ['.save', 'FILE', 'write the state to a file', elsewhere(`.save ${only}; in the page, use Export or Copy link`), 'the name of a file'],
     ['.restore', 'FILE', 'load the state from a file and restart the history',
         elsewhere(`.restore ${only}; the page opens links and archives`), 'the name of a file'],
-    ['.archive', 'FILE', 'write an archive of all later frames, for petri verify', elsewhere(`.archive ${only}`), 'the name of a file'],
+    ['.archive', 'FILE', 'write an archive of all later frames, for petri archive verify', elsewhere(`.archive ${only}`), 'the name of a file'],
     ['.record', 'FILE [K]', 'write every K-th frame (default: 1) as a golden for petri test', elsewhere(`.record ${only}`),
         'the name of a file'],
     ['.time', 'EXPR', 'measure the time of an expression or a command', time, 'an expression'],

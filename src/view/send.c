@@ -1,4 +1,4 @@
-// send.c: the command `petri send`, which evaluates code in a running view.
+// send.c: `petri view --send`, which evaluates code in a running view.
 #include "base/file.h"
 #include "cli/json.h"
 #include "cli/options.h"
@@ -54,28 +54,26 @@ static int send_text(const char *path, const Text *text) {
     return status == STATUS_DONE && json_is(done, JSON_TRUE) ? STATUS_DONE : STATUS_FAILED;
 }
 
-static int send_run(const CommandContext *context, Options *options) {
-    (void)context;
-    if (options->argc == 1 && (strcmp(options->argv[0], "--help") == 0 || strcmp(options->argv[0], "-h") == 0))
-        return help_for(&SEND_COMMAND);
-    if (options->argc != 2) {
-        message("expected a socket and code, as in: petri send /tmp/dish 'let SPEED=2'; '-' reads the code from "
-                "standard input");
-        return STATUS_USAGE;
-    }
+// Sends the code, or standard input if it is `-`.
+static int send_code(const char *socket, const char *code) {
     SCOPED_TEXT text = {0};
     text_add_c(&text, "");
-    if (!script_is_stdin(options->argv[1])) {
-        text_add_c(&text, options->argv[1]);
+    if (!script_is_stdin(code)) {
+        text_add_c(&text, code);
     } else if (!text_read(&text, STDIN_FILENO, MAX_BYTES)) {
         message("cannot read standard input: %s", strerror(errno));
         return STATUS_FAILED;
     }
-    return send_text(options->argv[0], &text);
+    return send_text(socket, &text);
+}
+
+static int send_run(const CommandContext *context, Options *options) {
+    (void)context;
+    return send_code(options->send, options->script);
 }
 
 const Command SEND_COMMAND = {
-    .name = "send",
+    .name = "view --send",
     .operands = "SOCKET TEXT",
     .summary = "evaluate code in a running `petri view`",
     .details =
@@ -86,8 +84,29 @@ const Command SEND_COMMAND = {
         "frames,\n"
         "'.drop' removes what was sent before, '.reset' restarts the script. Exits with 1 if the text was rejected.",
     .examples = "  petri view dish.fl --listen /tmp/dish &\n"
-                "  petri send /tmp/dish 'len($)'\n"
-                "  petri send /tmp/dish '.set SPEED 0.5'\n",
-    .parses_arguments = true,
+                "  petri view --send /tmp/dish 'len($)'\n"
+                "  petri view --send /tmp/dish '.set SPEED 0.5'\n",
+    .missing_operand = "no code given",
+    .second_operand_error = "too many arguments: '%s'; put the code in quotes",
+    .options = FOR_SEND,
     .run = send_run,
+};
+
+static int old_send_run(const CommandContext *context, Options *options) {
+    (void)context;
+    if (options->argc == 2)
+        return send_code(options->argv[0], options->argv[1]);
+    if (options->argc == 1 && (strcmp(options->argv[0], "--help") == 0 || strcmp(options->argv[0], "-h") == 0))
+        return help_for(&SEND_COMMAND);
+    message("expected a socket and code, as in: petri view --send /tmp/dish 'let SPEED=2'; '-' reads the code from "
+            "standard input");
+    return STATUS_USAGE;
+}
+
+const Command OLD_SEND_COMMAND = {
+    .name = "send",
+    .operands = "SOCKET TEXT",
+    .details = "Does the same as 'petri view --send SOCKET TEXT', its new name.",
+    .parses_arguments = true,
+    .run = old_send_run,
 };
