@@ -3,6 +3,7 @@
 
 #include "base/number.h"
 #include "maths/maths.h"
+#include "physics/forces.h"
 #include "value/format.h"
 
 #include <math.h>
@@ -57,11 +58,12 @@ static void copy_forces(Arena *arena, const SceneView *view, AutoSystem *system,
         PhysForce force;
         if (!phys_get_force(view->engine, i, &force))
             continue;
-        if (force.kind == PHYS_DISTANCE && force.from < view->particle_count && force.to < view->particle_count &&
+        Stage stage = phys_force_row(force.kind).stage;
+        if (stage == STAGE_LINK && force.from < view->particle_count && force.to < view->particle_count &&
             numbers[force.from] != UINT32_MAX && numbers[force.to] != UINT32_MAX) {
             system->links[system->link_count++] = (AutoLink){numbers[force.from], numbers[force.to]};
-        } else if (force.kind == PHYS_BARRIER && (!force.vector || numbers_finite(force.vector, n, 1)) &&
-                   force.vector2 && numbers_finite(force.vector2, n, 1)) {
+        } else if (stage == STAGE_BARRIER && (!force.vector || numbers_finite(force.vector, n, 1)) && force.vector2 &&
+                   numbers_finite(force.vector2, n, 1)) {
             AutoBarrier *barrier = &system->barriers[system->barrier_count++];
             take_three(barrier->position, force.vector, n);
             take_three(barrier->normal, force.vector2, n);

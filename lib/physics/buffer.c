@@ -42,6 +42,10 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, 
     return true;
 }
 
+bool phys_buffer_grow(PhysSystem *system, Buffer *buffer, uint64_t count, uint64_t size) {
+    return phys_buffer_reserve(system, buffer, count * size, count + 1, size);
+}
+
 void phys_buffer_free(Buffer *buffer) {
     if (buffer->shown)
         arena_retire(&buffer->arena);

@@ -1,232 +1,187 @@
-// energy.c: see energy.h. Each potential is the integral of the force's K in spec physics.md section 4.
+// energy.c: see energy.h. The potentials of all forces are beside their formulas, with which this file shares the
+// geometry of pairs, the groups whose particles interact, and the conditions under which a force applies.
+#define LANES 1
 #include "physics/energy.h"
 
 #include "base/heap.h"
 #include "maths/maths.h"
-#include "physics/forces.h"
-#include "physics/internal.h"
+#include "physics/pair_formulas.h"
+#include "physics/pair_wavefront.h"
+#include "physics/single_formulas.h"
 
-#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { PAIRS_A_UNIT = 4, BODIES_A_UNIT = 4 };
 
-// The force whose energy is computed.
+// The force whose energy is computed. At most one of the potentials is set; none: the force has no potential.
 typedef struct Source {
     const PhysSystem *system;
-    PhysForce force;
-    double strength;
-    uint32_t group;       // group of the force
-    uint32_t group_end;   // the groups inside it are numbered group + 1 to group_end - 1
-    const uint32_t *ends; // pair forces: `group_end` of each group
+    Force force;
+    ForceRow row;
+    PairTerm term; // pair forces
+    PairPotential *pair;
+    LinkPotential *link;
+    SinglePotential *single;
+    uint32_t group;     // group of the force
+    uint32_t group_end; // the groups inside it are numbered group + 1 to group_end - 1
     double energy;
 } Source;
 
-// A particle on which the force acts.
-typedef struct Body {
-    double x; // first component of the position
-    uint32_t handle;
-} Body;
-
-// Returns the energy of a displacement: the integral of strength * d^power.
-static double displacement_energy(const Source *source, double displacement) {
-    double power = fmax(source->force.power, 0) + 1;
-    return source->strength * maths_pow(displacement, power) / power;
+static void choose_potential(Source *source) {
+#define ENTRY(KIND, name, ...) [PHYS_##KIND] = potential_##name,
+    PairPotential *const pairs[PHYS_FORCE_KINDS] = {PHYS_FORCES(ENTRY, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)};
+#define LINK(KIND, name) ENTRY(KIND, name, )
+    LinkPotential *const links[PHYS_FORCE_KINDS] = {PHYS_FORCES(PHYS_NO_ROW, LINK, PHYS_NO_ROW, PHYS_NO_ROW)};
+    SinglePotential *const singles[PHYS_FORCE_KINDS] = {PHYS_FORCES(PHYS_NO_ROW, PHYS_NO_ROW, ENTRY, ENTRY)};
+#undef ENTRY
+#undef LINK
+    PhysForceKind kind = source->force.given.kind;
+    source->pair = pairs[kind];
+    source->link = links[kind];
+    source->single = singles[kind];
 }
 
 // --- pair forces
 
-// Returns the potential at distance `length`, without a maximum distance, of a force that decreases with the square of
-// the distance. `k` is the product of strength and sources; positive if the force attracts. Particles that overlap
-// attract with the force at the distance at which they touch.
-static double inverse_square_energy(double k, double contact, double length) {
-    return length >= contact ? -k / length : -k / contact - k / (contact * contact) * (contact - length);
+// A particle on which a pair force acts.
+typedef struct Body {
+    const ParticleRecord *record;
+    const double *position;
+} Body;
+
+static PairEnd end_of(const ParticleRecord *record) {
+    return (PairEnd){.radius = record->radius, .mass = record->mass, .charge = record->charge};
 }
 
-static double contact_energy(const Source *source, const ParticleRecord *a, const ParticleRecord *b, double length) {
-    double contact = a->radius + b->radius, depth = contact - length;
-    if (a->radius == 0 || b->radius == 0 || !(depth > 0))
-        return 0;
-    if (source->force.kind == PHYS_COLLISION)
-        return displacement_energy(source, depth);
-    // Adhesion: K = S · o · (l − a), o = r₁+r₂ − l
-    double overlap = source->force.overlap;
-    double rest = fabs(a->radius - b->radius) * overlap + contact * (1 - overlap);
-    return -source->strength * depth * depth * ((contact - rest) / 2 - depth / 3);
+// Returns the potential at distance `length`, without a maximum distance.
+static double energy_at(const Source *source, const PairEnd *a, const PairEnd *b, double length) {
+    const PairGeometry geometry = lone_geometry(length, a, b);
+    Pairs pairs = lone_pair(&geometry, a, b);
+    pairs.term = &source->term;
+    return pair_where(source->row.reach, source->row.need, &pairs) ? source->pair(&pairs) : 0;
 }
 
-static double energy_at(const Source *source, const ParticleRecord *a, const ParticleRecord *b, double length) {
-    if (source->force.kind == PHYS_GRAVITY)
-        return inverse_square_energy(source->strength * (a->mass * b->mass), a->radius + b->radius, length);
-    if (source->force.kind == PHYS_ELECTROSTATIC)
-        return inverse_square_energy(-source->strength * (a->charge * b->charge), a->radius + b->radius, length);
-    return contact_energy(source, a, b, length);
-}
-
-static double distance_between(const PhysSystem *system, uint32_t i, uint32_t j) {
-    const double *a = phys_position(system, i), *b = phys_position(system, j);
-    double square = 0;
-    for (uint32_t k = 0; k < system->dimensions; k++)
-        square += (b[k] - a[k]) * (b[k] - a[k]);
-    return sqrt(square);
-}
-
-// Returns true if the particles' groups interact: one encloses the other, or they are the same.
-static bool interact(const Source *source, const ParticleRecord *a, const ParticleRecord *b) {
-    uint32_t outer = a->group < b->group ? a->group : b->group, inner = a->group < b->group ? b->group : a->group;
-    return inner < source->ends[outer] && !(a->anchor && b->anchor);
-}
-
-static void add_pair(Source *source, uint32_t i, uint32_t j) {
-    const ParticleRecord *a = phys_record(source->system, i), *b = phys_record(source->system, j);
-    double length = distance_between(source->system, i, j), limit = source->force.max_distance;
-    if (!(length > 0 && length < INFINITY) || (limit > 0 && length >= limit) || !interact(source, a, b))
+static void add_pair(Source *source, const Body *from, const Body *to) {
+    double length = phys_distance(from->position, to->position, source->system->dimensions, 1);
+    double bound = source->term.bound;
+    if (!(length > 0 && length < bound) || (from->record->anchor && to->record->anchor))
         return;
-    source->energy += energy_at(source, a, b, length) - (limit > 0 ? energy_at(source, a, b, limit) : 0);
+    const PairEnd a = end_of(from->record), b = end_of(to->record);
+    source->energy += energy_at(source, &a, &b, length) - (bound < INFINITY ? energy_at(source, &a, &b, bound) : 0);
 }
 
-static int by_position(const void *a, const void *b) {
+static int by_group_and_position(const void *a, const void *b) {
     const Body *p = a, *q = b;
-    return p->x != q->x ? (p->x > q->x) - (p->x < q->x) : (p->handle > q->handle) - (p->handle < q->handle);
+    uint32_t g = p->record->group, h = q->record->group;
+    double x = p->position[0], y = q->position[0];
+    if (g != h)
+        return (g > h) - (g < h);
+    return x != y ? (x > y) - (x < y) : (p->position > q->position) - (p->position < q->position);
 }
 
-// Fills `bodies` with the particles in the force's group and the groups inside it, sorted by the first component of
-// their position. Returns their number, and sets *range to a distance beyond which the force does not act.
-static size_t collect_bodies(const Source *source, Body *bodies, double *range) {
+// Fills `bodies` with the particles in the groups of the force, sorted by group and by the first component of their
+// positions, and sets the ranges of the groups. Returns a distance beyond which the force does not act.
+static double collect_bodies(const Source *source, Body *bodies, Group *groups) {
     const PhysSystem *system = source->system;
-    size_t count = 0;
+    uint32_t count = 0;
     double radius = 0;
+    for (uint32_t g = 0; g < system->group_count; g++)
+        groups[g] = (Group){.parent = phys_group_parent(system, g)};
     for (uint32_t i = 0; i < system->particle_count; i++) {
         const ParticleRecord *record = phys_record(system, i);
-        double x = phys_position(system, i)[0];
-        if (record->group < source->group || record->group >= source->group_end || !isfinite(x))
+        const double *position = phys_row(system, i);
+        if (record->group < source->group || record->group >= source->group_end || !isfinite(position[0]))
             continue;
-        bodies[count++] = (Body){x, i};
+        bodies[count++] = (Body){record, position};
+        groups[record->group].count++;
         radius = fmax(radius, record->radius);
     }
-    bool contact = phys_force_row(source->force.kind).reach == REACH_CONTACT;
-    *range = contact ? 2 * radius : INFINITY;
-    if (source->force.max_distance > 0)
-        *range = fmin(*range, source->force.max_distance);
-    qsort(bodies, count, sizeof *bodies, by_position);
-    return count;
+    qsort(bodies, count, sizeof *bodies, by_group_and_position);
+    for (uint32_t g = 1; g < system->group_count; g++)
+        groups[g].first = groups[g - 1].first + groups[g - 1].count;
+    phys_link_populated(groups, system->group_count);
+    return fmin(source->row.reach == REACH_CONTACT ? 2 * radius : INFINITY, source->term.bound);
 }
 
-// Sets ends[g] to the number after the last group inside group g. Groups are numbered in pre-order.
-static void find_ends(const PhysSystem *system, uint32_t *ends) {
-    const Group *groups = system->groups.bytes;
-    for (uint32_t g = 0; g < system->group_count; g++)
-        ends[g] = g + 1;
-    for (uint32_t g = system->group_count - 1; g > 0; g--)
-        if (ends[groups[g].parent] < ends[g])
-            ends[groups[g].parent] = ends[g];
-}
-
-static PhysStatus add_sorted_pairs(Source *source, Body *bodies) {
-    const PhysSystem *system = source->system;
-    PhysStatus status = PHYS_OK;
-    double range;
-    size_t count = collect_bodies(source, bodies, &range);
-    for (size_t i = 0; i < count && status == PHYS_OK; i++) {
-        size_t j = i + 1;
-        for (; j < count && bodies[j].x - bodies[i].x <= range; j++)
-            add_pair(source, bodies[i].handle, bodies[j].handle);
-        if (!phys_charge(system, 1 + (j - i) / PAIRS_A_UNIT))
-            status = PHYS_STOPPED;
+// Adds the pairs of a body of `group` and a body of `other`, which encloses it or is the same.
+static PhysStatus add_groups(Source *source, const Body *bodies, const Group *group, const Group *other, double range) {
+    size_t first = other->first, end = first + other->count;
+    for (size_t i = group->first; i < (size_t)group->first + group->count; i++) {
+        if (group == other)
+            first = i + 1;
+        while (first < end && bodies[i].position[0] - bodies[first].position[0] > range)
+            first++;
+        size_t j = first;
+        for (; j < end && bodies[j].position[0] - bodies[i].position[0] <= range; j++)
+            add_pair(source, &bodies[i], &bodies[j]);
+        if (!phys_charge(source->system, 1 + (j - first) / PAIRS_A_UNIT))
+            return PHYS_STOPPED;
     }
-    return status;
+    return PHYS_OK;
 }
 
 static PhysStatus add_pairs(Source *source) {
     const PhysSystem *system = source->system;
-    uint32_t *ends = heap_calloc(system->group_count, sizeof *ends);
+    Group *groups = heap_calloc(system->group_count, sizeof *groups);
     Body *bodies = heap_calloc((size_t)system->particle_count + 1, sizeof *bodies);
-    PhysStatus status = PHYS_NO_MEMORY;
-    if (ends && bodies) {
-        find_ends(system, ends);
-        source->ends = ends;
-        source->group_end = ends[source->group];
-        status = add_sorted_pairs(source, bodies);
-    }
-    heap_free(ends);
+    PhysStatus status = groups && bodies ? PHYS_OK : PHYS_NO_MEMORY;
+    double range = status == PHYS_OK ? collect_bodies(source, bodies, groups) : 0;
+    for (uint32_t g = source->group; g < source->group_end && status == PHYS_OK; g++)
+        for (uint32_t other = groups[g].count ? g : NO_GROUP; other != NO_GROUP && status == PHYS_OK;
+             other = phys_next_enclosing(groups, other, source->group))
+            status = add_groups(source, bodies, &groups[g], &groups[other], range);
+    heap_free(groups);
     heap_free(bodies);
     return status;
 }
 
-static void add_link(Source *source) {
-    const PhysForce *link = &source->force;
-    uint32_t count = source->system->particle_count;
+static PhysStatus add_link(Source *source) {
+    const PhysSystem *system = source->system;
+    const PhysForce *link = &source->force.given;
+    uint32_t count = system->particle_count;
     if (link->from == link->to || link->from >= count || link->to >= count ||
-        (phys_is_anchor(source->system, link->from) && phys_is_anchor(source->system, link->to)))
-        return;
-    double length = distance_between(source->system, link->from, link->to);
-    if (!(length > 0 && length < INFINITY))
-        return;
-    if (link->has_minimum && length < link->minimum)
-        source->energy = displacement_energy(source, link->minimum - length);
-    else if (link->has_maximum && length > link->maximum)
-        source->energy = displacement_energy(source, length - link->maximum);
+        (phys_is_anchor(system, link->from) && phys_is_anchor(system, link->to)))
+        return PHYS_OK;
+    double length = phys_distance(phys_row(system, link->from), phys_row(system, link->to), system->dimensions, 1);
+    if (length > 0 && length < INFINITY)
+        source->energy = source->link(link, source->force.strength, length);
+    return PHYS_OK;
 }
 
 // --- forces on single particles
 
-static double product(const PhysSystem *system, PhysVector vector, const double *position) {
-    double sum = 0;
-    for (uint32_t k = 0; k < system->dimensions && vector; k++)
-        sum += vector[k] * position[k];
-    return sum;
-}
-
-static double buoyancy_energy(const Source *source, const ParticleRecord *record, const double *position) {
-    const PhysSystem *system = source->system;
-    if (record->radius == 0 || record->mass == 0)
-        return 0;
-    double displaced = maths_pow(record->radius, system->dimensions) * source->force.density;
-    return -source->strength * (record->mass - displaced) * product(system, source->force.vector, position);
-}
-
-static double barrier_energy(const Source *source, const double *position) {
-    const PhysForce *barrier = &source->force;
-    double distance = 0;
-    for (uint32_t k = 0; k < source->system->dimensions && barrier->vector2; k++)
-        distance += (position[k] - (barrier->vector ? barrier->vector[k] : 0)) * barrier->vector2[k];
-    if (barrier->has_minimum && barrier->minimum > 0 && distance >= 0 && distance < barrier->minimum)
-        return displacement_energy(source, barrier->minimum - distance);
-    if (barrier->has_maximum && distance > barrier->maximum)
-        return displacement_energy(source, distance - barrier->maximum);
-    return 0;
-}
-
-static double single_energy(const Source *source, const ParticleRecord *record, const double *position) {
-    const PhysForce *force = &source->force;
-    const PhysSystem *system = source->system;
-    if (force->kind == PHYS_CONSTANT)
-        return -source->strength *
-               (product(system, force->vector, position) + record->mass * product(system, force->vector2, position));
-    if (force->kind == PHYS_FIELD)
-        return -source->strength * record->charge * product(system, force->vector, position);
-    return force->kind == PHYS_BUOYANCY ? buoyancy_energy(source, record, position) : barrier_energy(source, position);
-}
-
-// Returns the number after the last group inside group g.
-static uint32_t end_of_group(const PhysSystem *system, uint32_t g) {
-    const Group *groups = system->groups.bytes;
-    uint32_t end = g + 1;
-    while (end < system->group_count && groups[end].parent >= g)
-        end++;
-    return end;
+static double single_energy(const Source *source, uint32_t particle) {
+    const ParticleRecord *record = phys_record(source->system, particle);
+    ForceNeed need = source->row.need;
+    size_t n = source->system->dimensions;
+    double *row = phys_row(source->system, particle), radius = record->radius, mass = record->mass;
+    double charge = record->charge, section = need == NEED_SECTION ? maths_pow(radius, (double)n - 1) : 0;
+    double volume = need == NEED_VOLUME ? maths_pow(radius, (double)n) : 0;
+    const Columns columns = {.dimensions = n,
+                             .count = 1,
+                             .stride = 1,
+                             .position = row,
+                             .velocity = row + n,
+                             .force = row, // not written by potentials
+                             .radius = &radius,
+                             .mass = &mass,
+                             .charge = &charge,
+                             .section = &section,
+                             .volume = &volume};
+    Block block = block_at(&columns, 0);
+    return source->single(&(Singles){NULL, &columns, &source->force, n, &block});
 }
 
 static PhysStatus add_singles(Source *source) {
     const PhysSystem *system = source->system;
     if (!phys_charge(system, 1 + system->particle_count / BODIES_A_UNIT))
         return PHYS_STOPPED;
-    source->group_end = end_of_group(system, source->group);
     for (uint32_t i = 0; i < system->particle_count; i++) {
         const ParticleRecord *record = phys_record(system, i);
         double energy = 0;
         if (record->group >= source->group && record->group < source->group_end && !record->anchor)
-            energy = single_energy(source, record, phys_position(system, i));
+            energy = single_energy(source, i);
         source->energy += isfinite(energy) ? energy : 0;
     }
     return PHYS_OK;
@@ -234,18 +189,18 @@ static PhysStatus add_singles(Source *source) {
 
 PhysStatus phys_potential_energy(const PhysSystem *system, uint32_t number, double clock, double *energy) {
     Source source = {.system = system};
-    PhysStatus status = PHYS_OK;
+    Force *force = &source.force;
     *energy = NAN;
-    if (!phys_get_force(system, number, &source.force) || source.force.kind == PHYS_RANDOM ||
-        source.force.kind == PHYS_DRAG)
+    if (!phys_get_force(system, number, &force->given))
         return PHYS_OK;
-    source.strength = source.force.strength * phys_ramp(source.force.ease, clock);
+    choose_potential(&source);
+    force->strength = force->given.strength * phys_ramp(force->given.ease, clock);
+    phys_fill_terms(&source.term, (ForceRange){force, force + 1});
+    source.row = phys_force_row(force->given.kind);
     source.group = ((const ForceRecord *)system->force_records.bytes)[number].group;
-    Stage stage = phys_force_row(source.force.kind).stage;
-    if (stage == STAGE_LINK)
-        add_link(&source);
-    else
-        status = stage == STAGE_PAIR ? add_pairs(&source) : add_singles(&source);
-    *energy = status == PHYS_OK ? source.energy : NAN;
+    source.group_end = phys_group_end(system, source.group);
+    PhysStatus (*add)(Source *) = source.pair ? add_pairs : source.link ? add_link : source.single ? add_singles : NULL;
+    PhysStatus status = add ? add(&source) : PHYS_OK;
+    *energy = add && status == PHYS_OK ? source.energy : NAN;
     return status;
 }

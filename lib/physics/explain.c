@@ -92,11 +92,6 @@ static void clear_sum(const Probe *probe) {
         columns->force[k * columns->stride + probe->target] = -0.0;
 }
 
-// Reserves memory for one more element of a buffer that holds `count`. Returns false if out of memory.
-static bool reserve_one(PhysSystem *system, Buffer *buffer, size_t count, size_t size) {
-    return phys_buffer_reserve(system, buffer, count * size, count + 1, size);
-}
-
 // Adds the contribution that the columns hold. Leaves out a contribution that cannot change the sum.
 static void record(Probe *probe, uint32_t force, uint32_t partner) {
     PhysExplanation *result = probe->result;
@@ -107,9 +102,9 @@ static void record(Probe *probe, uint32_t force, uint32_t partner) {
     bool neutral = force != PHYS_OWN_FORCE; // an own force replaces the sum
     for (size_t k = 0; k < n; k++)
         neutral &= sum[k * columns->stride] == 0 && signbit(sum[k * columns->stride]);
-    if (neutral || !reserve_one(system, &probe->memory->forces, count, sizeof(uint32_t)) ||
-        !reserve_one(system, &probe->memory->partners, count, sizeof(uint32_t)) ||
-        !reserve_one(system, &probe->memory->vectors, count, n * sizeof(double)))
+    if (neutral || !phys_buffer_grow(system, &probe->memory->forces, count, sizeof(uint32_t)) ||
+        !phys_buffer_grow(system, &probe->memory->partners, count, sizeof(uint32_t)) ||
+        !phys_buffer_grow(system, &probe->memory->vectors, count, n * sizeof(double)))
         return;
     ((uint32_t *)probe->memory->forces.bytes)[count] = force;
     ((uint32_t *)probe->memory->partners.bytes)[count] = partner;
@@ -181,58 +176,45 @@ static PassForces pass_forces(const Probe *probe, ForceRange forces, bool divide
     return pass;
 }
 
-// Records the forces of `pass` between the particle and group `g`, if one of them is in `group`.
-static bool explain_group(Probe *probe, PassForces *pass, uint32_t group, uint32_t g) {
+// Records the forces of `pass` between `group` and `other`, if the particle is in one of them.
+static bool explain_groups(Probe *probe, PassForces *pass, uint32_t group, uint32_t other) {
     const Group *groups = probe->system->groups.bytes;
-    bool target_above = g == probe->group;
+    bool target_above = other == probe->group;
     return phys_charge(probe->system, 1) && ((group != probe->group && !target_above) ||
-                                             explain_partners(probe, pass, &groups[target_above ? group : g]));
+                                             explain_partners(probe, pass, &groups[target_above ? group : other]));
 }
 
-// Records one force with `theta` that group `sources` exerts on the particle, as one contribution.
-static bool explain_far_group(Probe *probe, Force *force, uint32_t sources) {
+// Records one force with `theta` of a divided pass, between `group` and itself or an enclosing group. All that a group
+// exerts on the particle is one contribution.
+static bool explain_far_force(Probe *probe, Force *force, uint32_t group, uint32_t other) {
     PhysSystem *system = probe->system;
+    bool pays;
+    if (group != probe->group && other != probe->group)
+        return phys_charge(system, 1);
+    if (!phys_far_pays(system, force, group, other, &pays))
+        return false;
+    if (!pays) {
+        PassForces pass = pass_forces(probe, (ForceRange){force, force + 1}, false);
+        return explain_groups(probe, &pass, group, other);
+    }
     clear_sum(probe);
-    if (!phys_far_force_on(system, force, (uint32_t)probe->target, probe->group, sources))
+    if (!phys_far_force_on(system, force, (uint32_t)probe->target, probe->group, group == probe->group ? other : group))
         return false;
     record(probe, force->number, PHYS_NO_PARTNER);
     return !system->failed;
 }
 
-// Returns the nearest group with particles that encloses `g` and is `level` or inside it, or NO_GROUP.
-static uint32_t next_enclosing(const Group *groups, uint32_t g, uint32_t level) {
-    uint32_t next = g ? groups[groups[g].parent].populated : NO_GROUP;
-    return next != NO_GROUP && next >= level ? next : NO_GROUP;
-}
-
-// Records one force with `theta` of a divided pass, between `group` and itself or the enclosing group `g`.
-static bool explain_far_force(Probe *probe, Force *force, uint32_t group, uint32_t g) {
-    const Group *groups = probe->system->groups.bytes;
-    if (group != probe->group && g != probe->group)
-        return phys_charge(probe->system, 1);
-    bool pays = groups[g].count >= PHYS_FAR_MIN_PARTICLES;
-    if (pays && !phys_far_pays(probe->system, force, group, g, &pays))
-        return false;
-    if (!pays) {
-        PassForces pass = pass_forces(probe, (ForceRange){force, force + 1}, false);
-        return explain_group(probe, &pass, group, g);
-    }
-    return explain_far_group(probe, force, group == probe->group ? g : group);
-}
-
-// Records the forces of the pass over the particles of `group` and of the enclosing groups up to `level`.
+// Records the forces of a pass (phys_next_enclosing).
 static bool explain_pass(Probe *probe, uint32_t group, uint32_t level) {
     PhysSystem *system = probe->system;
     const Group *groups = system->groups.bytes;
     ForceRange forces = phys_forces(system, level, STAGE_PAIR);
     PassForces pass = pass_forces(probe, forces, phys_far_divides(system, &groups[group], forces));
-    if (group == probe->group && !explain_partners(probe, &pass, &groups[group]))
-        return false;
-    for (uint32_t g = next_enclosing(groups, group, level); g != NO_GROUP; g = next_enclosing(groups, g, level))
-        if (!explain_group(probe, &pass, group, g))
+    for (uint32_t g = group; g != NO_GROUP; g = phys_next_enclosing(groups, g, level))
+        if (!explain_groups(probe, &pass, group, g))
             return false;
     for (Force *force = forces.begin; force < forces.end && pass.divided; force++)
-        for (uint32_t g = group; g != NO_GROUP && phys_is_far(system, force); g = next_enclosing(groups, g, level))
+        for (uint32_t g = group; g != NO_GROUP && phys_is_far(system, force); g = phys_next_enclosing(groups, g, level))
             if (!explain_far_force(probe, force, group, g))
                 return false;
     return true;

@@ -113,8 +113,8 @@ typedef void FarPairKernel(const FarPairs *pairs, const PairTerm *term, FarTarge
 typedef void FarCellKernel(const FarCells *cells, FarTarget *targets, size_t count);
 
 struct FarKernels {
-    FarPairKernel *pairs[FAR_DIMENSIONS + 1][2]; // by dimensions; 1: charges
-    FarCellKernel *cells[FAR_DIMENSIONS + 1][2];
+    FarPairKernel *pairs[PHYS_FORCE_KINDS][FAR_DIMENSIONS + 1]; // by PhysForceKind and dimensions
+    FarCellKernel *cells[FAR_DIMENSIONS + 1][2];                // by dimensions; 1: charges
 };
 
 // far_tree.c: builds the trees of all groups for the current positions. Returns false if out of memory.

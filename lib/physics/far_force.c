@@ -9,8 +9,7 @@
 enum { EVALUATIONS_A_UNIT = 16 };
 
 bool phys_is_far(const PhysSystem *system, const Force *force) {
-    PhysForceKind kind = force->given.kind;
-    return (kind == PHYS_GRAVITY || kind == PHYS_ELECTROSTATIC) && force->given.theta > 0 &&
+    return phys_force_row(force->given.kind).reach == REACH_INVERSE_SQUARE && force->given.theta > 0 &&
            (system->dimensions == 2 || system->dimensions == 3);
 }
 
@@ -45,10 +44,11 @@ void phys_far_free(FarForest *forest) {
 // Returns the forest of a force for the current step, or NULL if the step must be aborted.
 static FarForest *get_forest(PhysSystem *system, PhysForceKind kind) {
     enum { WORK_OF_PARTICLE = 20 };
-    FarForest *forest = &system->forests[kind == PHYS_ELECTROSTATIC];
+    bool charges = phys_force_row(kind).need == NEED_CHARGE;
+    FarForest *forest = &system->forests[charges];
     if (forest->built)
         return forest;
-    forest->charges = kind == PHYS_ELECTROSTATIC;
+    forest->charges = charges;
     if (!phys_charge(system, (uint64_t)system->columns.count * WORK_OF_PARTICLE) || !phys_far_build(system, forest))
         return NULL;
     return forest;
@@ -57,8 +57,7 @@ static FarForest *get_forest(PhysSystem *system, PhysForceKind kind) {
 // --- targets
 
 static bool add_targets(PhysSystem *system, FarForest *forest, uint32_t *count, uint32_t first, uint32_t end) {
-    if (!phys_buffer_reserve(system, &forest->targets, *count * sizeof(FarTargets), (uint64_t)*count + 1,
-                             sizeof(FarTargets)))
+    if (!phys_buffer_grow(system, &forest->targets, *count, sizeof(FarTargets)))
         return false;
     ((FarTargets *)forest->targets.bytes)[(*count)++] = (FarTargets){first, end};
     return true;
@@ -127,9 +126,10 @@ static bool estimate_pairs(PhysSystem *system, const FarPass *pass, double *pair
 
 bool phys_far_pays(PhysSystem *system, Force *force, uint32_t group, uint32_t other, bool *pays) {
     const Group *groups = system->groups.bytes;
-    FarForest *forest = get_forest(system, force->given.kind);
+    *pays = groups[other].count >= PHYS_FAR_MIN_PARTICLES;
+    FarForest *forest = *pays ? get_forest(system, force->given.kind) : NULL;
     if (!forest)
-        return false;
+        return !*pays;
     FarPass inward = make_pass(system, forest, force, group, other),
             outward = make_pass(system, forest, force, other, group);
     double pairs = 0;

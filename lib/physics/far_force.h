@@ -12,9 +12,9 @@ bool phys_has_far(const PhysSystem *system, ForceRange forces);
 // the other forces.
 bool phys_far_divides(const PhysSystem *system, const Group *group, ForceRange forces);
 
-// Sets *pays to false if the forces between two groups, which can be the same, are computed faster for all pairs: if
-// the walks for a sample of the targets list more than three quarters of the possible sources. Returns false if the
-// step must be aborted.
+// Sets *pays to false if the forces between two groups, which can be the same, are computed for all pairs: if `other`
+// has few particles, or if this is faster, because the walks for a sample of the targets list more than three quarters
+// of the possible sources. Returns false if the step must be aborted.
 bool phys_far_pays(PhysSystem *system, Force *force, uint32_t group, uint32_t other, bool *pays);
 // Adds the force that the members of group `sources` exert on those of group `targets`. Returns false if the step must
 // be aborted.

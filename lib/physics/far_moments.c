@@ -18,13 +18,6 @@ static void add_to_centre(Centre *centre, size_t n, double weight, const double 
         centre->sum[k] += weight * position[k];
 }
 
-static double distance(size_t n, const double *a, const double *b) {
-    double square = 0;
-    for (size_t k = 0; k < n; k++)
-        square += (a[k] - b[k]) * (a[k] - b[k]);
-    return sqrt(square);
-}
-
 static double larger(double a, double b) {
     return b > a || isnan(b) ? b : a;
 }
@@ -81,7 +74,7 @@ static void leaf_moments(const FarForest *forest, FarCell *cell, FarMoments *mom
         cell->centre[k] = centre.sum[k] / centre.weight;
     for (uint32_t i = cell->first; i < cell->end; i++) {
         member_position(forest, i, at);
-        cell->size = larger(cell->size, distance(n, at, cell->centre));
+        cell->size = larger(cell->size, phys_distance(at, cell->centre, n, 1));
         for (size_t k = 0; k < n; k++)
             y[k] = at[k] - cell->centre[k];
         add_moments(forest, moments, forest->source[i], none, y);
@@ -105,7 +98,7 @@ static void inner_moments(const FarForest *forest, uint32_t number, FarMoments *
         double y[FAR_DIMENSIONS];
         for (size_t k = 0; k < n; k++)
             y[k] = cells[child].centre[k] - cell->centre[k];
-        cell->size = larger(cell->size, distance(n, cells[child].centre, cell->centre) + cells[child].size);
+        cell->size = larger(cell->size, phys_distance(cells[child].centre, cell->centre, n, 1) + cells[child].size);
         add_moments(forest, moments, all[child].monopole, all[child].dipole, y);
         for (size_t m = 0; m < FAR_QUADRUPOLE; m++)
             moments->quadrupole[m] += all[child].quadrupole[m];

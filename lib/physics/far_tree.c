@@ -213,7 +213,7 @@ static FarCell *cell_at(const FarForest *forest, uint32_t cell) {
 // at most FAR_LEVELS deep. Returns false if out of memory.
 static bool add_cells(PhysSystem *system, FarForest *forest, uint32_t first, uint32_t end, int level) {
     uint32_t cell = forest->cell_count;
-    if (!phys_buffer_reserve(system, &forest->cells, cell * sizeof(FarCell), (uint64_t)cell + 1, sizeof(FarCell)))
+    if (!phys_buffer_grow(system, &forest->cells, cell, sizeof(FarCell)))
         return false;
     forest->cell_count++;
     *cell_at(forest, cell) = (FarCell){.first = first, .end = end};

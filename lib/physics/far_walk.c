@@ -97,7 +97,7 @@ static void flush_pairs(const FarPass *pass, FarScratch *scratch) {
             pairs->position[k][pairs->count] = NAN;
         pairs->source[pairs->count] = pairs->radius[pairs->count] = 0;
     }
-    pass->kernels->pairs[n][pass->forest->charges](pairs, &pass->term, scratch->targets, scratch->target_count);
+    pass->kernels->pairs[pass->term.kind][n](pairs, &pass->term, scratch->targets, scratch->target_count);
     pairs->count = 0;
 }
 

@@ -16,29 +16,6 @@ typedef struct Pass {
     Move *move;             // motion that follows this pass; NULL: particles must not move
 } Pass;
 
-void phys_fill_terms(PairTerm *terms, ForceRange forces) {
-    for (const Force *force = forces.begin; force < forces.end; force++)
-        *terms++ = (PairTerm){
-            .kind = force->given.kind,
-            .strength = force->strength * phys_force_row(force->given.kind).sign,
-            .power = force->given.power,
-            .bound = force->given.max_distance > 0 ? force->given.max_distance : INFINITY,
-            .overlap = force->given.overlap,
-        };
-}
-
-PairPass phys_columns_pass(const Columns *columns) {
-    return (PairPass){
-        .dimensions = columns->dimensions,
-        .stride = columns->stride,
-        .position = columns->position,
-        .force = columns->force,
-        .radius = columns->radius,
-        .mass = columns->mass,
-        .charge = columns->charge,
-    };
-}
-
 // Fills terms with the forces that the main part of a pass computes. Returns their number.
 static size_t fill_pass_terms(PhysSystem *system, ForceRange forces, bool divided) {
     PairTerm *terms = system->terms.bytes;
@@ -96,35 +73,10 @@ static void compute_region(const Pass *pass, const PairRegion *region) {
         pass->kernel(&pass->pairs, region->triangle, region->row, region->row_end, region->column, region->column_end);
 }
 
-// Computes all pairs within one range.
-static void pass_triangle(const Pass *pass, size_t first, size_t end) {
-    if (pass->kernel && end - first > 2) {
-        compute_region(pass, &(PairRegion){pass->kernel, &pass->pairs, true, first, end, first, end});
-        return;
-    }
-    for (size_t i = first; i < end && !phys_pass_stopped(&pass->pairs); i++)
-        phys_pair_row(&pass->pairs, i, i + 1, end);
-}
-
 // Returns the number of vector operations of a rectangle with these numbers of rows and columns.
 static size_t vector_count(const Pass *pass, size_t rows, size_t columns) {
     size_t lanes = pass->kernels->lanes;
     return (rows + lanes - 1) / lanes * columns;
-}
-
-// Computes all pairs between two ranges. Either range may be the rows, because the factor K of every force is symmetric
-// (pair_formulas.h).
-static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t other, size_t other_end) {
-    size_t rows = end - first, columns = other_end - other;
-    if (!pass->kernel || rows + columns <= 4) {
-        for (size_t i = first; i < end && !phys_pass_stopped(&pass->pairs); i++)
-            phys_pair_row(&pass->pairs, i, other, other_end);
-        return;
-    }
-    PairRegion region = {pass->kernel, &pass->pairs, false, first, end, other, other_end};
-    if (vector_count(pass, rows, columns) > vector_count(pass, columns, rows))
-        region = (PairRegion){pass->kernel, &pass->pairs, false, other, other_end, first, end};
-    compute_region(pass, &region);
 }
 
 // Charges the work for `pairs` pairs. Returns false if the step must be aborted. A pass with a single force has a
@@ -138,96 +90,75 @@ static bool charge_pairs(const Pass *pass, uint64_t pairs) {
     return phys_charge(pass->system, GROUP_WORK + units);
 }
 
-// Returns the next group that encloses `group`, has particles and is `level` or inside it; NULL: there is none. Group
-// numbers ascend from parent to child, so an enclosing group with a smaller number than `level` is outside of `level`.
-static const Group *next_enclosing(const PhysSystem *system, const Group *group, uint32_t level) {
-    const Group *groups = system->groups.bytes;
-    if (group == groups)
-        return NULL;
-    uint32_t next = groups[group->parent].populated;
-    return next != NO_GROUP && next >= level ? &groups[next] : NULL;
-}
-
-// Computes the forces of `pass` for all pairs of a particle of `group` with later particles of `group`, and with
-// particles of the enclosing groups up to `level`.
-static void compute_pass(const Pass *pass, const Group *group, uint32_t level) {
-    PhysSystem *system = pass->system;
-    if (system->column_order == ORDER_BY_CELL)
-        phys_restore_order(system);
-    system->unlisted = true;
-    size_t first = group->first, end = first + group->count;
-    if (!charge_pairs(pass, (uint64_t)group->count * group->count / 2))
-        return;
-    pass_triangle(pass, first, end);
-    for (const Group *other = next_enclosing(system, group, level); other;
-         other = next_enclosing(system, other, level)) {
-        if (!charge_pairs(pass, (uint64_t)group->count * other->count))
-            return;
-        pass_rectangle(pass, first, end, other->first, (size_t)other->first + other->count);
-    }
-}
-
-// Adds one force within a group, or between it and an enclosing group, for all pairs. Returns false if the step must be
+// Computes all pairs of a particle of `group` with a particle of `other`, which encloses it or is the same. Either may
+// be the rows, because the factor K of every force is symmetric (pair_formulas.h). Returns false if the step must be
 // aborted.
-static bool add_all_pairs(PhysSystem *system, const Group *group, const Group *other, Force *force) {
+static bool compute_groups(const Pass *pass, const Group *group, const Group *other) {
+    bool same = group == other;
+    if (!charge_pairs(pass, (uint64_t)group->count * other->count / (same ? 2 : 1)))
+        return false;
+    PairRegion region = {pass->kernel, &pass->pairs, same, .row = group->first, .column = other->first};
+    region.row_end = region.row + group->count;
+    region.column_end = region.column + other->count;
+    bool few = same ? group->count <= 2 : group->count + other->count <= 4;
+    if (!pass->kernel || few) {
+        for (size_t i = region.row; i < region.row_end && !phys_pass_stopped(&pass->pairs); i++)
+            phys_pair_row(&pass->pairs, i, same ? i + 1 : region.column, region.column_end);
+        return true;
+    }
+    if (vector_count(pass, group->count, other->count) > vector_count(pass, other->count, group->count))
+        region = (PairRegion){pass->kernel,      &pass->pairs, same,          region.column,
+                              region.column_end, region.row,   region.row_end};
+    compute_region(pass, &region);
+    return true;
+}
+
+// Prepares the columns for passes over all pairs, which sum in the order of handles.
+static void restore_order(PhysSystem *system) {
     if (system->column_order == ORDER_BY_CELL) {
         phys_restore_order(system);
         phys_far_forget(system); // trees refer to columns
-        system->unlisted = true;
     }
-    Pass pass = prepare_pass(system, (ForceRange){force, force + 1}, false);
-    uint64_t pairs = (uint64_t)group->count * other->count;
-    if (!charge_pairs(&pass, group == other ? pairs / 2 : pairs))
-        return false;
-    size_t end = (size_t)group->first + group->count;
-    if (group == other)
-        pass_triangle(&pass, group->first, end);
-    else
-        pass_rectangle(&pass, group->first, end, other->first, (size_t)other->first + other->count);
-    return true;
+    system->unlisted = true;
 }
 
-// Adds one force with `theta` of a divided pass, between a group and itself or an enclosing group. All pairs are
-// computed if the enclosing group has few particles, or if this is faster.
-static bool add_far_force(PhysSystem *system, const Group *group, const Group *other, Force *force) {
+// Adds one force with `theta` of a divided pass, between a group and itself or an enclosing group. Returns false if the
+// step must be aborted.
+static bool add_far_force(PhysSystem *system, uint32_t group, uint32_t other, Force *force) {
     const Group *groups = system->groups.bytes;
-    uint32_t own = (uint32_t)(group - groups), outer = (uint32_t)(other - groups);
-    bool pays = other->count >= PHYS_FAR_MIN_PARTICLES;
-    if (pays && !phys_far_pays(system, force, own, outer, &pays))
+    bool pays;
+    if (!phys_far_pays(system, force, group, other, &pays))
         return false;
-    if (!pays)
-        return add_all_pairs(system, group, other, force);
-    return phys_far_forces(system, force, own, outer) && (own == outer || phys_far_forces(system, force, outer, own));
+    if (pays)
+        return phys_far_forces(system, force, group, other) &&
+               (group == other || phys_far_forces(system, force, other, group));
+    restore_order(system);
+    Pass pass = prepare_pass(system, (ForceRange){force, force + 1}, false);
+    return compute_groups(&pass, &groups[group], &groups[other]);
 }
 
-// Adds one force with `theta` of a divided pass.
-static bool add_far_forces(PhysSystem *system, const Group *group, uint32_t level, Force *force) {
-    for (const Group *other = group; other; other = next_enclosing(system, other, level))
-        if (!add_far_force(system, group, other, force))
-            return false;
-    return true;
-}
-
-// Computes the pair forces that group `level` declares, on the particles of `group`. `level` is `group` itself or a
-// group that encloses it. The partners of a particle are the later particles of `group`, then the particles of the
-// enclosing groups up to `level`.
-static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Move *move) {
-    uint32_t number = (uint32_t)(group - (const Group *)system->groups.bytes);
+// Computes a pass (phys_next_enclosing): first the forces without `theta` together, then the others one by one.
+static void pair_pass(PhysSystem *system, uint32_t group, uint32_t level, Move *move) {
+    const Group *groups = system->groups.bytes;
     ForceRange forces = phys_forces(system, level, STAGE_PAIR);
-    bool divided = phys_far_divides(system, group, forces);
+    bool divided = phys_far_divides(system, &groups[group], forces), more = true;
     Pass pass = prepare_pass(system, forces, divided);
     pass.move = divided ? NULL : move;
     if (pass.pairs.term_count &&
-        (!pass.kernels || !phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, number, level, pass.move)))
-        compute_pass(&pass, group, level);
+        (!pass.kernels || !phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, group, level, pass.move))) {
+        restore_order(system);
+        for (uint32_t g = group; g != NO_GROUP && more; g = phys_next_enclosing(groups, g, level))
+            more = compute_groups(&pass, &groups[group], &groups[g]);
+    }
     for (Force *force = forces.begin; force < forces.end && divided; force++)
-        if (phys_is_far(system, force) && !add_far_forces(system, group, level, force))
-            return;
+        for (uint32_t g = group; g != NO_GROUP && phys_is_far(system, force); g = phys_next_enclosing(groups, g, level))
+            if (!add_far_force(system, group, g, force))
+                return;
 }
 
-void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move) {
+void phys_apply_pairs(PhysSystem *system, uint32_t group, Move *move) {
     const Group *groups = system->groups.bytes;
-    for (uint32_t level = group->nearest[STAGE_PAIR]; level != NO_GROUP;
+    for (uint32_t level = groups[group].nearest[STAGE_PAIR]; level != NO_GROUP;
          level = phys_next_above(groups, level, STAGE_PAIR))
         pair_pass(system, group, level, move);
 }

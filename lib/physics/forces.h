@@ -18,22 +18,21 @@ typedef enum ForceNeed {
 } ForceNeed;
 
 // The distances at which a pair force acts (force_list.h).
-typedef enum PairReach { REACH_CONTACT, REACH_FAR } PairReach;
+typedef enum PairReach { REACH_CONTACT, REACH_FAR, REACH_INVERSE_SQUARE } PairReach;
 
 typedef struct ForceRow {
     Stage stage;
     ForceNeed need;  // a pair force needs it from both particles
     PairReach reach; // pair forces only
     int sign;        // pair forces only: PairTerm.strength is sign · strength
-    int vectors;     // number of PhysForce vectors that the force reads
 } ForceRow;
 
 static inline ForceRow phys_force_row(PhysForceKind kind) {
     static const ForceRow rows[PHYS_FORCE_KINDS] = {
-#define PAIR(KIND, name, SIGN, SOURCE, REACH) {STAGE_PAIR, NEED_##SOURCE, REACH_##REACH, SIGN, 0},
-#define LINK(KIND, name) {STAGE_LINK, NEED_NOTHING, REACH_FAR, 0, 0},
-#define SINGLE(KIND, name, VECTORS, NEED) {STAGE_SINGLE, NEED_##NEED, REACH_FAR, 0, VECTORS},
-#define BARRIER(KIND, name, VECTORS, NEED) {STAGE_BARRIER, NEED_##NEED, REACH_FAR, 0, VECTORS},
+#define PAIR(KIND, name, SIGN, SOURCE, REACH) {STAGE_PAIR, NEED_##SOURCE, REACH_##REACH, SIGN},
+#define LINK(KIND, name) {STAGE_LINK, NEED_NOTHING, REACH_FAR, 0},
+#define SINGLE(KIND, name, NEED) {STAGE_SINGLE, NEED_##NEED, REACH_FAR, 0},
+#define BARRIER(KIND, name, NEED) {STAGE_BARRIER, NEED_##NEED, REACH_FAR, 0},
         PHYS_FORCES(PAIR, LINK, SINGLE, BARRIER)
 #undef PAIR
 #undef LINK
@@ -42,3 +41,6 @@ static inline ForceRow phys_force_row(PhysForceKind kind) {
     };
     return rows[kind];
 }
+
+// For a force that has a formula but no potential energy: `stage` is Pair, Link or Single.
+#define NO_POTENTIAL(stage, name) static stage##Potential *const potential_##name __attribute__((unused)) = NULL;

@@ -65,12 +65,17 @@ static void arrange_forces(PhysSystem *system) {
     }
 }
 
+void phys_link_populated(Group *groups, uint32_t group_count) {
+    for (uint32_t g = 0; g < group_count; g++)
+        groups[g].populated = groups[g].count ? g : g ? groups[groups[g].parent].populated : NO_GROUP;
+}
+
 void phys_link_groups(PhysSystem *system) {
     Group *groups = system->groups.bytes;
+    phys_link_populated(groups, system->group_count);
     for (uint32_t g = 0; g < system->group_count; g++) {
         Group *group = &groups[g];
         const Group *parent = g ? &groups[group->parent] : NULL;
-        group->populated = group->count ? g : parent ? parent->populated : NO_GROUP;
         for (int stage = 0; stage < STAGE_COUNT; stage++) {
             const uint32_t *start = system->starts + (size_t)g * STAGE_COUNT + stage;
             group->nearest[stage] = start[0] != start[1] ? g : parent ? parent->nearest[stage] : NO_GROUP;

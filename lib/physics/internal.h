@@ -260,6 +260,8 @@ static inline const atomic_bool *phys_stop(const PhysSystem *system) {
 // buffer.c: reserves memory for `count` elements of `size` bytes and preserves the first `retained` bytes of the
 // contents. Returns false and sets system->failed if out of memory.
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, uint64_t count, uint64_t size);
+// Like phys_buffer_reserve, for one more element than `count`, all of which are preserved.
+bool phys_buffer_grow(PhysSystem *system, Buffer *buffer, uint64_t count, uint64_t size);
 void phys_buffer_free(Buffer *buffer);
 
 // system.c: makes the system READY. Returns false if out of memory.
@@ -301,6 +303,8 @@ void phys_write_column_rows(PhysSystem *system, const Columns *columns, const ui
 bool phys_reserve_columns(PhysSystem *system, uint64_t spare);
 // groups.c: sets Group.populated and Group.nearest, which skip empty enclosing groups, so that deep nesting is cheap.
 void phys_link_groups(PhysSystem *system);
+// Sets only Group.populated, from `parent` and `count`.
+void phys_link_populated(Group *groups, uint32_t group_count);
 
 // step.c: starts a step at `clock`: sets the strengths of all forces and the initial forces on all particles.
 void phys_start_step(PhysSystem *system, double clock);
@@ -331,7 +335,7 @@ typedef struct Move {
 // Applies all pair forces for which one particle is in `group` and the other is in `group` or an enclosing group. Each
 // of these groups that declares pair forces has a pass for its forces. `move` is the motion that a pass may carry out;
 // NULL: passes must not move particles.
-void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move);
+void phys_apply_pairs(PhysSystem *system, uint32_t group, Move *move);
 // barrier.c: reflects particle i at one barrier after a move of `delta` (spec physics.md 4.4).
 void phys_reflect(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
 
@@ -346,6 +350,16 @@ static inline size_t phys_numbers_at(const Columns *columns, size_t i) {
 
 static inline double phys_at(PhysVector vector, size_t k) {
     return vector ? vector[k] : 0.0;
+}
+
+// Returns the distance between two points with n components, which are `stride` doubles apart.
+static inline double phys_distance(const double *a, const double *b, size_t n, size_t stride) {
+    double square = 0;
+    for (size_t k = 0; k < n; k++) {
+        double d = b[k * stride] - a[k * stride];
+        square += d * d;
+    }
+    return sqrt(square);
 }
 
 // Returns the factor at time `clock` for a strength or a particle's `force` attribute whose ramp time is `ease`.
@@ -366,7 +380,31 @@ static inline ForceRange phys_forces(const PhysSystem *system, uint32_t group, S
     return start[0] == start[1] ? (ForceRange){0} : (ForceRange){forces + start[0], forces + start[1]};
 }
 
+// Returns the number after the last group inside `group`. Groups are numbered in pre-order.
+static inline uint32_t phys_group_end(const PhysSystem *system, uint32_t group) {
+    const Group *groups = system->groups.bytes;
+    uint32_t end = group + 1;
+    while (end < system->group_count && groups[end].parent >= group)
+        end++;
+    return end;
+}
+
 // Returns the nearest group that encloses `group` and has forces of a stage, or NO_GROUP.
 static inline uint32_t phys_next_above(const Group *groups, uint32_t group, Stage stage) {
     return group ? groups[groups[group].parent].nearest[stage] : NO_GROUP;
+}
+
+// Returns the nearest group that encloses `group`, has particles and is `level` or inside it, or NO_GROUP. Group
+// numbers ascend from parent to child, so an enclosing group with a smaller number than `level` is outside of it.
+//
+// A pass computes the pair forces that one group, its level, declares, for all pairs with a particle of one group. The
+// level is this group or encloses it. The partners are the later particles of the same group, then the particles of the
+// enclosing groups up to the level (spec 4.1). Everything that walks over pairs visits them in this order:
+//
+//     for (level = groups[group].nearest[STAGE_PAIR]; level != NO_GROUP;
+//          level = phys_next_above(groups, level, STAGE_PAIR))
+//         for (other = group; other != NO_GROUP; other = phys_next_enclosing(groups, other, level))
+static inline uint32_t phys_next_enclosing(const Group *groups, uint32_t group, uint32_t level) {
+    uint32_t next = group ? groups[groups[group].parent].populated : NO_GROUP;
+    return next != NO_GROUP && next >= level ? next : NO_GROUP;
 }

@@ -115,23 +115,37 @@ KERNEL void add_cells(const FarCells *cells, size_t n, bool charges, FarTarget *
     store_sums(n, to->cell_sums, part, sum);
 }
 
-#define FAR_KERNEL(n, name, kind, charges)                                                                             \
-    static void pairs_##n##name(const FarPairs *pairs, const PairTerm *term, FarTarget *targets, size_t count) {       \
+#define PAIRS(n, KIND)                                                                                                 \
+    static void pairs_##n##KIND(const FarPairs *pairs, const PairTerm *term, FarTarget *targets, size_t count) {       \
         for (size_t t = 0; t < count; t++)                                                                             \
             for (size_t part = 0; part < FAR_SUMS; part += LANES)                                                      \
-                add_pairs(pairs, term, (PairShape){n, kind, REST_NONE, false}, &targets[t], part);                     \
-    }                                                                                                                  \
+                add_pairs(pairs, term, (PairShape){n, PHYS_##KIND, REST_NONE, false}, &targets[t], part);              \
+    }
+#define CELLS(n, name, charges)                                                                                        \
     static void cells_##n##name(const FarCells *cells, FarTarget *targets, size_t count) {                             \
         for (size_t t = 0; t < count; t++)                                                                             \
             for (size_t part = 0; part < FAR_SUMS; part += LANES)                                                      \
                 add_cells(cells, n, charges, &targets[t], part);                                                       \
     }
-FAR_KERNEL(2, mass, PHYS_GRAVITY, false)
-FAR_KERNEL(2, charge, PHYS_ELECTROSTATIC, true)
-FAR_KERNEL(3, mass, PHYS_GRAVITY, false)
-FAR_KERNEL(3, charge, PHYS_ELECTROSTATIC, true)
+CELLS(2, mass, false)
+CELLS(2, charge, true)
+CELLS(3, mass, false)
+CELLS(3, charge, true)
+
+// Rows whose reach is INVERSE_SQUARE have kernels for pairs. Trees exist only for two sources.
+#define TREES_CONTACT(MAKE, KIND, SOURCE)
+#define TREES_FAR(MAKE, KIND, SOURCE)
+#define TREES_INVERSE_SQUARE(MAKE, KIND, SOURCE) TREES_OF_##SOURCE(MAKE(KIND))
+#define TREES_OF_MASS(...) __VA_ARGS__
+#define TREES_OF_CHARGE(...) __VA_ARGS__
+#define PAIR_KERNELS(KIND) PAIRS(2, KIND) PAIRS(3, KIND)
+#define PAIR_ENTRIES(KIND) [PHYS_##KIND] = {[2] = pairs_2##KIND, [3] = pairs_3##KIND},
+#define ROW_KERNELS(KIND, name, SIGN, SOURCE, REACH) TREES_##REACH(PAIR_KERNELS, KIND, SOURCE)
+#define ROW_ENTRIES(KIND, name, SIGN, SOURCE, REACH) TREES_##REACH(PAIR_ENTRIES, KIND, SOURCE)
+
+PHYS_FORCES(ROW_KERNELS, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)
 
 const FarKernels PER_ISA(far_kernels) = {
-    .pairs = {[2] = {pairs_2mass, pairs_2charge}, [3] = {pairs_3mass, pairs_3charge}},
+    .pairs = {PHYS_FORCES(ROW_ENTRIES, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)},
     .cells = {[2] = {cells_2mass, cells_2charge}, [3] = {cells_3mass, cells_3charge}},
 };

@@ -25,8 +25,10 @@ enum {
     PHYS_PAIR = 2,
 };
 
-// One force of a pass. The sign of `strength` is such that a positive K (pair_formulas.h) attracts.
+// One force of a pass. The sign of `strength` is such that a positive K (pair_formulas.h) attracts. Some attributes are
+// copied from `given`, so that kernels read them from one place.
 typedef struct PairTerm {
+    const PhysForce *given;
     PhysForceKind kind;
     double strength;
     double power;

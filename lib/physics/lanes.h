@@ -190,6 +190,12 @@ KERNEL Real real_pow(bool plain, Mask mask, Real base, double power) {
     return plain || power <= 0 ? real_set(1) : pow_by_lane(mask, base, power);
 }
 
+// Returns the integral of factor · x^power from 0 to `end`, like real_pow.
+KERNEL Real real_pow_integral(double factor, Mask mask, Real end, double power) {
+    double next = (power > 0 ? power : 0) + 1;
+    return real_set(factor) * real_pow(false, mask, end, next) / real_set(next);
+}
+
 #if LANES > 1
 
 KERNEL void real_store_where(Mask mask, double *to, Real a) {

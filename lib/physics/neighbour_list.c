@@ -2,6 +2,7 @@
 #include "physics/neighbour_list.h"
 
 #include "physics/integrate.h"
+#include "physics/pair_wavefront.h"
 #include "physics/threads.h"
 
 #include <string.h>
@@ -35,7 +36,7 @@ static double bound_of(const PairPass *pass) {
 static bool find_ranges(const PhysSystem *system, uint32_t group, uint32_t level, PassRanges *ranges) {
     const Group *groups = system->groups.bytes;
     memset(ranges, 0, sizeof *ranges);
-    for (uint32_t g = group; g != NO_GROUP && g >= level; g = g ? groups[groups[g].parent].populated : NO_GROUP) {
+    for (uint32_t g = group; g != NO_GROUP; g = phys_next_enclosing(groups, g, level)) {
         if (ranges->count == PHYS_MAX_RANGES)
             return false;
         ranges->at[ranges->count++] = (ColumnRange){groups[g].first, groups[g].count};

@@ -95,11 +95,6 @@ typedef struct NeighbourList {
     Buffer entries;
 } NeighbourList;
 
-// force_pair.c: returns a pass that uses these columns and as yet has no forces.
-PairPass phys_columns_pass(const Columns *columns);
-// Fills one term per force.
-void phys_fill_terms(PairTerm *terms, ForceRange forces);
-
 // neighbour_list.c: computes a pass with neighbour lists. If lists cannot be used, or if computing all pairs is faster,
 // adds no forces and returns false. `move` is as in phys_apply_pairs.
 bool phys_neighbour_list_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,

@@ -2,8 +2,9 @@
 //
 //   d_k = to_k − from_k;  l = sqrt(d_0² + d_1² + …);  inv = 1 / l;  u_k = d_k · inv;  f_k = u_k · K
 //
-// K is the signed size of the force: a positive K attracts. Each kind of force has a formula for K below. S is the
-// strength times the sign in the force's row (force_list.h).
+// K is the signed size of the force: a positive K attracts. Each kind of force has two formulas below: for K, and for
+// the potential U with dU/dl = K, which is 0 where the force ends. S is the strength times the sign in the force's row
+// (force_list.h). Instead of a potential there may be NO_POTENTIAL(Pair, name).
 //
 // The target (`from`) receives + f and the partner − f, whichever of the two comes first in the pass. Every K is
 // symmetric: if the two are exchanged, d, u and f change only their signs, and K stays the same.
@@ -40,10 +41,22 @@ typedef struct Pairs {
     bool linear;  // all exponents are 1
 } Pairs;
 
+// Potentials of pair forces and links. energy.c chooses them by the force's row.
+typedef Real PairPotential(const Pairs *pairs);
+typedef Real LinkPotential(const PhysForce *link, double strength, Real length);
+
 // S · (a · b) / (D · D),  D = max(r₁+r₂, l)
 KERNEL Real inverse_square(const Pairs *pairs, Real a, Real b) {
     Real distance = real_max(pairs->geometry->reach, pairs->geometry->length);
     return real_set(pairs->term->strength) * (a * b) / (distance * distance);
+}
+
+// U = − S · (a · b) / l;  if l < r₁+r₂ = R, where K is constant:  U = − S · (a · b) · (1/R + (R − l)/R²)
+KERNEL Real inverse_square_potential(const Pairs *pairs, Real a, Real b) {
+    Real reach = pairs->geometry->reach, length = pairs->geometry->length;
+    Real k = real_set(pairs->term->strength) * (a * b);
+    Real touching = -k / reach - k / (reach * reach) * (reach - length);
+    return real_select(real_less(length, reach), touching, -k / length);
 }
 
 // K = S · (m₁ · m₂) / (D · D)
@@ -51,9 +64,17 @@ KERNEL Real pair_gravity(const Pairs *pairs) {
     return inverse_square(pairs, pairs->target->mass, pairs->partner->mass);
 }
 
+KERNEL Real potential_gravity(const Pairs *pairs) {
+    return inverse_square_potential(pairs, pairs->target->mass, pairs->partner->mass);
+}
+
 // K = S · (q₁ · q₂) / (D · D)
 KERNEL Real pair_electrostatic(const Pairs *pairs) {
     return inverse_square(pairs, pairs->target->charge, pairs->partner->charge);
+}
+
+KERNEL Real potential_electrostatic(const Pairs *pairs) {
+    return inverse_square_potential(pairs, pairs->target->charge, pairs->partner->charge);
 }
 
 // K = (r₁+r₂ − l)^power · S
@@ -63,14 +84,29 @@ KERNEL Real pair_collision(const Pairs *pairs) {
     return power * real_set(pairs->term->strength);
 }
 
-// K = S · o · (l − a),  o = r₁+r₂ − l,  a = |r₁−r₂| · overlap + (r₁+r₂) · (1 − overlap)
-KERNEL Real pair_adhesion(const Pairs *pairs) {
-    const PairGeometry *geometry = pairs->geometry;
+KERNEL Real potential_collision(const Pairs *pairs) {
+    Real depth = pairs->geometry->reach - pairs->geometry->length;
+    return -real_pow_integral(pairs->term->strength, pairs->contact, depth, pairs->term->power);
+}
+
+// a = |r₁−r₂| · overlap + (r₁+r₂) · (1 − overlap)
+KERNEL Real adhesion_rest(const Pairs *pairs) {
     double overlap = pairs->term->overlap;
-    Real depth = geometry->reach - geometry->length;
     Real difference = real_absolute(pairs->target->radius - pairs->partner->radius);
-    Real rest = difference * real_set(overlap) + geometry->reach * real_set(1 - overlap);
-    return real_set(pairs->term->strength) * depth * (geometry->length - rest);
+    return difference * real_set(overlap) + pairs->geometry->reach * real_set(1 - overlap);
+}
+
+// K = S · o · (l − a),  o = r₁+r₂ − l
+KERNEL Real pair_adhesion(const Pairs *pairs) {
+    Real depth = pairs->geometry->reach - pairs->geometry->length;
+    return real_set(pairs->term->strength) * depth * (pairs->geometry->length - adhesion_rest(pairs));
+}
+
+// U = − S · o² · ((r₁+r₂ − a)/2 − o/3)
+KERNEL Real potential_adhesion(const Pairs *pairs) {
+    Real reach = pairs->geometry->reach, depth = reach - pairs->geometry->length;
+    Real factor = (reach - adhesion_rest(pairs)) / real_set(2) - depth / real_set(3);
+    return -real_set(pairs->term->strength) * depth * depth * factor;
 }
 
 // Sets *k to K of a link with this length. Returns false if there is no force.
@@ -83,6 +119,14 @@ KERNEL bool link_distance(const PhysForce *link, double strength, Real length, R
     Real beyond = near ? real_set(link->minimum) - length : length - real_set(link->maximum);
     *k = real_pow(false, mask_first(LANES), beyond, link->power) * real_set(near ? -strength : strength);
     return true;
+}
+
+KERNEL Real potential_distance(const PhysForce *link, double strength, Real length) {
+    if (link->has_minimum && mask_any(real_less(length, real_set(link->minimum))))
+        return real_pow_integral(strength, mask_first(LANES), real_set(link->minimum) - length, link->power);
+    if (link->has_maximum && mask_any(real_less(real_set(link->maximum), length)))
+        return real_pow_integral(strength, mask_first(LANES), length - real_set(link->maximum), link->power);
+    return real_zero();
 }
 
 // Returns the quantity of one particle that `need` names, or 1 if the force needs nothing.
@@ -103,6 +147,20 @@ KERNEL Mask pair_where(PairReach reach, ForceNeed need, const Pairs *pairs) {
         return pairs->contact;
     return both_nonzero(pairs->geometry->valid, pair_source(need, pairs->target), pair_source(need, pairs->partner));
 }
+
+#if LANES == 1
+// Returns the geometry of one pair, without a direction.
+KERNEL PairGeometry lone_geometry(double length, const PairEnd *target, const PairEnd *partner) {
+    return (PairGeometry){
+        .length = length, .reach = target->radius + partner->radius, .valid = length > 0 && length <= DBL_MAX};
+}
+
+// Returns the inputs of the formulas for one pair. The caller sets the term.
+KERNEL Pairs lone_pair(const PairGeometry *geometry, const PairEnd *target, const PairEnd *partner) {
+    bool contact = both_nonzero(geometry->length < geometry->reach, target->radius, partner->radius);
+    return (Pairs){.geometry = geometry, .target = target, .partner = partner, .contact = contact};
+}
+#endif
 
 // Sets *k to K of one force and returns the lanes in which the force applies. `contact_only`: all forces of the pass
 // need contact.

@@ -1,22 +1,35 @@
 // pair_rows.c: forces between one particle and a range of particles, and between the two particles of a link
 // (`!distance`, spec physics.md 4.1). Computes one pair at a time, for any number of dimensions and forces.
 #define LANES 1
-#include "physics/neighbour_list.h"
 #include "physics/pair_formulas.h"
 #include "physics/pair_wavefront.h"
 
-KERNEL double distance_between(const PairPass *pass, size_t n, size_t i, size_t j) {
-    double square = 0;
-    for (size_t k = 0; k < n; k++) {
-        double d = pass->position[k * pass->stride + j] - pass->position[k * pass->stride + i];
-        square += d * d;
-    }
-    return sqrt(square);
+void phys_fill_terms(PairTerm *terms, ForceRange forces) {
+    for (const Force *force = forces.begin; force < forces.end; force++)
+        *terms++ = (PairTerm){
+            .given = &force->given,
+            .kind = force->given.kind,
+            .strength = force->strength * phys_force_row(force->given.kind).sign,
+            .power = force->given.power,
+            .bound = force->given.max_distance > 0 ? force->given.max_distance : INFINITY,
+            .overlap = force->given.overlap,
+        };
 }
 
-// Returns true if particles at this distance can interact.
-KERNEL bool is_valid_distance(double length) {
-    return length > 0 && length <= DBL_MAX;
+PairPass phys_columns_pass(const Columns *columns) {
+    return (PairPass){
+        .dimensions = columns->dimensions,
+        .stride = columns->stride,
+        .position = columns->position,
+        .force = columns->force,
+        .radius = columns->radius,
+        .mass = columns->mass,
+        .charge = columns->charge,
+    };
+}
+
+KERNEL double distance_between(const PairPass *pass, size_t n, size_t i, size_t j) {
+    return phys_distance(pass->position + i, pass->position + j, n, pass->stride);
 }
 
 // Adds a force with coefficient K along the line between particles i and j.
@@ -37,14 +50,11 @@ KERNEL PairEnd end_at(const PairPass *pass, size_t i) {
 KERNEL void row_forces(const PairPass *pass, size_t n, size_t i, size_t first, size_t end) {
     const PairEnd target = end_at(pass, i);
     for (size_t j = first; j < end; j++) {
-        PairGeometry geometry = {.length = distance_between(pass, n, i, j)};
-        geometry.valid = is_valid_distance(geometry.length);
+        const PairEnd partner = end_at(pass, j);
+        const PairGeometry geometry = lone_geometry(distance_between(pass, n, i, j), &target, &partner);
         if (!geometry.valid)
             continue;
-        const PairEnd partner = end_at(pass, j);
-        geometry.reach = target.radius + partner.radius;
-        Pairs pairs = {.geometry = &geometry, .target = &target, .partner = &partner};
-        pairs.contact = both_nonzero(geometry.length < geometry.reach, target.radius, partner.radius);
+        Pairs pairs = lone_pair(&geometry, &target, &partner);
         double coefficient, inverse = 1 / geometry.length;
         for (size_t t = 0; t < pass->term_count; t++) {
             pairs.term = &pass->terms[t];
@@ -93,7 +103,7 @@ void phys_apply_links(const Columns *columns, ForceRange forces) {
         if (from == to) // then there may be no particle, and no column
             continue;
         double coefficient, length = distance_between(&pass, pass.dimensions, from, to);
-        if (is_valid_distance(length) && link_coefficient(force, length, &coefficient))
+        if (length > 0 && length <= DBL_MAX && link_coefficient(force, length, &coefficient))
             add_pair(&pass, pass.dimensions, from, to, 1 / length, coefficient);
     }
 }

@@ -155,6 +155,7 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
 #define LEAD_FAR(MAKE, KIND)                                                                                           \
     MAKE(KIND, PHYS_##KIND, REST_NONE)                                                                                 \
     MAKE(KIND, PHYS_##KIND, REST_CONTACT)
+#define LEAD_INVERSE_SQUARE(MAKE, KIND) LEAD_FAR(MAKE, KIND)
 #define LEADERLESS(MAKE)                                                                                               \
     MAKE(NONE, LEAD_NONE, REST_CONTACT)                                                                                \
     MAKE(NONE, LEAD_NONE, REST_ANY)

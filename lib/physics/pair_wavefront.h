@@ -32,7 +32,11 @@ PairBlocks phys_pair_blocks(const PairRegion *pairs, size_t blocks_per_column, s
 // Computes the pairs of one block.
 void phys_pair_block(const PairBlocks *blocks, size_t row, size_t column);
 
-// pair_rows.c: computes the pairs of particle i with particles first to end - 1, in ascending order.
+// pair_rows.c: returns a pass that uses these columns and as yet has no forces.
+PairPass phys_columns_pass(const Columns *columns);
+// Fills one term per force.
+void phys_fill_terms(PairTerm *terms, ForceRange forces);
+// Computes the pairs of particle i with particles first to end - 1, in ascending order.
 void phys_pair_row(const PairPass *pass, size_t i, size_t first, size_t end);
 
 // A function that moves particles as soon as their forces are complete. Any thread may call it.

@@ -1,5 +1,8 @@
 // single_formulas.h: formulas for single particles, LANES at once (spec physics.md): forces (4.2), motion (4.3) and
 // soft boundaries of barriers (4.4). Symbols: v velocity, p position, r radius, m mass, q charge, S strength.
+//
+// Each force has a formula single_NAME, and its potential potential_NAME or NO_POTENTIAL(Single, NAME). The force is
+// the negative gradient of the potential, and the potential of a barrier is 0 between its boundaries.
 #pragma once
 
 #include "maths/random.h"
@@ -65,6 +68,17 @@ KERNEL Mask where_not_zero(Mask mask, Real x) {
     return real_differs_where(mask, x, real_zero());
 }
 
+// Potential of a force on single particles. energy.c chooses it by the force's row.
+typedef Real SinglePotential(const Singles *s);
+
+// Σ vector_k · p_k
+KERNEL Real position_along(const Singles *s, PhysVector vector) {
+    Real sum = real_zero();
+    for (size_t k = 0; k < s->n; k++)
+        sum += vector_component(vector, k) * position_component(s->block, k);
+    return sum;
+}
+
 // (force_k + acceleration_k · m) · S
 KERNEL void single_constant(const Singles *s) {
     const PhysForce *given = &s->force->given;
@@ -75,6 +89,12 @@ KERNEL void single_constant(const Singles *s) {
     }
 }
 
+KERNEL Real potential_constant(const Singles *s) {
+    const PhysForce *given = &s->force->given;
+    Real work = position_along(s, given->vector) + s->block->mass * position_along(s, given->vector2);
+    return -real_set(s->force->strength) * work;
+}
+
 // S · direction_k · q
 KERNEL void single_field(const Singles *s) {
     Real charge = real_load(s->columns->charge + s->block->first);
@@ -82,6 +102,11 @@ KERNEL void single_field(const Singles *s) {
         Real along = real_set(s->force->strength) * vector_component(s->force->given.vector, k);
         add_force_component(s->block, k, s->block->live, along * charge);
     }
+}
+
+KERNEL Real potential_field(const Singles *s) {
+    Real charge = real_load(s->columns->charge + s->block->first);
+    return -real_set(s->force->strength) * charge * position_along(s, s->force->given.vector);
 }
 
 // r ≠ 0:  − (v_k − flow_k) · c,  c = min(S · sqrt(Σ (v−flow)²) · r^(n−1), m / delta)
@@ -106,15 +131,28 @@ KERNEL void single_drag(const Singles *s) {
     }
 }
 
+NO_POTENTIAL(Single, drag)
+
+// Sets the lanes in which r ≠ 0 and m ≠ 0. Returns m − r^n · density.
+KERNEL Real buoyant_mass(const Singles *s, Mask *applies) {
+    Real displaced = real_load(s->columns->volume + s->block->first) * real_set(s->force->given.density);
+    *applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
+    *applies = where_not_zero(*applies, s->block->mass);
+    return s->block->mass - displaced;
+}
+
 // r ≠ 0 and m ≠ 0:  gravity_k · (S · (m − r^n · density))
 KERNEL void single_buoyancy(const Singles *s) {
-    const PhysForce *given = &s->force->given;
-    Real displaced = real_load(s->columns->volume + s->block->first) * real_set(given->density);
-    Real weight = real_set(s->force->strength) * (s->block->mass - displaced);
-    Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
-    applies = where_not_zero(applies, s->block->mass);
+    Mask applies;
+    Real weight = real_set(s->force->strength) * buoyant_mass(s, &applies);
     for (size_t k = 0; k < s->n; k++)
-        add_force_component(s->block, k, applies, vector_component(given->vector, k) * weight);
+        add_force_component(s->block, k, applies, vector_component(s->force->given.vector, k) * weight);
+}
+
+KERNEL Real potential_buoyancy(const Singles *s) {
+    Mask applies;
+    Real weight = real_set(s->force->strength) * buoyant_mass(s, &applies);
+    return real_or_zero(applies, -weight * position_along(s, s->force->given.vector));
 }
 
 // Returns the number of items of the stream that have been used in this frame: in earlier steps, and by earlier
@@ -171,6 +209,8 @@ KERNEL void single_random(const Singles *s) {
 
 #endif
 
+NO_POTENTIAL(Single, random)
+
 // start + Σ (p_k − position_k) · normal_k
 KERNEL Real height_above(const PhysForce *barrier, size_t n, const Block *block, Real start) {
     Real sum = start;
@@ -181,29 +221,50 @@ KERNEL Real height_above(const PhysForce *barrier, size_t n, const Block *block,
     return sum;
 }
 
+// The soft boundaries of a barrier.
+typedef struct Soft {
+    Mask below, above; // lanes in which a particle is beyond the minimum or the maximum
+    Real depth;        // distance by which it is; other lanes are undefined
+} Soft;
+
 // With s = Σ (p_k − position_k) · normal_k:
-//   min > 0 and 0 ≤ s < min:  + normal_k · ((min − s)^power · S)
-//   else s > max:             − normal_k · ((s − max)^power · S)
-KERNEL void single_barrier(const Singles *s) {
+//   min > 0 and 0 ≤ s < min:  below, depth = min − s
+//   else s > max:             above, depth = s − max
+// Returns false if no lane is beyond a boundary.
+KERNEL bool find_soft(const Singles *s, Soft *soft) {
     const PhysForce *barrier = &s->force->given;
     if (!barrier->has_minimum && !barrier->has_maximum)
-        return;
-    Block *block = s->block;
-    Real height = height_above(barrier, s->n, block, real_zero());
+        return false;
+    Real height = height_above(barrier, s->n, s->block, real_zero());
     Real minimum = real_set(barrier->minimum), maximum = real_set(barrier->maximum);
-    Mask below = mask_first(0), above = mask_first(0);
+    soft->below = soft->above = mask_first(0);
     if (barrier->has_minimum && barrier->minimum > 0)
-        below = real_less_where(real_at_most_where(block->live, real_zero(), height), height, minimum);
+        soft->below = real_less_where(real_at_most_where(s->block->live, real_zero(), height), height, minimum);
     if (barrier->has_maximum)
-        above = real_less_where(block->live & mask_not(below), maximum, height);
-    if (!mask_any(below) && !mask_any(above))
+        soft->above = real_less_where(s->block->live & mask_not(soft->below), maximum, height);
+    soft->depth = real_select(soft->below, minimum - height, height - maximum);
+    return mask_any(soft->below | soft->above);
+}
+
+// below:  + normal_k · (depth^power · S);  above:  − normal_k · (depth^power · S)
+KERNEL void single_barrier(const Singles *s) {
+    const PhysForce *barrier = &s->force->given;
+    Soft soft;
+    if (!find_soft(s, &soft))
         return;
-    Real depth = real_select(below, minimum - height, height - maximum);
-    Real size = real_pow(false, below | above, depth, barrier->power) * real_set(s->force->strength);
+    Real size = real_pow(false, soft.below | soft.above, soft.depth, barrier->power) * real_set(s->force->strength);
     for (size_t k = 0; k < s->n; k++) {
-        Real f = vector_component(barrier->vector2, k) * size, *sum = &block->force[k * block->step];
-        *sum = real_sub_where(above, real_add_where(below, *sum, f), f);
+        Real f = vector_component(barrier->vector2, k) * size, *sum = &s->block->force[k * s->block->step];
+        *sum = real_sub_where(soft.above, real_add_where(soft.below, *sum, f), f);
     }
+}
+
+KERNEL Real potential_barrier(const Singles *s) {
+    Soft soft;
+    if (!find_soft(s, &soft))
+        return real_zero();
+    Mask beyond = soft.below | soft.above;
+    return real_or_zero(beyond, real_pow_integral(s->force->strength, beyond, soft.depth, s->force->given.power));
 }
 
 // Applies one force of STAGE_SINGLE or STAGE_BARRIER.

@@ -54,12 +54,9 @@ static void add_body(Bodies *bodies, const ParticleRecord *record) {
 
 // Fills `bodies`, unless it already holds these particles. Returns false if the system must stop.
 static bool collect_bodies(const PhysSystem *system, uint32_t group, bool all, Bodies *bodies) {
-    const Group *groups = system->groups.bytes;
-    uint32_t end = group + 1;
     if (bodies->group == group && bodies->all == all)
         return true;
-    while (end < system->group_count && groups[end].parent >= group)
-        end++;
+    uint32_t end = phys_group_end(system, group);
     *bodies = (Bodies){.group = group, .all = all, .lightest = INFINITY, .smallest = INFINITY};
     for (uint32_t i = 0; i < system->particle_count; i++) {
         const ParticleRecord *record = phys_record(system, i);

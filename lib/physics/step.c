@@ -72,7 +72,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     for (uint32_t g = 0; g < system->group_count; g++) {
         phys_apply_links(columns, phys_forces(system, g, STAGE_LINK));
         if (groups[g].count)
-            phys_apply_pairs(system, &groups[g], system->group_count == 1 ? &move : NULL);
+            phys_apply_pairs(system, g, system->group_count == 1 ? &move : NULL);
     }
     // Before the step can be aborted, because a pass may have moved particles.
     system->motion_version++;

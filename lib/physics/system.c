@@ -153,13 +153,8 @@ bool phys_prepare(PhysSystem *system) {
     return true;
 }
 
-// Reserves memory for one more element of a buffer that holds `count`.
-static bool reserve_one(PhysSystem *system, Buffer *buffer, uint64_t count, uint64_t size) {
-    return phys_buffer_reserve(system, buffer, count * size, count + 1, size);
-}
-
 uint32_t phys_add_group(PhysSystem *system, uint32_t parent) {
-    if (!reserve_one(system, &system->groups, system->group_count, sizeof(Group)))
+    if (!phys_buffer_grow(system, &system->groups, system->group_count, sizeof(Group)))
         return 0;
     uint32_t group = system->group_count++;
     assert(parent < group || !group);
@@ -239,8 +234,9 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
     uint32_t handle = system->particle_count;
     size_t n = system->dimensions;
     ParticleRecord record = record_of(particle, group, particle->anchor);
-    if (!reserve_one(system, &system->rows, handle, ROW_VECTORS * n * sizeof(double)) ||
-        !reserve_one(system, &system->from_attribute, handle, 1) || !set_record(system, handle, handle + 1, &record))
+    if (!phys_buffer_grow(system, &system->rows, handle, ROW_VECTORS * n * sizeof(double)) ||
+        !phys_buffer_grow(system, &system->from_attribute, handle, 1) ||
+        !set_record(system, handle, handle + 1, &record))
         return 0;
     assert(group < system->group_count);
     ((uint8_t *)system->from_attribute.bytes)[handle] = 0;
@@ -311,13 +307,12 @@ static uint64_t store_vector(PhysSystem *system, PhysVector vector) {
 }
 
 uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force) {
-    if (!reserve_one(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
+    if (!phys_buffer_grow(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
         return 0;
     assert(group < system->group_count);
-    int vectors = phys_force_row(force->kind).vectors; // pointers that the kind does not use can be uninitialised
     ForceRecord record = {.given = *force, .group = group};
-    record.vector = vectors > 0 ? store_vector(system, force->vector) : 0;
-    record.vector2 = vectors > 1 ? store_vector(system, force->vector2) : 0;
+    record.vector = store_vector(system, force->vector);
+    record.vector2 = store_vector(system, force->vector2);
     if (system->failed)
         return 0;
     ((ForceRecord *)system->force_records.bytes)[system->force_count] = record;

@@ -31,7 +31,7 @@ static bool group_has(PhysicsTree *tree, const Reader *reader, const Node *group
 // Reports a force that needs a radius or a charge, if no particle on which it acts has one.
 static void lint_need(PhysicsTree *tree, const Reader *reader, const Node *group, PhysForceKind kind) {
     ForceNeed need = phys_force_row(kind).need;
-    bool charge = need == NEED_CHARGE || kind == PHYS_FIELD;
+    bool charge = need == NEED_CHARGE;
     const AttrRow rows[2] = {charge ? ROW_PARTICLE_CHARGE : ROW_PARTICLE_RADIUS,
                              charge ? ROW_ANCHOR_CHARGE : ROW_ANCHOR_RADIUS};
     uint64_t count = 0;
@@ -107,7 +107,7 @@ void physics_lint_force(PhysicsTree *tree, const Reader *reader, const Node *par
                         const PhysForce *force) {
     lint_need(tree, reader, parent, force->kind);
     lint_bounds(reader, force);
-    if (force->kind == PHYS_BARRIER)
+    if (phys_force_row(force->kind).stage == STAGE_BARRIER)
         lint_side(tree, reader, group, force);
 }
 

@@ -282,6 +282,12 @@ static void check_vectors(PhysicsTree *tree, const Reader *reader, const ForceAt
     }
 }
 
+// Returns true for a force with a random stream.
+static bool is_random(NodeKind kind) {
+    PhysForceKind force = schema_force(kind);
+    return force != PHYS_FORCE_KINDS && phys_force_row(force).need == NEED_STREAM;
+}
+
 // Fills `force` from the node of a force or barrier. Returns false if the node must be ignored.
 static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms, PhysForce *force) {
     ForceAttrs read = tree->scene->force_defaults[schema_force(reader->kind)];
@@ -340,7 +346,7 @@ __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node
     uint32_t number = phys_add_force(tree->engine, group, &force);
     PhysicsSystem *system = tree->system;
     store_origin(system, number, node->origin);
-    if (kind != KIND_RANDOM)
+    if (!is_random(kind))
         return;
     if (heap_reserve((void **)&system->randoms, &system->random_capacity, system->random_count,
                      sizeof *system->randoms))
@@ -386,7 +392,7 @@ static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t gr
             if (group > 0 && tree->scene->schema->lint)
                 check_group(tree, parent, child, kind);
             read_applier(tree, parent, child, kind, group, randoms);
-            randoms += kind == KIND_RANDOM;
+            randoms += is_random(kind);
         }
     }
 }

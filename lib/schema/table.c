@@ -115,6 +115,20 @@ const char *schema_formula(NodeKind kind) {
     return formulas[kind];
 }
 
+// Forces whose reach is INVERSE_SQUARE have an attribute `theta`, and other forces have none.
+enum {
+    THETA_ROWS = 0
+#define ATTR(kind, name, type, field, fallback, unit, help) +(ATTR_##name == ATTR_THETA)
+#include "schema/schema_list.h"
+    ,
+#define COUNT_CONTACT(KIND)
+#define COUNT_FAR(KIND)
+#define COUNT_INVERSE_SQUARE(KIND) +(ROW_##KIND##_THETA >= 0)
+#define COUNT(KIND, name, SIGN, SOURCE, REACH) COUNT_##REACH(KIND)
+    INVERSE_SQUARE_FORCES = 0 PHYS_FORCES(COUNT, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)
+};
+_Static_assert((int)THETA_ROWS == (int)INVERSE_SQUARE_FORCES, "theta works only if the reach is INVERSE_SQUARE");
+
 NodeKind schema_kind_of_force(PhysForceKind force) {
     static const uint8_t kinds[PHYS_FORCE_KINDS] = {
 #define KIND_OF(KIND, ...) [PHYS_##KIND] = KIND_##KIND,

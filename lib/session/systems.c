@@ -1,5 +1,6 @@
 // systems.c: public access to the particle systems of the last frame.
 #include "physics/energy.h"
+#include "physics/forces.h"
 #include "session/session.h"
 #include "value/format.h"
 
@@ -165,7 +166,7 @@ static PetriStatus find_force(PetriSession *session, const Request *request, con
     PhysForce force;
     if (!phys_get_force(view->engine, request->number, &force))
         return PETRI_INVALID;
-    bool barrier = force.kind == PHYS_BARRIER;
+    bool barrier = phys_force_row(force.kind).stage == STAGE_BARRIER;
     double *zero = arena_alloc_array(&session->view_arena, view->dimensions, sizeof *zero);
     for (uint32_t k = 0; k < view->dimensions; k++)
         zero[k] = 0;

@@ -69,7 +69,7 @@ static inline void model_random_force(Dice *dice, const ModelShape *shape, const
     *f = (ModelForce){.group = dice_below(dice, shape->groups)};
     model_vector(dice, shape, f->vector, 1);
     model_vector(dice, shape, f->vector2, 1);
-    PhysForceKind kind = (PhysForceKind)dice_below(dice, PHYS_BARRIER + 1);
+    PhysForceKind kind = (PhysForceKind)dice_below(dice, PHYS_FORCE_KINDS);
     f->force = (PhysForce){.kind = kind, .vector = f->vector, .vector2 = f->vector2};
     PhysForce *force = &f->force;
     force->strength = model_number(dice, shape, -0.5, 2);
@@ -86,7 +86,7 @@ static inline void model_random_force(Dice *dice, const ModelShape *shape, const
     force->key = dice_next(dice);
     force->from = dice_below(dice, model->particle_count + 1); // the largest number is not a valid handle
     force->to = dice_below(dice, model->particle_count + 1);
-    if (kind == PHYS_BARRIER)
+    if (stage_of(f) == STAGE_BARRIER)
         model_random_barrier(dice, model, f);
 }
 

@@ -6,6 +6,7 @@
 
 #include "maths/maths.h"
 #include "maths/random.h"
+#include "physics/forces.h"
 #include "support.h"
 
 enum { MODEL_MAX = 256, MODEL_DIMENSIONS = 8 };
@@ -53,12 +54,8 @@ static inline void model_feed(const Model *model, PhysSystem *system) {
     }
 }
 
-static inline bool is_pair_force(const ModelForce *f) {
-    return f->force.kind <= PHYS_ADHESION;
-}
-
-static inline bool is_single_force(const ModelForce *f) {
-    return f->force.kind >= PHYS_CONSTANT && f->force.kind <= PHYS_BUOYANCY;
+static inline Stage stage_of(const ModelForce *f) {
+    return phys_force_row(f->force.kind).stage;
 }
 
 static inline double to_the_power(double x, double power) {
@@ -67,63 +64,68 @@ static inline double to_the_power(double x, double power) {
     return power == 1 ? x : power == 2 ? x * x : maths_pow(x, power);
 }
 
-// 4.1: computes the coefficient K of a pair at distance l. u is the unit vector from `from` to `to`. If *plus is true,
-// `from` receives + u K and `to` receives - u K; otherwise the signs are opposite. Returns false if no force acts.
-static inline bool coefficient(const ModelForce *f, const ModelParticle *from, const ModelParticle *to, double l,
-                               double *K, bool *plus) {
-    double strength = f->strength, r1 = from->radius, r2 = to->radius;
-    if (f->force.kind == PHYS_DISTANCE) {
-        if (f->force.has_minimum && l < f->force.minimum) {
-            *K = to_the_power(f->force.minimum - l, f->force.power) * strength;
-            *plus = false;
-            return true;
-        }
-        if (f->force.has_maximum && l > f->force.maximum) {
-            *K = to_the_power(l - f->force.maximum, f->force.power) * strength;
-            *plus = true;
-            return true;
-        }
-        return false;
+static inline void no_reference(PhysForceKind kind) {
+    print_error("reference.h has no formula for force %d\n", kind);
+    fail();
+}
+
+// Sets *K of a link, which attracts if it is positive. Returns false if no force acts.
+static inline bool link_coefficient(const ModelForce *f, double l, double *K) {
+    const PhysForce *given = &f->force;
+    if (given->kind != PHYS_DISTANCE)
+        no_reference(given->kind);
+    if (given->has_minimum && l < given->minimum) {
+        *K = -(to_the_power(given->minimum - l, given->power) * f->strength);
+        return true;
     }
+    *K = to_the_power(l - given->maximum, given->power) * f->strength;
+    return given->has_maximum && l > given->maximum;
+}
+
+// 4.1: sets *K of a pair at distance l, which attracts if it is positive. Returns false if no force acts.
+static inline bool coefficient(const ModelForce *f, const ModelParticle *from, const ModelParticle *to, double l,
+                               double *K) {
+    double S = f->strength, r1 = from->radius, r2 = to->radius;
+    if (stage_of(f) == STAGE_LINK)
+        return link_coefficient(f, l, K);
     if (f->force.max_distance > 0 && !(l < f->force.max_distance))
         return false;
-    double D = r1 + r2 > l ? r1 + r2 : l;
+    double D = r1 + r2 > l ? r1 + r2 : l, o = r1 + r2 - l;
+    double a = fabs(r1 - r2) * f->force.overlap + (r1 + r2) * (1 - f->force.overlap);
     bool touch = r1 != 0 && r2 != 0 && l < r1 + r2;
-    *plus = f->force.kind == PHYS_GRAVITY || f->force.kind == PHYS_ADHESION;
-    switch (f->force.kind) {
+    switch ((int)f->force.kind) {
     case PHYS_COLLISION:
-        *K = to_the_power(r1 + r2 - l, f->force.power) * strength;
+        *K = -(to_the_power(o, f->force.power) * S);
         return touch;
     case PHYS_GRAVITY:
-        *K = (strength * (from->mass * to->mass)) / (D * D);
+        *K = (S * (from->mass * to->mass)) / (D * D);
         return from->mass != 0 && to->mass != 0;
     case PHYS_ELECTROSTATIC:
-        *K = (strength * (from->charge * to->charge)) / (D * D);
+        *K = -((S * (from->charge * to->charge)) / (D * D));
         return from->charge != 0 && to->charge != 0;
-    default: {
-        double overlap = f->force.overlap;
-        double o = r1 + r2 - l, a = fabs(r1 - r2) * overlap + (r1 + r2) * (1 - overlap);
-        *K = strength * o * (l - a);
+    case PHYS_ADHESION:
+        *K = S * o * (l - a);
         return touch;
-    }
+    default:
+        no_reference(f->force.kind);
+        return false;
     }
 }
 
 static inline void reference_pair(const Model *model, const ModelForce *f, ModelParticle *from, ModelParticle *to) {
     double d[MODEL_DIMENSIONS], sum = 0, K;
-    bool plus;
     for (size_t k = 0; k < model->n; k++) {
         d[k] = to->position[k] - from->position[k];
         sum = sum + d[k] * d[k];
     }
     double l = sqrt(sum);
-    if (l == 0 || !isfinite(l) || !coefficient(f, from, to, l, &K, &plus))
+    if (l == 0 || !isfinite(l) || !coefficient(f, from, to, l, &K))
         return;
     double inv = 1 / l;
     for (size_t k = 0; k < model->n; k++) {
         double u = d[k] * inv, fk = u * K;
-        from->force[k] = plus ? from->force[k] + fk : from->force[k] - fk;
-        to->force[k] = plus ? to->force[k] - fk : to->force[k] + fk;
+        from->force[k] = from->force[k] + fk;
+        to->force[k] = to->force[k] - fk;
     }
 }
 
@@ -144,7 +146,7 @@ static inline void reference_pass(Model *model, uint32_t G, uint32_t A) {
     for (uint32_t i = 0; i < own; i++)
         for (uint32_t j = i + 1; j < size; j++)
             for (uint32_t f = 0; f < model->force_count; f++)
-                if (model->forces[f].group == A && is_pair_force(&model->forces[f]))
+                if (model->forces[f].group == A && stage_of(&model->forces[f]) == STAGE_PAIR)
                     reference_pair(model, &model->forces[f], T[i], T[j]);
 }
 
@@ -152,7 +154,7 @@ static inline void reference_stage_1(Model *model) {
     for (uint32_t G = 0; G < model->group_count; G++) {
         for (uint32_t f = 0; f < model->force_count; f++) {
             ModelForce *force = &model->forces[f];
-            if (force->group == G && force->force.kind == PHYS_DISTANCE && force->force.from < model->particle_count &&
+            if (force->group == G && stage_of(force) == STAGE_LINK && force->force.from < model->particle_count &&
                 force->force.to < model->particle_count)
                 reference_pair(model, force, &model->particles[force->force.from], &model->particles[force->force.to]);
         }
@@ -179,22 +181,25 @@ static inline void reference_drag(const Model *model, const ModelForce *f, Model
 
 static inline void reference_single(const Model *model, ModelForce *f, ModelParticle *p, double delta) {
     double S = f->strength;
+    bool sinks = f->force.kind == PHYS_BUOYANCY && p->radius != 0 && p->mass != 0;
     if (f->force.kind == PHYS_DRAG) {
         reference_drag(model, f, p, delta);
         return;
     }
     for (size_t k = 0; k < model->n; k++) {
-        double contribution;
+        double contribution = 0;
         if (f->force.kind == PHYS_CONSTANT)
             contribution = (f->vector[k] + f->vector2[k] * p->mass) * S;
         else if (f->force.kind == PHYS_RANDOM)
             contribution = S * random_normal(f->force.key, f->item++);
         else if (f->force.kind == PHYS_FIELD)
             contribution = S * f->vector[k] * p->charge;
-        else if (p->radius != 0 && p->mass != 0)
+        else if (sinks)
             contribution = f->vector[k] * (S * (p->mass - maths_pow(p->radius, (double)model->n) * f->force.density));
-        else
+        else if (f->force.kind == PHYS_BUOYANCY)
             continue;
+        else
+            no_reference(f->force.kind);
         p->force[k] = p->force[k] + contribution;
     }
 }
@@ -308,11 +313,11 @@ static inline void reference_particle(Model *model, ModelParticle *p, double del
                 ModelForce *f = &model->forces[i];
                 if (f->group != level)
                     continue;
-                if (stage == SINGLE && is_single_force(f))
+                if (stage == SINGLE && stage_of(f) == STAGE_SINGLE)
                     reference_single(model, f, p, delta);
-                if (stage == CONSTRAINT && f->force.kind == PHYS_BARRIER)
+                if (stage == CONSTRAINT && stage_of(f) == STAGE_BARRIER)
                     reference_constraint(model, f, p);
-                if (stage == BOUNCE && f->force.kind == PHYS_BARRIER)
+                if (stage == BOUNCE && stage_of(f) == STAGE_BARRIER)
                     reference_bounce(model, f, p, delta, speed_of_light);
             }
             if (level == 0)

@@ -4,33 +4,60 @@
 
 enum { BODIES = 8, N = 3 };
 
+typedef enum Variant { PLAIN, EXPONENT, EASED, BOUNDED, GROUPED, TOO_NEAR, TOO_FAR, VARIANTS } Variant;
+
 typedef struct Setup {
-    const char *row;
     PhysForce force;
-    bool in_group; // the force is declared in a sub-group, with the last four particles
+    uint32_t group; // that declares the force
 } Setup;
 
 static const double places[BODIES][N] = {{0, 0, 0},       {1.1, 0.3, -0.2},  {-0.7, 0.9, 0.4},  {0.2, -1.3, 0.8},
                                          {1.7, 1.2, 0.5}, {-1.1, -0.6, 1.4}, {0.9, -0.8, -1.2}, {2.6, 0.1, 0.3}};
+
+// Group 2 is inside group 1, and group 3 is not.
+static const uint32_t group_of[BODIES] = {0, 0, 0, 2, 1, 1, 3, 2};
+
+// Returns a force with all attributes that any kind of force reads.
+static Setup setup_of(PhysForceKind kind, Variant variant) {
+    static const double vector[N] = {0.4, -0.7, 0.3}, normal[N] = {0.6, 0.8, 0};
+    return (Setup){{.kind = kind,
+                    .strength = 2,
+                    .power = variant == EXPONENT ? 1.7 : 1,
+                    .ease = variant == EASED,
+                    .max_distance = variant == BOUNDED ? 1.6 : 0,
+                    .overlap = 0.3,
+                    .density = 0.8,
+                    .has_minimum = variant != TOO_FAR,
+                    .has_maximum = variant != TOO_NEAR,
+                    .minimum = variant == TOO_NEAR ? 4 : 1,
+                    .maximum = variant == TOO_FAR ? 0.1 : 1.5,
+                    .from = 7,
+                    .to = 1,
+                    .vector = vector,
+                    .vector2 = normal},
+                   variant == GROUPED};
+}
 
 // Particle `moved` is displaced by `offset` in dimension k.
 static PhysSystem *make_system(const Setup *setup, uint32_t moved, size_t k, double offset) {
     PhysSystem *system = phys_new();
     phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_detected.level, .keep_forces = true});
     phys_begin(system, N);
-    uint32_t group = phys_add_group(system, 0);
+    phys_add_group(system, 0);
+    phys_add_group(system, 1);
+    phys_add_group(system, 0);
     for (uint32_t i = 0; i < BODIES; i++) {
         double position[N];
         memcpy(position, places[i], sizeof position);
         position[k] += i == moved ? offset : 0;
-        phys_add_particle(system, i < BODIES / 2 ? 0 : group,
+        phys_add_particle(system, group_of[i],
                           &(PhysParticle){.position = position,
                                           .radius = i == 6 ? 0 : 0.5 + 0.1 * i,
                                           .mass = 1 + 0.3 * i,
                                           .charge = i % 2 ? 0.7 : -1.2,
                                           .anchor = i == 2 || i == 5});
     }
-    phys_add_force(system, setup->in_group ? group : 0, &setup->force);
+    phys_add_force(system, setup->group, &setup->force);
     return system;
 }
 
@@ -42,9 +69,10 @@ static double energy_of(const Setup *setup, uint32_t moved, size_t k, double off
     return energy;
 }
 
-static void check_gradient(const Setup *setup) {
+static void check_gradient(PhysForceKind kind, Variant variant) {
     const double h = 1e-5, clock = 0.25;
-    PhysSystem *system = make_system(setup, BODIES, 0, 0);
+    Setup setup = setup_of(kind, variant);
+    PhysSystem *system = make_system(&setup, BODIES, 0, 0);
     PhysTime time = {.now = 1e-3, .clock = clock, .resolution = 1, .lockstep = true};
     assert_int_equal(phys_simulate(system, &time).status, PHYS_OK);
     double largest = 0;
@@ -53,57 +81,29 @@ static void check_gradient(const Setup *setup) {
             if (phys_is_anchor(system, i))
                 continue;
             double force = phys_at_particle(phys_columns(system).force, i)[k];
-            double slope = (energy_of(setup, i, k, h, clock) - energy_of(setup, i, k, -h, clock)) / (2 * h);
+            double slope = (energy_of(&setup, i, k, h, clock) - energy_of(&setup, i, k, -h, clock)) / (2 * h);
             if (fabs(force + slope) > 1e-6 * (1 + fabs(force)))
-                print_error("%s, particle %u, component %d: force %g, slope %g\n", setup->row, i, (int)k, force, slope);
+                print_error("force %d, variant %d, particle %u, component %d: force %g, slope %g\n", kind, variant, i,
+                            (int)k, force, slope);
             assert_true(fabs(force + slope) <= 1e-6 * (1 + fabs(force)));
             largest = fmax(largest, fabs(force));
         }
     if (largest <= 0.01)
-        print_error("%s has no effect\n", setup->row);
+        print_error("force %d, variant %d has no effect\n", kind, variant);
     assert_true(largest > 0.01);
     phys_free(system);
 }
 
+static bool has_potential(PhysForceKind kind) {
+    Setup setup = setup_of(kind, PLAIN);
+    return !isnan(energy_of(&setup, BODIES, 0, 0, 0));
+}
+
 static void test_forces_are_gradients(void **state) {
     (void)state;
-    static const double vector[N] = {0.4, -0.7, 0.3}, other[N] = {-0.2, 0.1, 0.9}, normal[N] = {0.6, 0.8, 0};
-    const Setup setups[] = {
-        {"gravity", {.kind = PHYS_GRAVITY, .strength = 2}, false},
-        {"gravity that grows", {.kind = PHYS_GRAVITY, .strength = 2, .ease = 1}, false},
-        {"gravity with a maximum distance", {.kind = PHYS_GRAVITY, .strength = 2, .max_distance = 1.9}, false},
-        {"gravity in a group", {.kind = PHYS_GRAVITY, .strength = 2}, true},
-        {"electrostatic", {.kind = PHYS_ELECTROSTATIC, .strength = 3}, false},
-        {"collision", {.kind = PHYS_COLLISION, .strength = 3, .power = 1}, false},
-        {"collision with an exponent", {.kind = PHYS_COLLISION, .strength = 3, .power = 1.7}, false},
-        {"collision with a maximum distance",
-         {.kind = PHYS_COLLISION, .strength = 3, .power = 1, .max_distance = 1.6},
-         false},
-        {"adhesion", {.kind = PHYS_ADHESION, .strength = 2, .overlap = 0.3}, false},
-        {"distance, too near",
-         {.kind = PHYS_DISTANCE, .strength = 2, .power = 1, .has_minimum = true, .minimum = 4, .from = 0, .to = 4},
-         false},
-        {"distance, too far",
-         {.kind = PHYS_DISTANCE, .strength = 2, .power = 2, .has_maximum = true, .maximum = 1, .from = 7, .to = 1},
-         false},
-        {"constant", {.kind = PHYS_CONSTANT, .strength = 2, .vector = vector, .vector2 = other}, true},
-        {"field", {.kind = PHYS_FIELD, .strength = 2, .vector = vector}, false},
-        {"buoyancy", {.kind = PHYS_BUOYANCY, .strength = 2, .vector = vector, .density = 0.8}, false},
-        {"barrier, too near",
-         {.kind = PHYS_BARRIER,
-          .strength = 2,
-          .power = 1,
-          .has_minimum = true,
-          .minimum = 1,
-          .vector = other,
-          .vector2 = normal},
-         false},
-        {"barrier, too far",
-         {.kind = PHYS_BARRIER, .strength = 2, .power = 3, .has_maximum = true, .maximum = 0.1, .vector2 = normal},
-         false},
-    };
-    for (size_t i = 0; i < sizeof setups / sizeof *setups; i++)
-        check_gradient(&setups[i]);
+    for (int kind = 0; kind < PHYS_FORCE_KINDS; kind++)
+        for (int variant = 0; variant < VARIANTS && has_potential((PhysForceKind)kind); variant++)
+            check_gradient((PhysForceKind)kind, (Variant)variant);
 }
 
 // Anchors do not move, so a force between two of them does no work.
@@ -130,8 +130,8 @@ static void test_links_of_two_anchors_have_no_energy(void **state) {
 
 static void test_forces_without_potential(void **state) {
     (void)state;
-    assert_true(isnan(energy_of(&(Setup){"drag", {.kind = PHYS_DRAG, .strength = 1}, false}, BODIES, 0, 0, 0)));
-    assert_true(isnan(energy_of(&(Setup){"random", {.kind = PHYS_RANDOM, .strength = 1}, false}, BODIES, 0, 0, 0)));
+    for (int kind = 0; kind < PHYS_FORCE_KINDS; kind++)
+        assert_int_equal(has_potential((PhysForceKind)kind), kind != PHYS_DRAG && kind != PHYS_RANDOM);
 }
 
 // --- conservation
