@@ -1,6 +1,7 @@
 #!/bin/sh
 # check_style.sh SOURCE_ROOT: sources have no trailing blanks, no tabs in C, at most 700 lines (except generated tables), a
-# line feed at the end, and no reminders of unfinished work. The root has only the files and folders of CONTRIBUTING.md.
+# line feed at the end, no reminders of unfinished work, and no tests whose name is one word. The root has only the files
+# and folders of CONTRIBUTING.md.
 set -eu
 cd "$1"
 sources=$(mktemp)
@@ -34,6 +35,7 @@ xargs -0 awk -v max_lines=700 -v reminder='TO''DO|FIX''ME' '
     /[ \t]$/ { report_line("blanks at the end of the line") }
     $0 ~ reminder { report_line("a reminder of unfinished work") }
     is_c && /\t/ { report_line("tabs") }
+    is_c && /^static void test_[a-z0-9]+\(/ { report_line("one word does not state the expected behaviour") }
     is_ours && /== NULL/ { report_line("write !p instead of p == NULL") }
     END {
         check_length()

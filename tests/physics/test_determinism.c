@@ -171,7 +171,7 @@ static uint64_t hash_scene(size_t scene, size_t way) {
     return run_script(scenes[scene].script, scenes[scene].frames, way);
 }
 
-static void test_constants(void **state) {
+static void test_hashes_equal_the_constants_of_all_builds(void **state) {
     (void)state;
     bool same = true;
     for (size_t i = 0; i < COUNT_OF(scenes); i++) {
@@ -185,7 +185,7 @@ static void test_constants(void **state) {
     assert_true(same);
 }
 
-static void test_ways(void **state) {
+static void test_hash_is_the_same_in_all_variants(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(scenes); i++)
         for (size_t k = 0; k < COUNT_OF(ways); k++)
@@ -239,7 +239,7 @@ static void test_sessions_side_by_side(void **state) {
 }
 
 // The hash is sensitive: a change of one number in its last digit changes the hash.
-static void test_sensitive(void **state) {
+static void test_one_digit_changes_the_hash(void **state) {
     (void)state;
     World world;
     char *script = text_of("%s", wire);
@@ -255,9 +255,11 @@ static void test_sensitive(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constants), cmocka_unit_test(test_ways),
-        cmocka_unit_test(test_bad_input), cmocka_unit_test(test_sessions_side_by_side),
-        cmocka_unit_test(test_sensitive),
+        cmocka_unit_test(test_hashes_equal_the_constants_of_all_builds),
+        cmocka_unit_test(test_hash_is_the_same_in_all_variants),
+        cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_sessions_side_by_side),
+        cmocka_unit_test(test_one_digit_changes_the_hash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

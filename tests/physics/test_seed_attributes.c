@@ -136,7 +136,7 @@ static void check_float(const Row *row) {
         compare_states(row->node, row->attribute, wrong[i], "", true, "bad-attribute");
 }
 
-static void test_floats(void **state) {
+static void test_malformed_number_counts_as_the_default(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(floats); i++)
         check_float(&floats[i]);
@@ -192,7 +192,7 @@ static const Row vectors[] = {
     {"!anchor id=:p radius=1", "position", "0", "2;-1"},
 };
 
-static void test_vectors(void **state) {
+static void test_malformed_vector_counts_as_the_default(void **state) {
     (void)state;
     static const char *const wrong[] = {"1;2;3", "\"x\"", "1;\"x\"", "!node", "..9"};
     for (size_t i = 0; i < COUNT_OF(vectors); i++) {
@@ -254,9 +254,9 @@ static void test_ease_is_linear(void **state) {
 
 TEST_GROUP(seed_attributes) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_floats),
+        cmocka_unit_test(test_malformed_number_counts_as_the_default),
         cmocka_unit_test(test_body_floats),
-        cmocka_unit_test(test_vectors),
+        cmocka_unit_test(test_malformed_vector_counts_as_the_default),
         cmocka_unit_test(test_ease_is_linear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,7 +5,7 @@
 // middle of the step.
 #define BEAD(attributes, barrier) P1 " !particle id=:a position=2 velocity=-4 " attributes "\n !barrier " barrier "\n"
 
-static void test_bounce(void **state) {
+static void test_hard_barrier_reflects_by_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"elastic by default", BEAD("", "normal=1"), 1, "a'=4 a=2", 0},
@@ -48,7 +48,7 @@ static void test_bounce(void **state) {
 // A particle at distance 4 from a wall.
 #define SOFT(attributes) P1 " !particle id=:a position=4\n !barrier normal=1 " attributes "\n"
 
-static void test_soft(void **state) {
+static void test_soft_barrier_pushes_back_by_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"nearer than min", SOFT("min=6"), 1, "a'=2 a=6", 0},
@@ -91,7 +91,7 @@ static void test_soft(void **state) {
 // and its part along the normal is removed.
 #define ON_FLOOR(attributes, barrier) P2 " !particle id=:a " attributes "\n !barrier normal=0;1 " barrier "\n"
 
-static void test_lying(void **state) {
+static void test_lying_particle_slides_along_the_barrier(void **state) {
     (void)state;
     static const Case cases[] = {
         {"pushed along the floor", ON_FLOOR("force=3;-2", ""), 1, "a'=3;0 a=3;0", 0},
@@ -132,7 +132,7 @@ static void test_bounce_under_force(void **state) {
     CHECK_CASES(cases);
 }
 
-static void test_normals(void **state) {
+static void test_barrier_needs_a_finite_normal(void **state) {
     (void)state;
     static const Case cases[] = {
         {"none", BEAD("", "position=0"), 1, "a'=-4 a=-2", "bad-normal"},
@@ -159,9 +159,11 @@ static void test_normals(void **state) {
 
 TEST_GROUP(seed_barriers) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bounce),  cmocka_unit_test(test_lying),
-        cmocka_unit_test(test_soft),    cmocka_unit_test(test_bounce_under_force),
-        cmocka_unit_test(test_normals),
+        cmocka_unit_test(test_hard_barrier_reflects_by_the_seeds_formula),
+        cmocka_unit_test(test_lying_particle_slides_along_the_barrier),
+        cmocka_unit_test(test_soft_barrier_pushes_back_by_the_seeds_formula),
+        cmocka_unit_test(test_bounce_under_force),
+        cmocka_unit_test(test_barrier_needs_a_finite_normal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

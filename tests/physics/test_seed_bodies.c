@@ -1,7 +1,7 @@
 // test_seed_bodies.c: attributes of particles and anchors in scripts.
 #include "cases.h"
 
-static void test_particles(void **state) {
+static void test_particle_moves_by_its_attributes(void **state) {
     (void)state;
     static const Case cases[] = {
         {"defaults: at 0, at rest", P2 " !particle id=:a\n", 1, "a=0;0 a'=0;0", 0},
@@ -48,7 +48,7 @@ static void test_particles(void **state) {
     CHECK_CASES(cases);
 }
 
-static void test_anchors(void **state) {
+static void test_anchor_acts_on_others_and_is_not_moved(void **state) {
     (void)state;
     static const Case cases[] = {
         {"at 0 by default", P2 " !anchor id=:a\n !particle id=:b\n", 0, "a=0;0 a'=0;0", 0},
@@ -99,7 +99,7 @@ static void test_first_step(void **state) {
 }
 
 // Ids of all kinds, and the state keys of the particles with these ids.
-static void test_ids(void **state) {
+static void test_id_of_any_kind_is_part_of_the_state_key(void **state) {
     (void)state;
     World world;
     world_open(&world, 1,
@@ -129,10 +129,10 @@ static void test_ids(void **state) {
 
 TEST_GROUP(seed_bodies) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_particles),
-        cmocka_unit_test(test_anchors),
+        cmocka_unit_test(test_particle_moves_by_its_attributes),
+        cmocka_unit_test(test_anchor_acts_on_others_and_is_not_moved),
         cmocka_unit_test(test_first_step),
-        cmocka_unit_test(test_ids),
+        cmocka_unit_test(test_id_of_any_kind_is_part_of_the_state_key),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,7 @@
 #define SYSTEM(attributes)                                                                                             \
     "!physics state=:s dimensions=1 " attributes "\n !particle id=:a velocity=1\n !constant force=2\n"
 
-static void test_keys(void **state) {
+static void test_system_stores_its_clocks_in_the_state(void **state) {
     (void)state;
     static const Case cases[] = {
         {"frame 0", SYSTEM(""), 0, "$=0 :last=0 :clock=0 :run=0 :iteration=0 a=none", 0},
@@ -22,7 +22,7 @@ static void test_keys(void **state) {
     CHECK_CASES(cases);
 }
 
-static void test_resolution(void **state) {
+static void test_resolution_limits_the_length_of_a_step(void **state) {
     (void)state;
     static const Case cases[] = {
         // p = v0 t + 2 d² m (m + 1) / 2 after m steps of length d: one step of 1, two of 1/2, or four of 1/4.
@@ -101,7 +101,7 @@ static void test_odd_clocks(void **state) {
     CHECK_CASES(cases);
 }
 
-static void test_run(void **state) {
+static void test_system_restarts_when_run_changes(void **state) {
     (void)state;
     static const Case cases[] = {
         {"floored", SYSTEM("run=-2.5"), 2, ":run=-3 :clock=2", 0},
@@ -165,10 +165,14 @@ static void test_ease_runs_on_the_clock(void **state) {
 
 TEST_GROUP(seed_clock) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_keys),           cmocka_unit_test(test_resolution),
-        cmocka_unit_test(test_two_steps),      cmocka_unit_test(test_real_time),
-        cmocka_unit_test(test_odd_clocks),     cmocka_unit_test(test_run),
-        cmocka_unit_test(test_speed_of_light), cmocka_unit_test(test_ease_runs_on_the_clock),
+        cmocka_unit_test(test_system_stores_its_clocks_in_the_state),
+        cmocka_unit_test(test_resolution_limits_the_length_of_a_step),
+        cmocka_unit_test(test_two_steps),
+        cmocka_unit_test(test_real_time),
+        cmocka_unit_test(test_odd_clocks),
+        cmocka_unit_test(test_system_restarts_when_run_changes),
+        cmocka_unit_test(test_speed_of_light),
+        cmocka_unit_test(test_ease_runs_on_the_clock),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -85,7 +85,7 @@ static void run_dish(const char *electrostatic, const char *collision, const cha
 }
 
 // Cells leave the dish at most by as much as the elastic links allow.
-static void test_constrained(void **state) {
+static void test_cells_stay_in_the_dish(void **state) {
     (void)state;
     World world;
     char *script = dish("", ELECTROSTATIC, COLLISION, RANDOM, DRAG);
@@ -102,7 +102,7 @@ static void test_constrained(void **state) {
 }
 
 // Cells form clumps, and most touching pairs have opposite charges.
-static void test_clumps(void **state) {
+static void test_opposite_charges_form_clumps(void **state) {
     (void)state;
     Cells before, after, without;
     double overlap[3], products[3];
@@ -130,7 +130,7 @@ static void test_no_overlap(void **state) {
 }
 
 // Without the random force, all cells come to rest. With the random force, they keep moving.
-static void test_equilibrium(void **state) {
+static void test_cells_come_to_rest_without_random_force(void **state) {
     (void)state;
     Cells still, moved;
     run_dish("", COLLISION, "", 6000, &still);
@@ -161,7 +161,7 @@ static void test_eased_in(void **state) {
 
 // The clock counts beats: at twice the tempo, everything moves twice as fast. The resolution is one frame, so each
 // frame takes one step.
-static void test_tempo(void **state) {
+static void test_clock_of_beats_follows_the_tempo(void **state) {
     (void)state;
     static const struct {
         const char *pragma;
@@ -187,8 +187,12 @@ static void test_tempo(void **state) {
 
 TEST_GROUP(seed_dish) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constrained), cmocka_unit_test(test_clumps),   cmocka_unit_test(test_no_overlap),
-        cmocka_unit_test(test_equilibrium), cmocka_unit_test(test_eased_in), cmocka_unit_test(test_tempo),
+        cmocka_unit_test(test_cells_stay_in_the_dish),
+        cmocka_unit_test(test_opposite_charges_form_clumps),
+        cmocka_unit_test(test_no_overlap),
+        cmocka_unit_test(test_cells_come_to_rest_without_random_force),
+        cmocka_unit_test(test_eased_in),
+        cmocka_unit_test(test_clock_of_beats_follows_the_tempo),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 // test_seed_groups.c: groups in scripts: which particles a force acts on, and which pairs interact.
 #include "cases.h"
 
-static void test_reach(void **state) {
+static void test_force_acts_on_its_group_and_subgroups(void **state) {
     (void)state;
     static const Case cases[] = {
         {"a force at the top is for all",
@@ -72,7 +72,7 @@ static void check_sight(const char *script, const unsigned partners[4]) {
     world_close(&world);
 }
 
-static void test_sight(void **state) {
+static void test_only_ancestors_and_descendants_interact(void **state) {
     (void)state;
     enum { A = 1, B = 2, C = 4, D = 8 };
 #define TREE(top, a, b, c)                                                                                             \
@@ -89,7 +89,7 @@ static void test_sight(void **state) {
 }
 
 // Pair forces do not act between sibling groups. They do act between a group and the particles of its parent.
-static void test_siblings(void **state) {
+static void test_sibling_groups_do_not_interact(void **state) {
     (void)state;
     static const char *const forces[] = {"!collision", "!gravity", "!electrostatic", "!adhesion overlap=1"};
     for (size_t i = 0; i < COUNT_OF(forces); i++) {
@@ -124,9 +124,9 @@ static void test_ids_across_groups(void **state) {
 
 TEST_GROUP(seed_groups) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reach),
-        cmocka_unit_test(test_sight),
-        cmocka_unit_test(test_siblings),
+        cmocka_unit_test(test_force_acts_on_its_group_and_subgroups),
+        cmocka_unit_test(test_only_ancestors_and_descendants_interact),
+        cmocka_unit_test(test_sibling_groups_do_not_interact),
         cmocka_unit_test(test_ids_across_groups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -72,7 +72,7 @@ static void test_odd_numbers(void **state) {
     }
 }
 
-static void test_dimensions(void **state) {
+static void test_too_many_dimensions_are_rejected(void **state) {
     (void)state;
     static const Case cases[] = {
         {"2.5 is 2", "!physics state=:s dimensions=2.5\n !particle id=:a velocity=1;2\n", 1, "a=1;2", 0},
@@ -149,7 +149,7 @@ static void test_clock_overflow(void **state) {
 
 // If the time jumps, the maximum number of steps is taken and the rest of the time is skipped. The next frame is
 // normal.
-static void test_jumps(void **state) {
+static void test_time_jump_stops_at_the_step_limit(void **state) {
     (void)state;
     World world;
     world_open(&world, 1,
@@ -209,7 +209,7 @@ static void test_many_forces(void **state) {
 }
 
 // Links in a cycle, from a particle to itself, and in both directions.
-static void test_cycles(void **state) {
+static void test_links_may_form_cycles(void **state) {
     (void)state;
     static const Case cases[] = {
         {"to itself", P1 " !particle id=:a position=2\n !distance from=:a to=:a fixed=5\n", 2, "a=2 a'=0",
@@ -335,10 +335,17 @@ static void test_long_keys(void **state) {
 
 TEST_GROUP(seed_hostile) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_odd_numbers),    cmocka_unit_test(test_dimensions), cmocka_unit_test(test_endless_steps),
-        cmocka_unit_test(test_clock_overflow), cmocka_unit_test(test_jumps),      cmocka_unit_test(test_many_forces),
-        cmocka_unit_test(test_cycles),         cmocka_unit_test(test_same_place), cmocka_unit_test(test_deep_groups),
-        cmocka_unit_test(test_many_groups),    cmocka_unit_test(test_long_keys),
+        cmocka_unit_test(test_odd_numbers),
+        cmocka_unit_test(test_too_many_dimensions_are_rejected),
+        cmocka_unit_test(test_endless_steps),
+        cmocka_unit_test(test_clock_overflow),
+        cmocka_unit_test(test_time_jump_stops_at_the_step_limit),
+        cmocka_unit_test(test_many_forces),
+        cmocka_unit_test(test_links_may_form_cycles),
+        cmocka_unit_test(test_same_place),
+        cmocka_unit_test(test_deep_groups),
+        cmocka_unit_test(test_many_groups),
+        cmocka_unit_test(test_long_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -111,7 +111,7 @@ static void compare_states(int n, const char *place, const char *turn, const int
             NEAR(numbers[1][i * n + k], numbers[0][i * n + axis[k]] + (i % 2 ? 0 : shift[k]), 1e-9);
 }
 
-static void test_translated(void **state) {
+static void test_translation_does_not_change_the_motion(void **state) {
     (void)state;
     static const int axis[] = {0, 1, 2, 3, 4};
     compare_states(1, "v+100", "v", axis, (const double[]){100});
@@ -120,7 +120,7 @@ static void test_translated(void **state) {
     compare_states(5, "v+(1;2;3;-4;5)", "v", axis, (const double[]){1, 2, 3, -4, 5});
 }
 
-static void test_permuted(void **state) {
+static void test_order_of_axes_does_not_change_the_motion(void **state) {
     (void)state;
     static const double none[5] = {0};
     compare_states(2, "v[1;0]", "v[1;0]", (const int[]){1, 0}, none);
@@ -131,7 +131,7 @@ static void test_permuted(void **state) {
 
 // Additional components that are all zero do not change the motion. Drag and buoyancy are excluded, because their
 // formulas depend on the number of dimensions.
-static void test_embedded(void **state) {
+static void test_zero_components_do_not_change_the_motion(void **state) {
     (void)state;
     double numbers[2][80];
     for (int more = 0; more < 2; more++) {
@@ -157,8 +157,11 @@ static void test_embedded(void **state) {
 
 TEST_GROUP(seed_invariance) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_frame_rates), cmocka_unit_test(test_exact_frame_rates), cmocka_unit_test(test_translated),
-        cmocka_unit_test(test_permuted),    cmocka_unit_test(test_embedded),
+        cmocka_unit_test(test_frame_rates),
+        cmocka_unit_test(test_exact_frame_rates),
+        cmocka_unit_test(test_translation_does_not_change_the_motion),
+        cmocka_unit_test(test_order_of_axes_does_not_change_the_motion),
+        cmocka_unit_test(test_zero_components_do_not_change_the_motion),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,7 +56,7 @@ static void check_momentum(int n, const char *force) {
     free(script);
 }
 
-static void test_momentum(void **state) {
+static void test_pair_forces_conserve_momentum(void **state) {
     (void)state;
     static const char *const forces[] = {
         "!collision strength=50",
@@ -135,7 +135,7 @@ static void test_terminal_velocity(void **state) {
 
 // Kepler's laws: the period is tau sqrt(r³ / GM), and energy and angular momentum are constant. Tests a circle and an
 // ellipse, in two and three dimensions.
-static void test_orbit(void **state) {
+static void test_orbits_obey_keplers_laws(void **state) {
     (void)state;
     static const char *const cases[][3] = {
         {"2", "1;0", "0;1"}, {"3", "0;0;1", "0;1;0"}, {"2", "1;0", "0;1.2"}, {"5", "0;0;0;1;0", "1;0;0;0;0"}};
@@ -237,7 +237,7 @@ static void test_buoyant_equilibrium(void **state) {
 }
 
 // In a field, the acceleration is q / m times the field strength.
-static void test_field(void **state) {
+static void test_field_accelerates_by_charge_over_mass(void **state) {
     (void)state;
     World world;
     world_open(&world, 60,
@@ -283,7 +283,7 @@ static void test_drag_never_reverses(void **state) {
 }
 
 // A constant force of 1 that is eased in over E gives the velocity t² / 2E during that time, and t − E / 2 afterwards.
-static void test_ease(void **state) {
+static void test_eased_force_grows_linearly(void **state) {
     (void)state;
     World world;
     world_open(&world, 10,
@@ -300,7 +300,7 @@ static void test_ease(void **state) {
 }
 
 // Two balls that collide on a line exchange their velocities. A stronger force reduces their overlap.
-static void test_collision(void **state) {
+static void test_equal_balls_exchange_their_velocities(void **state) {
     (void)state;
     double nearest[3] = {9, 9, 9};
     static const int strengths[] = {10, 100, 1000};
@@ -404,18 +404,18 @@ static void test_drag_takes_energy(void **state) {
 
 TEST_GROUP(seed_laws) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_momentum),
+        cmocka_unit_test(test_pair_forces_conserve_momentum),
         cmocka_unit_test(test_spring_period),
         cmocka_unit_test(test_free_fall),
         cmocka_unit_test(test_terminal_velocity),
-        cmocka_unit_test(test_orbit),
+        cmocka_unit_test(test_orbits_obey_keplers_laws),
         cmocka_unit_test(test_two_stars),
         cmocka_unit_test(test_bounce_height),
         cmocka_unit_test(test_buoyant_equilibrium),
-        cmocka_unit_test(test_field),
+        cmocka_unit_test(test_field_accelerates_by_charge_over_mass),
         cmocka_unit_test(test_drag_never_reverses),
-        cmocka_unit_test(test_ease),
-        cmocka_unit_test(test_collision),
+        cmocka_unit_test(test_eased_force_grows_linearly),
+        cmocka_unit_test(test_equal_balls_exchange_their_velocities),
         cmocka_unit_test(test_resolution_tames),
         cmocka_unit_test(test_radii_tame_gravity),
         cmocka_unit_test(test_drag_takes_energy),

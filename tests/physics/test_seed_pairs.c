@@ -5,7 +5,7 @@
 // Two particles of mass 1 in one dimension, with the given attributes.
 #define PAIR(a, b, rest) P1 " !particle id=:a " a "\n !particle id=:b " b "\n " rest "\n"
 
-static void test_collision(void **state) {
+static void test_collision_equals_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"min is the sum of the radii", PAIR("radius=1", "radius=1 position=1.5", "!collision strength=4"), 1,
@@ -33,7 +33,7 @@ static void test_collision(void **state) {
     CHECK_CASES(cases);
 }
 
-static void test_gravity(void **state) {
+static void test_gravity_equals_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"product of masses over square of distance", PAIR("mass=2", "mass=3 position=2", "!gravity strength=4"), 1,
@@ -65,7 +65,7 @@ static void test_gravity(void **state) {
     CHECK_CASES(cases);
 }
 
-static void test_electrostatic(void **state) {
+static void test_electrostatic_equals_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"equal signs repel", PAIR("charge=2", "charge=3 position=2", "!electrostatic strength=4"), 1, "a'=-6 b'=6", 0},
@@ -97,7 +97,7 @@ static void test_electrostatic(void **state) {
 // Radii 1.5 and 0.5: l_max 2, l_min 1.
 #define STICK(at, rest) PAIR("radius=1.5", "radius=0.5 position=" at, "!adhesion strength=4 " rest)
 
-static void test_adhesion(void **state) {
+static void test_adhesion_equals_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"too near: apart", STICK("1", "overlap=0.5"), 1, "a'=-2 b'=2", 0},
@@ -127,7 +127,7 @@ static void test_adhesion(void **state) {
 // A link between two particles at distance 4.
 #define LINK(attributes) P1 " !particle id=:a\n !particle id=:b position=4\n !distance from=:a to=:b " attributes "\n"
 
-static void test_distance(void **state) {
+static void test_distance_equals_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"nearer than min: apart", LINK("min=6 strength=0.5"), 1, "a'=-1 b'=1", 0},
@@ -187,7 +187,7 @@ static void test_distance(void **state) {
 }
 
 // The force between two particles that are not on a common axis acts along the line between them.
-static void test_direction(void **state) {
+static void test_pair_force_acts_along_the_line_between_particles(void **state) {
     (void)state;
     static const char *const forces[] = {"!distance from=:a to=:b max=4", "!gravity strength=25",
                                          "!electrostatic strength=-25", "!adhesion overlap=1 strength=1/3"};
@@ -208,8 +208,12 @@ static void test_direction(void **state) {
 
 TEST_GROUP(seed_pairs) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_collision), cmocka_unit_test(test_gravity),  cmocka_unit_test(test_electrostatic),
-        cmocka_unit_test(test_adhesion),  cmocka_unit_test(test_distance), cmocka_unit_test(test_direction),
+        cmocka_unit_test(test_collision_equals_the_seeds_formula),
+        cmocka_unit_test(test_gravity_equals_the_seeds_formula),
+        cmocka_unit_test(test_electrostatic_equals_the_seeds_formula),
+        cmocka_unit_test(test_adhesion_equals_the_seeds_formula),
+        cmocka_unit_test(test_distance_equals_the_seeds_formula),
+        cmocka_unit_test(test_pair_force_acts_along_the_line_between_particles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

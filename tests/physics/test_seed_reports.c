@@ -24,7 +24,7 @@ static void check_reports(const Report *rows, size_t count) {
         check_report(&rows[i]);
 }
 
-static void test_shapes(void **state) {
+static void test_malformed_attribute_is_reported_with_node_and_value(void **state) {
     (void)state;
     static const Report rows[] = {
         {P2 " !particle id=:a position=1;2;3\n", "bad-attribute", {"!particle", ":a", "position", "1;2;3"}},
@@ -154,7 +154,7 @@ static void test_colliding_keys(void **state) {
     check_reports(rows, COUNT_OF(rows));
 }
 
-static void test_names(void **state) {
+static void test_unknown_name_is_reported_with_a_suggestion(void **state) {
     (void)state;
     static const Report rows[] = {
         {P1 " !particle id=:a raduis=1\n", "unknown-attribute", {"!particle", ":a", "'raduis'", "'radius'"}},
@@ -187,7 +187,7 @@ static void test_names(void **state) {
     world_close(&world);
 }
 
-static void test_ids(void **state) {
+static void test_missing_or_duplicate_id_is_reported(void **state) {
     (void)state;
     static const Report rows[] = {
         {P1 " !particle position=1\n", "missing-id", {"!particle", "id"}},
@@ -246,7 +246,7 @@ static void test_reserved_ids(void **state) {
     world_close(&world);
 }
 
-static void test_systems(void **state) {
+static void test_invalid_system_is_reported(void **state) {
     (void)state;
     static const Report rows[] = {
         {"!physics dimensions=1\n !particle id=:a\n", "invalid-system", {"!physics", "state"}},
@@ -298,7 +298,7 @@ static void test_malformed_dimensions(void **state) {
     }
 }
 
-static void test_barriers(void **state) {
+static void test_ignored_barrier_or_theta_is_reported(void **state) {
     (void)state;
     static const Report rows[] = {
         {P1 " !barrier\n", "bad-normal", {"!barrier", "normal"}},
@@ -311,7 +311,7 @@ static void test_barriers(void **state) {
     check_reports(rows, COUNT_OF(rows));
 }
 
-static void test_silence(void **state) {
+static void test_correct_system_is_not_reported(void **state) {
     (void)state;
     World world;
     world_open(
@@ -340,20 +340,20 @@ static void test_silence(void **state) {
 
 TEST_GROUP(seed_reports) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shapes),
+        cmocka_unit_test(test_malformed_attribute_is_reported_with_node_and_value),
         cmocka_unit_test(test_changing_values),
         cmocka_unit_test(test_symbols_as_numbers),
         cmocka_unit_test(test_symbols_are_used_as_numbers),
         cmocka_unit_test(test_not_finite),
         cmocka_unit_test(test_not_finite_for_a_while),
         cmocka_unit_test(test_colliding_keys),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_ids),
+        cmocka_unit_test(test_unknown_name_is_reported_with_a_suggestion),
+        cmocka_unit_test(test_missing_or_duplicate_id_is_reported),
         cmocka_unit_test(test_reserved_ids),
-        cmocka_unit_test(test_systems),
+        cmocka_unit_test(test_invalid_system_is_reported),
         cmocka_unit_test(test_malformed_dimensions),
-        cmocka_unit_test(test_barriers),
-        cmocka_unit_test(test_silence),
+        cmocka_unit_test(test_ignored_barrier_or_theta_is_reported),
+        cmocka_unit_test(test_correct_system_is_not_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

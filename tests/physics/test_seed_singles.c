@@ -1,7 +1,7 @@
 // test_seed_singles.c: forces on single particles in scripts, with results calculated by hand from the seed's formulas.
 #include "cases.h"
 
-static void test_constant(void **state) {
+static void test_constant_equals_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"force, one dimension", P1 " !particle id=:a\n !constant force=3\n", 1, "a=3 a'=3", 0},
@@ -27,7 +27,7 @@ static void test_constant(void **state) {
     CHECK_CASES(cases);
 }
 
-static void test_field(void **state) {
+static void test_field_equals_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"in proportion to the charge",
@@ -46,7 +46,7 @@ static void test_field(void **state) {
     CHECK_CASES(cases);
 }
 
-static void test_drag(void **state) {
+static void test_drag_equals_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"one dimension: no cross-section", P1 " !particle id=:a radius=2 velocity=2\n !drag strength=0.25\n", 1,
@@ -77,7 +77,7 @@ static void test_drag(void **state) {
     CHECK_CASES(cases);
 }
 
-static void test_buoyancy(void **state) {
+static void test_buoyancy_equals_the_seeds_formula(void **state) {
     (void)state;
     static const Case cases[] = {
         {"one dimension: radius", P1 " !particle id=:a radius=2\n !buoyancy density=1/8\n", 1, "a'=-0.75", 0},
@@ -102,7 +102,7 @@ static void test_buoyancy(void **state) {
 
 // The forces of `!random` equal normal(prefix;run;iteration). The script evaluates this stream as well, and anchors
 // have the expected velocities.
-static void test_random(void **state) {
+static void test_random_force_equals_the_normal_stream(void **state) {
     (void)state;
     World world;
     world_open(&world, 1,
@@ -211,10 +211,14 @@ static void test_random_is_normal(void **state) {
 
 TEST_GROUP(seed_singles) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constant),     cmocka_unit_test(test_field),
-        cmocka_unit_test(test_drag),         cmocka_unit_test(test_buoyancy),
-        cmocka_unit_test(test_random),       cmocka_unit_test(test_random_seeds),
-        cmocka_unit_test(test_random_steps), cmocka_unit_test(test_random_is_normal),
+        cmocka_unit_test(test_constant_equals_the_seeds_formula),
+        cmocka_unit_test(test_field_equals_the_seeds_formula),
+        cmocka_unit_test(test_drag_equals_the_seeds_formula),
+        cmocka_unit_test(test_buoyancy_equals_the_seeds_formula),
+        cmocka_unit_test(test_random_force_equals_the_normal_stream),
+        cmocka_unit_test(test_random_seeds),
+        cmocka_unit_test(test_random_steps),
+        cmocka_unit_test(test_random_is_normal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,7 +56,7 @@ static void test_shared_prefix(void **state) {
 }
 
 // Counters with different rates. One of them is the time of a system. The script reads values of the previous frame.
-static void test_counters(void **state) {
+static void test_counters_can_drive_a_system(void **state) {
     (void)state;
     World world;
     world_open(&world, 1,
@@ -87,7 +87,7 @@ static void test_counters(void **state) {
 }
 
 // The script computes a spring force from the position in the state. With steps of length 1, the period is 6.
-static void test_feedback(void **state) {
+static void test_force_can_depend_on_the_last_position(void **state) {
     (void)state;
     static const double positions[] = {0, -8, -8, 0, 8, 8};
     World world;
@@ -184,7 +184,7 @@ static void test_not_finite(void **state) {
 }
 
 // A script that is loaded again starts at frame 0 with the old state, so the time goes back.
-static void test_reload(void **state) {
+static void test_reloaded_script_keeps_the_state(void **state) {
     (void)state;
     World world;
     const char *script = P1 " !particle id=:a velocity=1\n";
@@ -201,11 +201,15 @@ static void test_reload(void **state) {
 
 TEST_GROUP(seed_state) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_several_systems), cmocka_unit_test(test_all_keys),
-        cmocka_unit_test(test_shared_prefix),   cmocka_unit_test(test_counters),
-        cmocka_unit_test(test_feedback),        cmocka_unit_test(test_feedback_between_systems),
-        cmocka_unit_test(test_come_and_go),     cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_reload),
+        cmocka_unit_test(test_several_systems),
+        cmocka_unit_test(test_all_keys),
+        cmocka_unit_test(test_shared_prefix),
+        cmocka_unit_test(test_counters_can_drive_a_system),
+        cmocka_unit_test(test_force_can_depend_on_the_last_position),
+        cmocka_unit_test(test_feedback_between_systems),
+        cmocka_unit_test(test_come_and_go),
+        cmocka_unit_test(test_not_finite),
+        cmocka_unit_test(test_reloaded_script_keeps_the_state),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,7 +56,7 @@ static int count_at(const char *script, double strength, int64_t frame) {
     return count;
 }
 
-static void test_limits(void **state) {
+static void test_unstable_force_is_reported_above_the_exact_limit(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(limits); i++) {
         double limit = limits[i].strength;
@@ -103,7 +103,7 @@ static double largest_velocity(World *world) {
 // Random cloths: particles of random masses in 2 or 3 dimensions, each connected with some of the earlier ones. If the
 // strength is reported, the cloth explodes; with the suggested strength, and with the suggested resolution, it does
 // not.
-static void test_suggestions(void **state) {
+static void test_suggested_strength_and_resolution_are_stable(void **state) {
     (void)state;
     int reported = 0;
     for (int seed = 0; seed < 60; seed++) {
@@ -161,7 +161,7 @@ static void expect_divergence(const char *script, int64_t frame, const char *wan
     world_close(&world);
 }
 
-static void test_divergence(void **state) {
+static void test_divergence_names_frame_particle_and_force(void **state) {
     (void)state;
     static const struct {
         const char *script;
@@ -234,9 +234,12 @@ static void test_divergence_is_deterministic(void **state) {
 
 TEST_GROUP(stability) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_limits),        cmocka_unit_test(test_possibly_stable),
-        cmocka_unit_test(test_suggestions),   cmocka_unit_test(test_divergence),
-        cmocka_unit_test(test_no_divergence), cmocka_unit_test(test_divergence_is_deterministic),
+        cmocka_unit_test(test_unstable_force_is_reported_above_the_exact_limit),
+        cmocka_unit_test(test_possibly_stable),
+        cmocka_unit_test(test_suggested_strength_and_resolution_are_stable),
+        cmocka_unit_test(test_divergence_names_frame_particle_and_force),
+        cmocka_unit_test(test_no_divergence),
+        cmocka_unit_test(test_divergence_is_deterministic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -241,7 +241,7 @@ static void test_color_matrix(void **state) {
 }
 
 // The blurred image of a bar from 20 to 40 is the difference of two error functions, for small and large radii.
-static void test_blur(void **state) {
+static void test_blurred_bar_is_a_difference_of_error_functions(void **state) {
     (void)state;
     static const double sigmas[] = {0.5, 1, 3, 7.9, 8.1, 12, 20, 40};
     for (size_t i = 0; i < COUNT_OF(sigmas); i++)
@@ -379,7 +379,7 @@ static void test_hdr_sources_are_not_rounded(void **state) {
     drawn_close(&drawn);
 }
 
-static void test_noise(void **state) {
+static void test_noise_equals_the_turbulence_model(void **state) {
     (void)state;
     static Turbulence t;
     static const struct {
@@ -495,7 +495,7 @@ static void test_path_effects(void **state) {
 }
 
 // Jitter stays within its deviation, changes the line, is the same in each frame, and depends on the seed.
-static void test_jitter(void **state) {
+static void test_jitter_stays_within_its_deviation(void **state) {
     (void)state;
     uint32_t *seen[2];
     for (int i = 0; i < 2; i++) {
@@ -684,14 +684,14 @@ TEST_GROUP(canvas) {
         cmocka_unit_test(test_blend_modes_match_model),
         cmocka_unit_test(test_filter_blend),
         cmocka_unit_test(test_color_matrix),
-        cmocka_unit_test(test_blur),
+        cmocka_unit_test(test_blurred_bar_is_a_difference_of_error_functions),
         cmocka_unit_test(test_shadow_offset_dilate_erode),
         cmocka_unit_test(test_hdr_light_is_not_clamped),
         cmocka_unit_test(test_hdr_sources_are_not_rounded),
-        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_noise_equals_the_turbulence_model),
         cmocka_unit_test(test_arc_to),
         cmocka_unit_test(test_path_effects),
-        cmocka_unit_test(test_jitter),
+        cmocka_unit_test(test_jitter_stays_within_its_deviation),
         cmocka_unit_test(test_memory_limit_omits_only_expensive_parts),
         cmocka_unit_test(test_pictures_of_nodes),
         cmocka_unit_test(test_bad_input_is_reported_once),

@@ -106,7 +106,7 @@ static void check_cases(const Case *cases, size_t count) {
     assert_int_equal(failed, 0);
 }
 
-static void test_combining(void **state) {
+static void test_composite_modes_equal_the_model(void **state) {
     (void)state;
     static const Case cases[] = {
         {"window", "", 0, 0},
@@ -128,7 +128,7 @@ static void test_combining(void **state) {
     check_cases(cases, COUNT_OF(cases));
 }
 
-static void test_adjust(void **state) {
+static void test_adjust_equals_the_model(void **state) {
     (void)state;
     static const Case cases[] = {
         {"adjust", "", 1, 0},
@@ -152,7 +152,7 @@ static void test_adjust(void **state) {
     check_cases(cases, COUNT_OF(cases));
 }
 
-static void test_blurs(void **state) {
+static void test_blur_bloom_edges_and_chromakey_equal_the_model(void **state) {
     (void)state;
     static const Case cases[] = {
         {"blur", "", 1, 0},
@@ -176,7 +176,7 @@ static void test_blurs(void **state) {
     check_cases(cases, COUNT_OF(cases));
 }
 
-static void test_feedback(void **state) {
+static void test_feedback_equals_the_model(void **state) {
     (void)state;
     static const Case cases[] = {
         {"feedback", "", 1, 2},
@@ -214,7 +214,7 @@ static void test_transform_vignette_kaleid(void **state) {
     check_cases(cases, COUNT_OF(cases));
 }
 
-static void test_noise(void **state) {
+static void test_noise_equals_the_model(void **state) {
     (void)state;
     static const Case cases[] = {
         {"noise", "scale=0.2", 0, 0},
@@ -228,7 +228,7 @@ static void test_noise(void **state) {
     check_cases(cases, COUNT_OF(cases));
 }
 
-static void test_flare(void **state) {
+static void test_flare_equals_the_model(void **state) {
     (void)state;
     static const Case cases[] = {
         {"flare", "", 1, 0},
@@ -261,13 +261,13 @@ static void test_exact_numbers_of_spec(void **state) {
 TEST_GROUP(effects) {
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exact_numbers_of_spec),
-        cmocka_unit_test(test_combining),
-        cmocka_unit_test(test_adjust),
-        cmocka_unit_test(test_blurs),
-        cmocka_unit_test(test_feedback),
+        cmocka_unit_test(test_composite_modes_equal_the_model),
+        cmocka_unit_test(test_adjust_equals_the_model),
+        cmocka_unit_test(test_blur_bloom_edges_and_chromakey_equal_the_model),
+        cmocka_unit_test(test_feedback_equals_the_model),
         cmocka_unit_test(test_transform_vignette_kaleid),
-        cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_flare),
+        cmocka_unit_test(test_noise_equals_the_model),
+        cmocka_unit_test(test_flare_equals_the_model),
     };
     return drawn_can_run() ? cmocka_run_group_tests(tests, NULL, NULL) : GROUP_SKIPPED;
 }

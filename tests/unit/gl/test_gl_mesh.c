@@ -61,7 +61,7 @@ static bool has_vertex(const Mesh *mesh, const float wanted[8]) {
     return false;
 }
 
-static void test_box(void **state) {
+static void test_box_has_volume_1_and_outward_normals(void **state) {
     Mesh mesh = mesh_box(*state, false);
     assert_int_equal(mesh.vertex_count, 24);
     assert_int_equal(mesh.index_count, 36);
@@ -83,7 +83,7 @@ static void test_box(void **state) {
         assert_true(low[k] == -0.5f && high[k] == 0.5f);
 }
 
-static void test_sphere(void **state) {
+static void test_sphere_has_unit_normals_at_its_vertices(void **state) {
     static const uint32_t segments[][2] = {{4, 1}, {5, 2}, {64, 16}, {1, 1}};
     for (size_t i = 0; i < 4; i++) {
         uint32_t n = segments[i][1];
@@ -135,7 +135,7 @@ static void test_flat_and_invert(void **state) {
     check_body(&mesh, -1);
 }
 
-static void test_snap(void **state) {
+static void test_edges_below_the_limit_are_smoothed(void **state) {
     // Right-angled edges are smoothed if snap_edges is above a quarter turn; corner normals then point along the
     // diagonals.
     Mesh mesh = mesh_box(*state, false);
@@ -156,7 +156,7 @@ static void test_snap(void **state) {
     assert_true(has_vertex(&mesh, (const float[]){0, 1, .5f, 0, 0, 1, .25f, .75f}));
 }
 
-static void test_remap(void **state) {
+static void test_remapped_coordinates_do_not_cross_the_seam(void **state) {
     Mesh mesh = mesh_box(*state, false);
     mesh_remap(*state, &mesh, REMAP_PLANE);
     assert_true(has_vertex(&mesh, (const float[]){.5f, -.5f, .5f, 1, 0, 0, 1, 0}));
@@ -191,7 +191,7 @@ static void check_bad(Arena *arena, const char *text, uint32_t line, const char 
     assert_claim(text, strstr(fault.text, problem) != NULL);
 }
 
-static void test_obj(void **state) {
+static void test_obj_file_gives_triangles_or_the_bad_line(void **state) {
     Mesh mesh;
     assert_true(from_file(*state,
                           "# a square\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\r\nv 1.0e0 +1 0\nv 0 1 0 1\n"
@@ -241,7 +241,7 @@ static void test_obj(void **state) {
         check_bad(*state, bad[i].text, bad[i].line, bad[i].problem);
 }
 
-static void test_off(void **state) {
+static void test_off_file_gives_triangles_or_the_bad_line(void **state) {
     Mesh mesh;
     assert_true(
         from_file(*state, "OFF\n# a square\n4 1 0\n\n0 0 0\n1 0 0\r\n1 1 0 # corner\n0 1 0\n4 0 1 2 3\n", &mesh));
@@ -273,7 +273,7 @@ static void test_off(void **state) {
 #define PLY_VERTEX "element vertex 3\nproperty float x\nproperty float y\nproperty double z\n"
 #define PLY_FACE "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
 
-static void test_ply(void **state) {
+static void test_ply_file_gives_triangles_or_the_bad_line(void **state) {
     Mesh mesh;
     assert_true(from_file(*state,
                           PLY_HEAD "element vertex 4\nproperty uchar red\nproperty float x\nproperty float y\n"
@@ -348,7 +348,7 @@ static void test_gltf_is_named(void **state) {
     check_bad(*state, "{\"asset\": {}}", 0, "glTF is not supported; convert it to OBJ");
 }
 
-static void test_stl(void **state) {
+static void test_stl_file_gives_triangles_or_the_bad_line(void **state) {
     Mesh mesh;
     assert_true(from_file(*state,
                           "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
@@ -373,7 +373,7 @@ static void test_stl(void **state) {
     assert_false(mesh_from_file(*state, (Str){binary, sizeof binary}, &mesh, &problem));
 }
 
-static void test_lists(void **state) {
+static void test_lists_with_a_bad_index_or_length_are_rejected(void **state) {
     static const double vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, uv[] = {0, 0, 1, 0, 0, 1};
     static const double faces[] = {0, 1, 2}, wrong[][3] = {{0, 1, 3}, {0, 1, -1}, {0, 1, 1e300}};
     Mesh mesh;
@@ -415,7 +415,7 @@ static void check_hull(Arena *arena, const char *row, const double *points, uint
     assert_claim(row, triangles == 0 || numbers == 3 * triangles);
 }
 
-static void test_hull(void **state) {
+static void test_hull_of_flat_points_is_rejected(void **state) {
     enum { MANY = 300 };
     static const double pyramid[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.1, 0.1, 0.1, 0.2, 0.2, 0, 0, 0, 0};
     double cube[27 * 3], ball[MANY * 3], wall[MANY * 3];
@@ -482,20 +482,20 @@ static void test_hull_extremes(void **state) {
 
 TEST_GROUP(gl_mesh) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_box, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_sphere, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_box_has_volume_1_and_outward_normals, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_sphere_has_unit_normals_at_its_vertices, setup, teardown),
         cmocka_unit_test_setup_teardown(test_cylinder_and_cone, setup, teardown),
         cmocka_unit_test_setup_teardown(test_flat_and_invert, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_snap, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_remap, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_obj, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_off, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_ply, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_edges_below_the_limit_are_smoothed, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_remapped_coordinates_do_not_cross_the_seam, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_obj_file_gives_triangles_or_the_bad_line, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_off_file_gives_triangles_or_the_bad_line, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_ply_file_gives_triangles_or_the_bad_line, setup, teardown),
         cmocka_unit_test_setup_teardown(test_binary_ply, setup, teardown),
         cmocka_unit_test_setup_teardown(test_gltf_is_named, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_stl, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_lists, setup, teardown),
-        cmocka_unit_test_setup_teardown(test_hull, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_stl_file_gives_triangles_or_the_bad_line, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_lists_with_a_bad_index_or_length_are_rejected, setup, teardown),
+        cmocka_unit_test_setup_teardown(test_hull_of_flat_points_is_rejected, setup, teardown),
         cmocka_unit_test_setup_teardown(test_hull_extremes, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,7 +61,7 @@ static double ratio(const Machine *machine) {
     return (double)machine->now / (double)machine->worked;
 }
 
-static void test_quiet(void **state) {
+static void test_helpers_that_answer_at_once_are_always_used(void **state) {
     (void)state;
     Machine machine = {0};
     play_jobs(&machine, answer_at_once, SECOND);
@@ -70,7 +70,7 @@ static void test_quiet(void **state) {
 }
 
 // The jobs take at most one or two per cent longer than without helpers.
-static void test_busy(void **state) {
+static void test_late_helpers_cost_at_most_two_per_cent(void **state) {
     (void)state;
     Answer *answers[] = {answer_half_of_the_time, answer_always_late, answer_never};
     for (size_t i = 0; i < COUNT_OF(answers); i++) {
@@ -81,7 +81,7 @@ static void test_busy(void **state) {
     }
 }
 
-static void test_disturbed(void **state) {
+static void test_helpers_that_mostly_answer_stay_in_use(void **state) {
     (void)state;
     Machine machine = {0};
     play_jobs(&machine, answer_most_of_the_time, 10ull * SECOND);
@@ -102,7 +102,7 @@ static void test_quiet_again(void **state) {
     }
 }
 
-static void test_unanswered(void **state) {
+static void test_helpers_pause_after_too_many_unanswered_jobs(void **state) {
     (void)state;
     PhysBackoff help = {0};
     PhysJobTimes alone = {.begin = 100, .end = 200}, helped = {.begin = 200, .end = 300, .answered = true};
@@ -139,9 +139,12 @@ static void test_tuner_picks_faster(void **state) {
 
 TEST_GROUP(backoff) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_quiet),      cmocka_unit_test(test_busy),
-        cmocka_unit_test(test_disturbed),  cmocka_unit_test(test_quiet_again),
-        cmocka_unit_test(test_unanswered), cmocka_unit_test(test_tuner_picks_faster),
+        cmocka_unit_test(test_helpers_that_answer_at_once_are_always_used),
+        cmocka_unit_test(test_late_helpers_cost_at_most_two_per_cent),
+        cmocka_unit_test(test_helpers_that_mostly_answer_stay_in_use),
+        cmocka_unit_test(test_quiet_again),
+        cmocka_unit_test(test_helpers_pause_after_too_many_unanswered_jobs),
+        cmocka_unit_test(test_tuner_picks_faster),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,7 +35,7 @@ static void check_ball(const PhysSystem *system, double x, double y, double vx, 
 }
 
 // After the reflection, the particle moves back for the rest of the step.
-static void test_elastic(void **state) {
+static void test_rest_of_the_step_follows_the_reflected_velocity(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(2, -4), 0, 1);
     one_step(system); // contact after a quarter of the step
@@ -47,7 +47,7 @@ static void test_elastic(void **state) {
     phys_free(system);
 }
 
-static void test_restitution(void **state) {
+static void test_restitution_scales_the_whole_velocity(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(2, -4), 0, 0.5);
     one_step(system); // the contact halves the whole velocity, not only the normal component
@@ -68,7 +68,7 @@ static void test_not_crossed(void **state) {
 }
 
 // A particle that starts behind the barrier and moves out is placed on the surface. It keeps its velocity.
-static void test_leaving(void **state) {
+static void test_leaving_particle_is_placed_on_the_surface(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, -5), VEC(2, 1), 0.5, 0.5);
     one_step(system);
@@ -82,7 +82,7 @@ static void test_leaving(void **state) {
 
 // If a particle starts behind the barrier and moves deeper, its step is undone and repeated with the reflected
 // velocity. Then it is placed on the surface.
-static void test_outside(void **state) {
+static void test_sinking_particle_is_reflected_onto_the_surface(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(0, -5), VEC(2, -1), 0, 1);
     one_step(system);
@@ -107,7 +107,7 @@ static void test_anchor_and_massless(void **state) {
 }
 
 // In the corner of two barriers, a particle is reflected twice in one step.
-static void test_corner(void **state) {
+static void test_corner_reflects_twice_in_one_step(void **state) {
     (void)state;
     PhysSystem *system = ball_and_floor(VEC(1, 1), VEC(-4, -2), 0, 1);
     PhysForce wall = force_of(PHYS_BARRIER);
@@ -230,13 +230,13 @@ static void test_speed_of_light(void **state) {
 
 TEST_GROUP(barriers) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_elastic),
-        cmocka_unit_test(test_restitution),
+        cmocka_unit_test(test_rest_of_the_step_follows_the_reflected_velocity),
+        cmocka_unit_test(test_restitution_scales_the_whole_velocity),
         cmocka_unit_test(test_not_crossed),
-        cmocka_unit_test(test_leaving),
-        cmocka_unit_test(test_outside),
+        cmocka_unit_test(test_leaving_particle_is_placed_on_the_surface),
+        cmocka_unit_test(test_sinking_particle_is_reflected_onto_the_surface),
         cmocka_unit_test(test_anchor_and_massless),
-        cmocka_unit_test(test_corner),
+        cmocka_unit_test(test_corner_reflects_twice_in_one_step),
         cmocka_unit_test(test_bounce_height),
         cmocka_unit_test(test_ball_comes_to_rest),
         cmocka_unit_test(test_ball_rolls_down_a_slope),

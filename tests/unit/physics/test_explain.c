@@ -244,7 +244,7 @@ static void test_nothing_to_explain(void **state) {
 }
 
 // Memory and work are charged to the budget, and memory is released.
-static void test_budget(void **state) {
+static void test_explanation_charges_the_budget_and_frees_memory(void **state) {
     (void)state;
     Budget budget = {.memory_limit = SIZE_MAX};
     budget_begin(&budget, UINT64_C(1) << 40, NULL);
@@ -301,7 +301,7 @@ TEST_GROUP(explain) {
         cmocka_unit_test(test_order_of_summation),
         cmocka_unit_test(test_every_step_of_a_frame),
         cmocka_unit_test(test_nothing_to_explain),
-        cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_explanation_charges_the_budget_and_frees_memory),
         cmocka_unit_test(test_interrupt_between_charges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

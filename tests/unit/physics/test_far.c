@@ -145,7 +145,7 @@ static void test_theta_without_effect(void **state) {
 }
 
 // The overlapping particles are computed exactly, so the forces are as precise as without radii.
-static void test_softening(void **state) {
+static void test_overlapping_particles_are_computed_exactly(void **state) {
     (void)state;
     Setup setup = {.dimensions = 3, .count = COUNT, .force = far_force(PHYS_GRAVITY, 0.5), .radius = 0.1};
     assert_true(error_of(setup) < 0.005);
@@ -318,7 +318,7 @@ static void check_explanations(double radius) {
     phys_free(system);
 }
 
-static void test_explanations(void **state) {
+static void test_contributions_of_far_fields_add_up(void **state) {
     (void)state;
     check_explanations(0.05);
     check_explanations(20);
@@ -328,7 +328,7 @@ TEST_GROUP(far) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_errors_shrink_with_theta),
         cmocka_unit_test(test_theta_without_effect),
-        cmocka_unit_test(test_softening),
+        cmocka_unit_test(test_overlapping_particles_are_computed_exactly),
         cmocka_unit_test(test_max_distance),
         cmocka_unit_test(test_coincident_bodies),
         cmocka_unit_test(test_extreme_coordinates),
@@ -337,7 +337,7 @@ TEST_GROUP(far) {
         cmocka_unit_test(test_useless_tree_is_charged_first),
         cmocka_unit_test(test_work_limit),
         cmocka_unit_test(test_memory_limit),
-        cmocka_unit_test(test_explanations),
+        cmocka_unit_test(test_contributions_of_far_fields_add_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

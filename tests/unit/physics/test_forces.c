@@ -42,7 +42,7 @@ static PhysForce link_of(double minimum, double maximum) {
     return force;
 }
 
-static void test_distance(void **state) {
+static void test_link_acts_below_min_and_above_max(void **state) {
     (void)state;
     PhysForce force = link_of(2, 3);
     force.strength = 5;
@@ -85,7 +85,7 @@ static void test_distance_handles(void **state) {
     }
 }
 
-static void test_collision(void **state) {
+static void test_collision_grows_with_the_overlap(void **state) {
     (void)state;
     PhysForce force = force_of(PHYS_COLLISION);
     force.strength = 7;
@@ -102,7 +102,7 @@ static void test_collision(void **state) {
     assert_same(pair_force(ball(0.75), ball(0.5), 1, &force), -(0.25 * 0.25 * 7));
 }
 
-static void test_gravity(void **state) {
+static void test_gravity_is_constant_within_the_radii(void **state) {
     (void)state;
     PhysForce force = force_of(PHYS_GRAVITY);
     force.strength = 3;
@@ -118,7 +118,7 @@ static void test_gravity(void **state) {
     assert_same(pair_force(ball(1), heavy, 2, &force), 0);
 }
 
-static void test_electrostatic(void **state) {
+static void test_equal_charges_repel_and_opposite_attract(void **state) {
     (void)state;
     PhysForce force = force_of(PHYS_ELECTROSTATIC);
     force.strength = 2;
@@ -130,7 +130,7 @@ static void test_electrostatic(void **state) {
     assert_same(pair_force(charged(3), charged(0.7), 2, &force), 2 * (3 * 0.7) / 4);
 }
 
-static void test_adhesion(void **state) {
+static void test_adhesion_rests_at_the_overlap(void **state) {
     (void)state;
     PhysForce force = force_of(PHYS_ADHESION);
     force.strength = 4;
@@ -171,7 +171,7 @@ static void check_single(PhysParticle particle, const PhysForce *force, double x
     assert_same(change[2], z);
 }
 
-static void test_constant(void **state) {
+static void test_constant_adds_force_and_acceleration(void **state) {
     (void)state;
     PhysForce force = force_of(PHYS_CONSTANT);
     force.vector = VEC(1, 2, 3);
@@ -188,7 +188,7 @@ static void test_constant(void **state) {
     check_single(heavy, &force, 0, 0, 0);
 }
 
-static void test_field(void **state) {
+static void test_field_is_proportional_to_the_charge(void **state) {
     (void)state;
     PhysForce force = force_of(PHYS_FIELD);
     force.vector = VEC(0.5, 0, -2);
@@ -197,7 +197,7 @@ static void test_field(void **state) {
     check_single(charged(-2), &force, -3, 0, 12);
 }
 
-static void test_drag(void **state) {
+static void test_drag_never_overshoots_the_flow(void **state) {
     (void)state;
     PhysForce force = force_of(PHYS_DRAG);
     force.strength = 0.01;
@@ -213,7 +213,7 @@ static void test_drag(void **state) {
     check_single(p, &force, 0, 0, 0);
 }
 
-static void test_buoyancy(void **state) {
+static void test_buoyancy_depends_on_the_displaced_mass(void **state) {
     (void)state;
     PhysForce force = force_of(PHYS_BUOYANCY);
     force.vector = VEC(0, 0, -1);
@@ -258,7 +258,7 @@ static void test_own_force(void **state) {
 }
 
 // A force that is eased in over 8 has 0, 1/8, 2/8, … of its strength in the steps that begin at clock 0, 1, 2, …
-static void test_ease(void **state) {
+static void test_eased_force_grows_with_the_clock(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
     phys_begin(system, 1);
@@ -281,7 +281,7 @@ static void test_ease(void **state) {
 
 // Random items are numbered within the group of the `!random` force: by component, then by particle (without anchors),
 // then by step.
-static void test_random(void **state) {
+static void test_random_items_are_numbered_within_the_forces_group(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
     phys_begin(system, 2);
@@ -350,21 +350,21 @@ static void test_changed_force(void **state) {
 
 TEST_GROUP(forces) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_distance),
+        cmocka_unit_test(test_link_acts_below_min_and_above_max),
         cmocka_unit_test(test_distance_powers),
         cmocka_unit_test(test_distance_handles),
-        cmocka_unit_test(test_collision),
-        cmocka_unit_test(test_gravity),
-        cmocka_unit_test(test_electrostatic),
-        cmocka_unit_test(test_adhesion),
-        cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_field),
-        cmocka_unit_test(test_drag),
-        cmocka_unit_test(test_buoyancy),
+        cmocka_unit_test(test_collision_grows_with_the_overlap),
+        cmocka_unit_test(test_gravity_is_constant_within_the_radii),
+        cmocka_unit_test(test_equal_charges_repel_and_opposite_attract),
+        cmocka_unit_test(test_adhesion_rests_at_the_overlap),
+        cmocka_unit_test(test_constant_adds_force_and_acceleration),
+        cmocka_unit_test(test_field_is_proportional_to_the_charge),
+        cmocka_unit_test(test_drag_never_overshoots_the_flow),
+        cmocka_unit_test(test_buoyancy_depends_on_the_displaced_mass),
         cmocka_unit_test(test_soft_barrier),
         cmocka_unit_test(test_own_force),
-        cmocka_unit_test(test_ease),
-        cmocka_unit_test(test_random),
+        cmocka_unit_test(test_eased_force_grows_with_the_clock),
+        cmocka_unit_test(test_random_items_are_numbered_within_the_forces_group),
         cmocka_unit_test(test_changed_force),
         cmocka_unit_test(test_speed_of_light),
     };

@@ -34,7 +34,7 @@ static void check_sight(uint32_t group, const unsigned char wanted[BODIES]) {
     phys_free(system);
 }
 
-static void test_sight(void **state) {
+static void test_only_ancestors_and_descendants_interact(void **state) {
     (void)state;
     // bodies by group: top 3; A 1, 4; B 2; C 0, 5
     enum { A = 1 << 1 | 1 << 4, B = 1 << 2, C = 1 << 0 | 1 << 5, TOP = 1 << 3 };
@@ -107,7 +107,7 @@ static void test_anchor_above(void **state) {
 }
 
 // The described values can be read before the first frame.
-static void test_handles(void **state) {
+static void test_handles_are_valid_before_the_first_frame(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
     phys_begin(system, 2);
@@ -151,9 +151,12 @@ static void test_new_description(void **state) {
 
 TEST_GROUP(groups) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sight),           cmocka_unit_test(test_link_across),
-        cmocka_unit_test(test_handles),         cmocka_unit_test(test_singles_reach_subgroups),
-        cmocka_unit_test(test_anchor_above),    cmocka_unit_test(test_barriers_reach_subgroups),
+        cmocka_unit_test(test_only_ancestors_and_descendants_interact),
+        cmocka_unit_test(test_link_across),
+        cmocka_unit_test(test_handles_are_valid_before_the_first_frame),
+        cmocka_unit_test(test_singles_reach_subgroups),
+        cmocka_unit_test(test_anchor_above),
+        cmocka_unit_test(test_barriers_reach_subgroups),
         cmocka_unit_test(test_new_description),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,12 +54,12 @@ static void compare_with_limit(uint32_t dimensions, uint32_t side) {
         free(numbers[k]);
 }
 
-static void test_discs(void **state) {
+static void test_limit_kernel_equals_the_engine_for_discs(void **state) {
     (void)state;
     compare_with_limit(2, 35);
 }
 
-static void test_spheres(void **state) {
+static void test_limit_kernel_equals_the_engine_for_spheres(void **state) {
     (void)state;
     compare_with_limit(3, 11);
 }
@@ -67,6 +67,7 @@ static void test_spheres(void **state) {
 TEST_GROUP(limit) {
     if (cpu_detected.level < CPU_AVX512)
         return GROUP_SKIPPED; // skipped, because the kernel needs AVX-512
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_discs), cmocka_unit_test(test_spheres)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_limit_kernel_equals_the_engine_for_discs),
+                                       cmocka_unit_test(test_limit_kernel_equals_the_engine_for_spheres)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,7 +46,7 @@ static void test_warm_frame(void **state) {
     phys_free(system);
 }
 
-static void test_growing(void **state) {
+static void test_system_may_grow_in_each_frame(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
     for (uint32_t scale = 0; scale < 2000; scale = scale * 2 + 1) {
@@ -57,7 +57,7 @@ static void test_growing(void **state) {
 }
 
 // Each allocation of a frame fails in turn.
-static void test_failing(void **state) {
+static void test_failed_allocation_changes_nothing(void **state) {
     (void)state;
     allocations = 0;
     PhysSystem *system = phys_new();
@@ -86,7 +86,7 @@ static void test_failing(void **state) {
 
 // An attribute that is equal for all particles is stored once until one particle changes. Each particle has the right
 // value before and after.
-static void test_records(void **state) {
+static void test_equal_attributes_are_stored_once(void **state) {
     enum { COUNT = 1000 };
     (void)state;
     for (uint32_t odd = 0; odd <= COUNT; odd += COUNT / 4) {
@@ -112,10 +112,10 @@ static void test_records(void **state) {
 
 TEST_GROUP(memory) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_records),
+        cmocka_unit_test(test_equal_attributes_are_stored_once),
         cmocka_unit_test(test_warm_frame),
-        cmocka_unit_test(test_growing),
-        cmocka_unit_test(test_failing),
+        cmocka_unit_test(test_system_may_grow_in_each_frame),
+        cmocka_unit_test(test_failed_allocation_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

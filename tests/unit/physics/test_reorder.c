@@ -262,7 +262,7 @@ static void test_kept_forces(void **state) {
 
 // Enough particles for several chunks per thread. Equal systems on one thread and on several threads store the forces
 // or do not.
-static void test_chunks(void **state) {
+static void test_threads_and_kept_forces_do_not_change_results(void **state) {
     (void)state;
     enum { MANY = 40000, ROW = 200, STEPS = 4, SYSTEMS = 4 };
     PhysSystem *systems[SYSTEMS];
@@ -298,7 +298,7 @@ static void test_chunks(void **state) {
 }
 
 // Sparse systems in strips that are two cells wide. Consecutive particles can be several rows of cells apart.
-static void test_strips(void **state) {
+static void test_narrow_strips_equal_the_sum_over_all_pairs(void **state) {
     (void)state;
     enum { MANY = 48, SEEDS = 200 };
     for (uint64_t seed = 1; seed <= SEEDS; seed++) {
@@ -479,7 +479,7 @@ TEST_GROUP(reorder) {
                                        cmocka_unit_test(test_kept_forces),
                                        cmocka_unit_test(test_interrupted_frames_leave_no_trace),
                                        cmocka_unit_test(test_resting_particles_keep_lists),
-                                       cmocka_unit_test(test_chunks),
-                                       cmocka_unit_test(test_strips)};
+                                       cmocka_unit_test(test_threads_and_kept_forces_do_not_change_results),
+                                       cmocka_unit_test(test_narrow_strips_equal_the_sum_over_all_pairs)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

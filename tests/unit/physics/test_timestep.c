@@ -20,7 +20,7 @@ static void check_steps(PhysTime time, PhysStatus status, uint64_t steps, double
     phys_free(system);
 }
 
-static void test_lockstep(void **state) {
+static void test_steps_are_at_most_as_long_as_the_resolution(void **state) {
     (void)state;
     check_steps(time_until(1, 2), PHYS_OK, 1, 1);
     check_steps(time_until(1, 1), PHYS_OK, 1, 1);
@@ -30,7 +30,7 @@ static void test_lockstep(void **state) {
 }
 
 // If rounding leaves a tiny remainder of a frame's time, no further step is taken for it.
-static void test_crumbs(void **state) {
+static void test_rounding_adds_no_further_step(void **state) {
     (void)state;
     check_steps(time_until(1, 0.1), PHYS_OK, 10, 1);
     check_steps(time_until(1, 1 / 60.0), PHYS_OK, 60, 1);
@@ -109,10 +109,14 @@ static void test_empty_system(void **state) {
 
 TEST_GROUP(timestep) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lockstep),          cmocka_unit_test(test_crumbs),
-        cmocka_unit_test(test_real_time),         cmocka_unit_test(test_no_progress),
-        cmocka_unit_test(test_step_limit),        cmocka_unit_test(test_lost_precision),
-        cmocka_unit_test(test_grouping_of_steps), cmocka_unit_test(test_empty_system),
+        cmocka_unit_test(test_steps_are_at_most_as_long_as_the_resolution),
+        cmocka_unit_test(test_rounding_adds_no_further_step),
+        cmocka_unit_test(test_real_time),
+        cmocka_unit_test(test_no_progress),
+        cmocka_unit_test(test_step_limit),
+        cmocka_unit_test(test_lost_precision),
+        cmocka_unit_test(test_grouping_of_steps),
+        cmocka_unit_test(test_empty_system),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

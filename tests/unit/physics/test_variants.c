@@ -31,7 +31,7 @@ static void check_small(const PhysOptions *options, void *context) {
     }
 }
 
-static void test_small(void **state) {
+static void test_small_systems_equal_the_reference_in_all_variants(void **state) {
     (void)state;
     for_each_variant(check_small, NULL);
 }
@@ -188,7 +188,7 @@ static PhysForce random_force(void) {
     return force;
 }
 
-static void test_contact(void **state) {
+static void test_contact_forces_are_equal_in_all_variants(void **state) {
     (void)state;
     for (uint32_t n = 1; n <= 3; n++) {
         const double sizes[] = {0, 350, 25, 7};
@@ -202,7 +202,7 @@ static void test_contact(void **state) {
     }
 }
 
-static void test_bounded(void **state) {
+static void test_forces_of_limited_range_are_equal_in_all_variants(void **state) {
     (void)state;
     for (uint32_t n = 1; n <= 3; n++) {
         const double sizes[] = {0, 350, 25, 7};
@@ -215,7 +215,7 @@ static void test_bounded(void **state) {
     }
 }
 
-static void test_unbounded(void **state) {
+static void test_unlimited_forces_are_equal_in_all_variants(void **state) {
     (void)state;
     const PhysForceKind leads[] = {PHYS_GRAVITY, PHYS_ELECTROSTATIC, PHYS_COLLISION};
     for (uint32_t n = 1; n <= 3; n++)
@@ -247,7 +247,7 @@ static void test_moved_at_once(void **state) {
 }
 
 // Nested groups with forces at several levels, so each pass has several ranges.
-static void test_nested(void **state) {
+static void test_nested_groups_are_equal_in_all_variants(void **state) {
     (void)state;
     Scene scene = {.name = "nested", .dimensions = 2, .count = 700, .groups = 5, .size = 29, .frames = 8};
     scene.force_count = 4;
@@ -261,7 +261,7 @@ static void test_nested(void **state) {
     check_scene(&scene);
 }
 
-static void test_strange(void **state) {
+static void test_infinities_and_nan_are_equal_in_all_variants(void **state) {
     (void)state;
     const double shares[] = {0.004, 0.05, 0.5};
     for (size_t s = 0; s < COUNT_OF(shares); s++)
@@ -279,7 +279,7 @@ static void test_strange(void **state) {
 }
 
 // The system is large enough to exceed every threshold for threads and lists.
-static void test_many(void **state) {
+static void test_large_systems_are_equal_in_all_variants(void **state) {
     (void)state;
     Scene scene = {.name = "many", .dimensions = 2, .count = LARGE, .groups = 2, .size = 55, .frames = 8};
     scene.forces[scene.force_count++] = pair_force(PHYS_COLLISION, 300, 1, 0);
@@ -300,7 +300,7 @@ static PhysForce far_force(PhysForceKind kind, double theta, double max_distance
 }
 
 // Forces with `theta`, alone and beside forces with neighbour lists, which reorder columns.
-static void test_far(void **state) {
+static void test_far_fields_are_equal_in_all_variants(void **state) {
     (void)state;
     for (int layout = 0; layout < LAYOUTS; layout++) {
         Scene scene = {.name = "far", .dimensions = 2 + (uint32_t)(layout & 1), .count = 1101, .groups = 1};
@@ -328,9 +328,15 @@ static void test_far_in_groups(void **state) {
 
 TEST_GROUP(variants) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small),         cmocka_unit_test(test_contact),       cmocka_unit_test(test_bounded),
-        cmocka_unit_test(test_unbounded),     cmocka_unit_test(test_moved_at_once), cmocka_unit_test(test_nested),
-        cmocka_unit_test(test_strange),       cmocka_unit_test(test_many),          cmocka_unit_test(test_far),
+        cmocka_unit_test(test_small_systems_equal_the_reference_in_all_variants),
+        cmocka_unit_test(test_contact_forces_are_equal_in_all_variants),
+        cmocka_unit_test(test_forces_of_limited_range_are_equal_in_all_variants),
+        cmocka_unit_test(test_unlimited_forces_are_equal_in_all_variants),
+        cmocka_unit_test(test_moved_at_once),
+        cmocka_unit_test(test_nested_groups_are_equal_in_all_variants),
+        cmocka_unit_test(test_infinities_and_nan_are_equal_in_all_variants),
+        cmocka_unit_test(test_large_systems_are_equal_in_all_variants),
+        cmocka_unit_test(test_far_fields_are_equal_in_all_variants),
         cmocka_unit_test(test_far_in_groups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

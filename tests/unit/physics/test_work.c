@@ -39,7 +39,7 @@ static void check_added(uint32_t dimensions, uint32_t count, const PhysForce *fo
     assert_near(added, wanted, 0.05 * wanted);
 }
 
-static void test_particles(void **state) {
+static void test_work_is_proportional_to_the_numbers_moved(void **state) {
     (void)state;
     for (uint32_t n = 1; n <= 4; n++) {
         double one = work_of(n, 1, NULL, 0), numbers = 1600.0 * n, work = work_of(n, 1600, NULL, 0);
@@ -74,7 +74,7 @@ static void test_pair_forces(void **state) {
 }
 
 // A frame that exceeds the limit is aborted and changes no particle.
-static void test_limit(void **state) {
+static void test_step_beyond_the_limit_changes_no_particle(void **state) {
     (void)state;
     PhysForce drag = force_of(PHYS_DRAG);
     uint64_t enough = (uint64_t)work_of(3, 1600, &drag, 1) + 1;
@@ -92,7 +92,8 @@ static void test_limit(void **state) {
 }
 
 TEST_GROUP(work) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_particles), cmocka_unit_test(test_single_forces),
-                                       cmocka_unit_test(test_pair_forces), cmocka_unit_test(test_limit)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_work_is_proportional_to_the_numbers_moved),
+                                       cmocka_unit_test(test_single_forces), cmocka_unit_test(test_pair_forces),
+                                       cmocka_unit_test(test_step_beyond_the_limit_changes_no_particle)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

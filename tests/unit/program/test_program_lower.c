@@ -2,7 +2,7 @@
 // compiler's data.
 #include "compiling.h"
 
-static void test_instructions(void **state) {
+static void test_each_expression_has_its_instructions(void **state) {
     static const CodeRow rows[] = {
         {"1\n", "move r0 = 1\nreturn r0\n"},
         {"frame and time\n",
@@ -24,7 +24,7 @@ static void test_instructions(void **state) {
 }
 
 // A call of a built-in that passes exactly one argument per parameter becomes a BUILTIN instruction.
-static void test_calls(void **state) {
+static void test_only_an_exact_call_becomes_a_builtin_instruction(void **state) {
     static const CodeRow rows[] = {
         {"sin(frame)\n", "global r1 = frame\nbuiltin r0 = (r1) sin\nreturn r0\n"},
         {"sin(x=frame)\n", "global r1 = frame\ncall r0 = (sin) (r1)\nreturn r0\n"},
@@ -150,8 +150,11 @@ static void test_memory_per_statement(void **state) {
 }
 
 TEST_GROUP(program_lower) {
-    const struct CMUnitTest tests[] = {DESK_TEST(test_instructions),          DESK_TEST(test_calls),
-                                       DESK_TEST(test_nodes_and_loops),       DESK_TEST(test_node_batches),
-                                       DESK_TEST(test_instruction_positions), DESK_TEST(test_memory_per_statement)};
+    const struct CMUnitTest tests[] = {DESK_TEST(test_each_expression_has_its_instructions),
+                                       DESK_TEST(test_only_an_exact_call_becomes_a_builtin_instruction),
+                                       DESK_TEST(test_nodes_and_loops),
+                                       DESK_TEST(test_node_batches),
+                                       DESK_TEST(test_instruction_positions),
+                                       DESK_TEST(test_memory_per_statement)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,7 @@
 // unbound names.
 #include "compiling.h"
 
-static void test_slots(void **state) {
+static void test_slot_is_reused_after_its_scope(void **state) {
     static const CodeRow rows[] = {
         {"let x=frame\n!a v=x\n", "global r0 = frame\nnode r1 = (v=r0) none a\nreturn r1\n"},
         // A name is visible after its value has been evaluated. Its slot is reused after its scope ends.
@@ -15,7 +15,7 @@ static void test_slots(void **state) {
     check_code(desk, rows, COUNT_OF(rows));
 }
 
-static void test_captures(void **state) {
+static void test_function_captures_each_outer_name_once(void **state) {
     Desk *desk = *state;
     compile(desk, "let x=frame y=time\nfunc f(a)\n    func g()\n        x+x+y+a;f\n    x\n!a v=f(1)\n");
     const Code *code = desk->compiled->code;
@@ -64,7 +64,7 @@ static void test_order_of_predefined_names(void **state) {
     assert_text("module", text_c(&desk->reported), "");
 }
 
-static void test_unbound(void **state) {
+static void test_unbound_name_is_reported_with_its_position(void **state) {
     static const CodeRow rows[] = {
         {"!a v=fraem\n", "1:6 unbound name 'fraem' is null [unbound-name]\n"},
         {"let x=x\n", "1:7 unbound name 'x' is null [unbound-name]\n"},
@@ -104,7 +104,7 @@ static void test_optional_definitions(void **state) {
                 "1:6 'RECORD' is optional; to set it, use -D RECORD=VALUE [optional-definition]\n");
 }
 
-static void test_exports(void **state) {
+static void test_last_binding_of_a_top_level_name_is_exported(void **state) {
     Desk *desk = *state;
     const Symbol *params[] = {name_of(&desk->world, "p"), name_of(&desk->world, "q")};
     desk->options.params = params;
@@ -120,12 +120,9 @@ static void test_exports(void **state) {
 
 TEST_GROUP(program_scope) {
     const struct CMUnitTest tests[] = {
-        DESK_TEST(test_slots),
-        DESK_TEST(test_captures),
-        DESK_TEST(test_order_of_predefined_names),
-        DESK_TEST(test_unbound),
-        DESK_TEST(test_optional_definitions),
-        DESK_TEST(test_exports),
+        DESK_TEST(test_slot_is_reused_after_its_scope), DESK_TEST(test_function_captures_each_outer_name_once),
+        DESK_TEST(test_order_of_predefined_names),      DESK_TEST(test_unbound_name_is_reported_with_its_position),
+        DESK_TEST(test_optional_definitions),           DESK_TEST(test_last_binding_of_a_top_level_name_is_exported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,7 +93,7 @@ static void test_unknown_attributes_are_reported(void **state) {
     check_reported(*state, rows, COUNT_OF(rows));
 }
 
-static void test_ids(void **state) {
+static void test_missing_duplicate_and_unknown_ids_are_reported(void **state) {
     static const ScriptRow rows[] = {
         {"!particle position=1",
          "warning !particle: attribute 'id' is missing or null; the node is ignored [missing-id]\n"},
@@ -208,7 +208,7 @@ TEST_GROUP(scene_attributes) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_malformed_attributes_are_reported),
         PLAYER_TEST(test_unknown_attributes_are_reported),
-        PLAYER_TEST(test_ids),
+        PLAYER_TEST(test_missing_duplicate_and_unknown_ids_are_reported),
         PLAYER_TEST(test_skipped_systems),
         PLAYER_TEST(test_dimensions_and_run_are_floored),
         PLAYER_TEST(test_default_values),

@@ -22,7 +22,7 @@ typedef struct CounterRow {
     const char *value;
 } CounterRow;
 
-static void test_values(void **state) {
+static void test_value_grows_by_rate_within_the_limits(void **state) {
     static const CounterRow rows[] = {
         {"", 1, "0"},
         {"", 3, "0"}, // a counter without a rate does not change
@@ -102,7 +102,7 @@ static void test_values(void **state) {
     }
 }
 
-static void test_keys(void **state) {
+static void test_counter_stores_value_and_time_under_its_key(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
     options.fps = 10;
@@ -170,8 +170,8 @@ static void test_invalid_counters_are_reported(void **state) {
 
 TEST_GROUP(scene_counters) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_values),
-        PLAYER_TEST(test_keys),
+        PLAYER_TEST(test_value_grows_by_rate_within_the_limits),
+        PLAYER_TEST(test_counter_stores_value_and_time_under_its_key),
         PLAYER_TEST(test_read_in_the_next_frame),
         PLAYER_TEST(test_changed_rate_applies_to_last_frame),
         PLAYER_TEST(test_absent_counter_keeps_value),

@@ -39,7 +39,7 @@ static void test_without_reports_nothing_is_written(void **state) {
     assert_text("diagnostics", player_diagnostics(player), "");
 }
 
-static void test_pointer(void **state) {
+static void test_pointer_shows_place_and_buttons(void **state) {
     Player *player = *state;
     player_run(player, POINTER, 1);
     move_pointer(player, 0.25, 0.75, 0);
@@ -100,7 +100,7 @@ static void test_positions_that_are_not_finite_are_rejected(void **state) {
     assert_text("outside", next_tree_line(player), "!see left=0 right=0\n");
 }
 
-static void test_key(void **state) {
+static void test_key_shows_presses_that_are_shorter_than_a_frame(void **state) {
     Player *player = *state;
     open_slow(player);
     player_run(player, KEY, 1);
@@ -219,11 +219,11 @@ static void test_input_nodes_can_disappear(void **state) {
 TEST_GROUP(scene_input) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_without_reports_nothing_is_written),
-        PLAYER_TEST(test_pointer),
+        PLAYER_TEST(test_pointer_shows_place_and_buttons),
         PLAYER_TEST(test_numbers_of_buttons),
         PLAYER_TEST(test_click_between_frames),
         PLAYER_TEST(test_positions_that_are_not_finite_are_rejected),
-        PLAYER_TEST(test_key),
+        PLAYER_TEST(test_key_shows_presses_that_are_shorter_than_a_frame),
         PLAYER_TEST(test_names_of_keys),
         PLAYER_TEST(test_invalid_nodes_are_reported),
         PLAYER_TEST(test_nodes_work_only_in_windows),

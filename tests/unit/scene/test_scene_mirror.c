@@ -96,7 +96,7 @@ static void free_stage(Stage *stage) {
 enum { MAX_BUDGET = 1000, BY = 8, PLACES = 4 };
 
 // If a tree is incomplete, particles of the last complete tree are removed from the state by the next complete tree.
-static void test_vanished(void **state) {
+static void test_vanished_particle_has_no_entry_after_an_abort(void **state) {
     World *world = *state;
     Value two = system_of(world, 2, 1), one = system_of(world, 1, 1), three = system_of(world, 3, 1);
     int broken = 0;
@@ -111,7 +111,7 @@ static void test_vanished(void **state) {
 }
 
 // Forces of a tree that was not read completely do not act.
-static void test_forces(void **state) {
+static void test_forces_of_an_aborted_tree_do_not_act(void **state) {
     World *world = *state;
     Value pushed = system_of(world, 2, 1), pulled = system_of(world, 2, -5);
     Stage expected;
@@ -170,8 +170,8 @@ static void test_ids_are_charged(void **state) {
 
 TEST_GROUP(scene_mirror) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_vanished),
-        WORLD_TEST(test_forces),
+        WORLD_TEST(test_vanished_particle_has_no_entry_after_an_abort),
+        WORLD_TEST(test_forces_of_an_aborted_tree_do_not_act),
         WORLD_TEST(test_ids_are_charged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,7 +54,7 @@ static void test_first_frames(void **state) {
     check_states(*state, rows, COUNT_OF(rows));
 }
 
-static void test_anchors(void **state) {
+static void test_anchors_are_stored_once_simulated(void **state) {
     static const StateRow rows[] = {
         {SYSTEM "    !anchor id=1 position=5\n    !particle id=2\n", 1,
          "$:s = 0\n$(:s;1) = 5\n$(:s;1;:velocity) = 0\n"},
@@ -264,7 +264,7 @@ static void test_step_limit(void **state) {
 TEST_GROUP(scene_particles) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_first_frames),
-        PLAYER_TEST(test_anchors),
+        PLAYER_TEST(test_anchors_are_stored_once_simulated),
         PLAYER_TEST(test_particles_appear_and_vanish),
         PLAYER_TEST(test_vanished_particle_leaves_shared_keys),
         PLAYER_TEST(test_changed_run_restarts_system),

@@ -48,7 +48,7 @@ static void check_reported(Desk *desk, const char *part) {
         assert_text("diagnostics", reported, part);
 }
 
-static void test_import(void **state) {
+static void test_import_binds_the_modules_last_values(void **state) {
     Desk *desk = *state;
     folder_write(&desk->folder, "m.fl", "%pragma fps 3\nlet a=1 b=2\nfunc twice(x)\n    x*k\nlet k=2 a=10\n!ignored\n");
     check_run(desk, "import a;b from 'm.fl'\n!x v=a;b f=fps\n",
@@ -207,7 +207,7 @@ static void test_invalid_modules_are_reported(void **state) {
     }
 }
 
-static void test_include(void **state) {
+static void test_include_shares_the_scope_of_its_place(void **state) {
     Desk *desk = *state;
     folder_write(&desk->folder, "i.fl", "%pragma fps 7\n!i k=k\nlet k=5\n!i k=k\n");
     check_run(desk, "let k=2\n!a\n    %include 'i.fl'\n    !b k=k\n!f v=fps\n",
@@ -256,7 +256,7 @@ static void test_invalid_scripts_are_rejected(void **state) {
     assert_text("empty", player_tree(&desk->player), "");
 }
 
-static void test_check(void **state) {
+static void test_check_does_not_affect_the_loaded_script(void **state) {
     Desk *desk = *state;
     PetriSession *session = desk->player.session;
     load(desk, "!a\n");
@@ -497,7 +497,7 @@ static void test_files_are_reported_when_they_are_read(void **state) {
 
 TEST_GROUP(session_files) {
     const struct CMUnitTest tests[] = {
-        DESK_TEST(test_import),
+        DESK_TEST(test_import_binds_the_modules_last_values),
         DESK_TEST(test_only_allowed_folders_are_read),
         DESK_TEST(test_module_sees_only_builtins),
         DESK_TEST(test_changed_module_is_reloaded),
@@ -505,10 +505,10 @@ TEST_GROUP(session_files) {
         DESK_TEST(test_modules_are_kept_until_reload),
         DESK_TEST(test_circular_imports_are_reported),
         DESK_TEST(test_invalid_modules_are_reported),
-        DESK_TEST(test_include),
+        DESK_TEST(test_include_shares_the_scope_of_its_place),
         DESK_TEST(test_define_names_an_include),
         DESK_TEST(test_invalid_scripts_are_rejected),
-        DESK_TEST(test_check),
+        DESK_TEST(test_check_does_not_affect_the_loaded_script),
         DESK_TEST(test_check_reports_in_order),
         DESK_TEST(test_host_provides_files),
         DESK_TEST(test_modules_with_equal_hash_stay_loaded),

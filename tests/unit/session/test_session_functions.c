@@ -57,7 +57,7 @@ static PetriStatus add_function(Player *player, const char *name, const char *pa
                                                                 "A function of a test.", pure, call, host});
 }
 
-static void test_calls(void **state) {
+static void test_host_function_is_called_in_each_frame(void **state) {
     Player *player = *state;
     Calls calls = {0};
     assert_int_equal(add_function(player, "total", "x, y=0, ...", false, sum, &calls), PETRI_OK);
@@ -152,7 +152,7 @@ static void test_invalid_functions_are_rejected(void **state) {
 
 TEST_GROUP(session_functions) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_calls),
+        PLAYER_TEST(test_host_function_is_called_in_each_frame),
         PLAYER_TEST(test_results_are_copied),
         PLAYER_TEST(test_errors_are_reported),
         PLAYER_TEST(test_pure_calls_are_folded),

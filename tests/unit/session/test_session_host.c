@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static void test_options(void **state) {
+static void test_options_without_defaults_are_rejected(void **state) {
     (void)state;
     PetriOptions options;
     memset(&options, 0, sizeof options);
@@ -53,7 +53,7 @@ static void test_text_lengths(void **state) {
 // Expected hash, from printf STATE | sha256sum.
 #define STATE_HASH "= 1d40801a6533593b67849dffa0352f51200276585fe3c23a3c9adf4ccb34336d\n"
 
-static void test_print(void **state) {
+static void test_print_writes_the_sections_asked_for(void **state) {
     Player *player = *state;
     player_run(
         player,
@@ -101,7 +101,7 @@ static void test_writer_can_stop(void **state) {
     assert_true(strlen(player_tree(player)) > 200000); // if the callback never stops, the output is complete
 }
 
-static void test_dumps(void **state) {
+static void test_dump_writes_tree_or_code(void **state) {
     Player *player = *state;
     player_run(player, "let x=frame\n!a v=x\n", 1);
     player->printed.len = 0;
@@ -120,7 +120,7 @@ static void note_token(void *host, const PetriToken *token) {
 
 // Each token is written as a letter for its kind, followed by its range. Words are keywords only where the grammar
 // expects one.
-static void test_tokens(void **state) {
+static void test_tokens_have_kinds_and_ranges(void **state) {
     static const struct {
         const char *text;
         const char *tokens;
@@ -178,7 +178,7 @@ static void note_name(void *host, const PetriBinding *name) {
 
 // Each name is written with its binding or its scope (language.md L8.2). After a syntax error, only the names of the
 // erroneous statement are missing.
-static void test_bindings(void **state) {
+static void test_names_have_bindings_and_scopes(void **state) {
     static const NamesRow rows[] = {
         {"let a=a\n!n x=a\n", "6? l4[7-15] 13=4 "},
         {"let a=1 b=a\n", "l4[7-12] 10=4 l8[11-12] "},
@@ -522,12 +522,12 @@ TEST_GROUP(session_host) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_retained_diagnostics),
         PLAYER_TEST(test_version_and_status_texts),
-        cmocka_unit_test(test_options),
+        cmocka_unit_test(test_options_without_defaults_are_rejected),
         PLAYER_TEST(test_without_a_script),
         PLAYER_TEST(test_text_lengths),
-        PLAYER_TEST(test_print),
+        PLAYER_TEST(test_print_writes_the_sections_asked_for),
         PLAYER_TEST(test_writer_can_stop),
-        PLAYER_TEST(test_dumps),
+        PLAYER_TEST(test_dump_writes_tree_or_code),
         PLAYER_TEST(test_profile_has_row_per_line),
         PLAYER_TEST(test_failed_load_keeps_the_script),
         PLAYER_TEST(test_diagnostics_are_reported_once_per_load),
@@ -537,8 +537,8 @@ TEST_GROUP(session_host) {
         PLAYER_TEST(test_sessions_are_independent),
         PLAYER_TEST(test_node_kinds_and_attributes),
         cmocka_unit_test(test_colour_is_only_in_rendered),
-        PLAYER_TEST(test_tokens),
-        PLAYER_TEST(test_bindings),
+        PLAYER_TEST(test_tokens_have_kinds_and_ranges),
+        PLAYER_TEST(test_names_have_bindings_and_scopes),
         PLAYER_TEST(test_bindings_have_values),
         cmocka_unit_test(test_diagnostics_have_node_positions),
         cmocka_unit_test(test_loop_error_is_reported_once),

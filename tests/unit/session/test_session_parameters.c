@@ -70,7 +70,7 @@ static void test_parameters_are_recognised(void **state) {
     }
 }
 
-static void test_comments(void **state) {
+static void test_comment_gives_range_step_and_help(void **state) {
     static const struct {
         const char *comment, *wanted;
     } rows[] = {
@@ -101,7 +101,7 @@ static void test_comments(void **state) {
 }
 
 // A true definition overrides the default, with and without the simplifier.
-static void test_values(void **state) {
+static void test_definition_overrides_the_default(void **state) {
     Player *player = *state;
     static const struct {
         const char *definition, *tree, *reported;
@@ -413,8 +413,8 @@ static void test_recompiling_does_not_parse(void **state) {
 TEST_GROUP(session_parameters) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_parameters_are_recognised),
-        PLAYER_TEST(test_comments),
-        PLAYER_TEST(test_values),
+        PLAYER_TEST(test_comment_gives_range_step_and_help),
+        PLAYER_TEST(test_definition_overrides_the_default),
         PLAYER_TEST(test_false_definitions),
         PLAYER_TEST(test_zero_is_set),
         PLAYER_TEST(test_unused_definitions_are_reported),

@@ -32,7 +32,7 @@ static void check_typed(Player *player, const ScriptRow *rows, size_t count) {
 
 #define CHECK_TYPED(player, rows) check_typed(player, rows, sizeof rows / sizeof rows[0])
 
-static void test_values(void **state) {
+static void test_prompt_prints_the_values_of_the_frame(void **state) {
     Player *player = *state;
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
     const ScriptRow before[] = {
@@ -171,7 +171,7 @@ static void test_errors_are_reported(void **state) {
     assert_string_equal(player_print(player, PETRI_PRINT_ERROR), "");
 }
 
-static void test_completeness(void **state) {
+static void test_completeness_says_if_more_lines_may_follow(void **state) {
     Player *player = *state;
     static const struct {
         const char *text;
@@ -212,7 +212,7 @@ static void test_completeness(void **state) {
     assert_string_equal(player_diagnostics(player), "");
 }
 
-static void test_evaluate(void **state) {
+static void test_evaluate_takes_a_single_expression(void **state) {
     Player *player = *state;
     PetriEvaluation result;
     player_run(player, SCRIPT, 2);
@@ -281,14 +281,14 @@ static void test_prompt_needs_script(void **state) {
 
 TEST_GROUP(session_prompt) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_values),
+        PLAYER_TEST(test_prompt_prints_the_values_of_the_frame),
         PLAYER_TEST(test_statements_persist),
         PLAYER_TEST(test_result_counts_statements),
         PLAYER_TEST(test_frame_values),
         PLAYER_TEST(test_typed_system_simulates),
         PLAYER_TEST(test_errors_are_reported),
-        PLAYER_TEST(test_completeness),
-        PLAYER_TEST(test_evaluate),
+        PLAYER_TEST(test_completeness_says_if_more_lines_may_follow),
+        PLAYER_TEST(test_evaluate_takes_a_single_expression),
         PLAYER_TEST(test_expressions_retain_no_memory),
         PLAYER_TEST(test_visible_names),
         PLAYER_TEST(test_prompt_needs_script),

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <time.h>
 
-static void test_pragmas(void **state) {
+static void test_invalid_pragma_keeps_the_default(void **state) {
     static const ScriptRow rows[] = {
         {"!a v=tempo;quantum;fps\n", "!a v=120;4;60\n"},
         {"%pragma tempo 90\n%pragma quantum 3\n%pragma fps 7\n!a v=tempo;quantum;fps\n", "!a v=90;3;7\n"},
@@ -39,7 +39,7 @@ static void test_pragma_warnings(void **state) {
 }
 
 // Definitions as specified in L16.3.
-static void test_definitions(void **state) {
+static void test_definition_is_read_as_numbers_symbols_or_text(void **state) {
     Player *player = *state;
     static const struct {
         const char *definition, *wanted;
@@ -110,7 +110,7 @@ static void test_engine_names(void **state) {
     assert_number("tempo", frame.tempo, 90);
 }
 
-static void test_options(void **state) {
+static void test_options_set_the_global_names(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
     options.fps = 24;
@@ -284,12 +284,12 @@ static void test_step_at_sets_clock(void **state) {
 
 TEST_GROUP(session_settings) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_pragmas),
+        PLAYER_TEST(test_invalid_pragma_keeps_the_default),
         PLAYER_TEST(test_pragma_warnings),
-        PLAYER_TEST(test_definitions),
+        PLAYER_TEST(test_definition_is_read_as_numbers_symbols_or_text),
         PLAYER_TEST(test_precedence_of_names),
         PLAYER_TEST(test_engine_names),
-        PLAYER_TEST(test_options),
+        PLAYER_TEST(test_options_set_the_global_names),
         PLAYER_TEST(test_load_restarts_clock),
         PLAYER_TEST(test_resync_drops_elapsed_time),
         PLAYER_TEST(test_step_at_sets_clock),

@@ -20,7 +20,7 @@ static void open_keeping(Player *player, bool keep) {
     player_reopen(player, &options);
 }
 
-static void test_systems(void **state) {
+static void test_systems_are_listed_until_removed(void **state) {
     Player *player = *state;
     PetriSystem system;
     assert_false(petri_system(player->session, 0, &system, sizeof system));
@@ -71,7 +71,7 @@ static const char *id_text(Player *player, size_t system, uint32_t particle) {
     return petri_format_value(player->session, petri_particle_id(player->session, system, particle));
 }
 
-static void test_particles(void **state) {
+static void test_columns_of_particles_are_readable(void **state) {
     Player *player = *state;
     for (int keep = 0; keep <= 1; keep++) {
         open_keeping(player, keep);
@@ -269,7 +269,7 @@ static PetriStatus explain(Player *player, uint32_t particle, uint64_t step, Pet
     return petri_explain_force(player->session, 0, particle, step, found, sizeof *found);
 }
 
-static void test_explanation(void **state) {
+static void test_contributions_add_up_to_the_force(void **state) {
     Player *player = *state;
     open_keeping(player, true);
     player_run(player, EXPLAINED, 3);
@@ -359,16 +359,16 @@ static void test_aborted_explanation(void **state) {
 
 TEST_GROUP(session_systems) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_systems),
+        PLAYER_TEST(test_systems_are_listed_until_removed),
         PLAYER_TEST(test_systems_are_in_the_order_of_the_script),
-        PLAYER_TEST(test_particles),
+        PLAYER_TEST(test_columns_of_particles_are_readable),
         PLAYER_TEST(test_forces_of_vector_kernels),
         PLAYER_TEST(test_forces_only_after_a_step),
         PLAYER_TEST(test_columns_are_not_copied),
         PLAYER_TEST(test_particle_ids),
         PLAYER_TEST(test_force_appliers),
         PLAYER_TEST(test_retained_columns_stay_readable),
-        PLAYER_TEST(test_explanation),
+        PLAYER_TEST(test_contributions_add_up_to_the_force),
         PLAYER_TEST(test_explanation_of_a_changed_session),
         PLAYER_TEST(test_nothing_to_explain),
         PLAYER_TEST(test_aborted_explanation),

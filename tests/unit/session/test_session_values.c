@@ -62,7 +62,7 @@ static void test_state_access(void **state) {
     assert_number("unchanged", petri_state_get(session, numbers(&c, 1)).numbers[0], 3);
 }
 
-static void test_iteration(void **state) {
+static void test_iteration_visits_each_entry_once(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
     PetriValue key, value;
@@ -95,7 +95,7 @@ static const char *heat(Player *player) {
     return text(player, petri_tree_get(petri_tree(player->session).items[0].as.node, "heat"));
 }
 
-static void test_globals(void **state) {
+static void test_global_changes_at_the_next_frame(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
     double one = 1, many[] = {4, 5, 6};
@@ -161,7 +161,7 @@ static void test_check_knows_globals(void **state) {
     assert_string_equal(player_diagnostics(player), "");
 }
 
-static void test_tree(void **state) {
+static void test_tree_gives_nodes_tags_and_attributes(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
     assert_int_equal(petri_tree(session).length, 0);
@@ -190,10 +190,14 @@ static void test_tree(void **state) {
 
 TEST_GROUP(session_values) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_printed_values), PLAYER_TEST(test_state_access),
-        PLAYER_TEST(test_iteration),      PLAYER_TEST(test_moved_particle),
-        PLAYER_TEST(test_globals),        PLAYER_TEST(test_check_knows_globals),
-        PLAYER_TEST(test_tree),           PLAYER_TEST(test_globals_retain_no_old_values),
+        PLAYER_TEST(test_printed_values),
+        PLAYER_TEST(test_state_access),
+        PLAYER_TEST(test_iteration_visits_each_entry_once),
+        PLAYER_TEST(test_moved_particle),
+        PLAYER_TEST(test_global_changes_at_the_next_frame),
+        PLAYER_TEST(test_check_knows_globals),
+        PLAYER_TEST(test_tree_gives_nodes_tags_and_attributes),
+        PLAYER_TEST(test_globals_retain_no_old_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

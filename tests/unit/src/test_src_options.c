@@ -58,7 +58,7 @@ static void test_values_can_be_attached(void **state) {
     assert_string_equal(given.script, "-");
 }
 
-static void test_defaults(void **state) {
+static void test_omitted_options_have_their_defaults(void **state) {
     (void)state;
     RUN("a.fl");
     assert_int_equal(given.frames, 600);
@@ -71,7 +71,7 @@ static void test_defaults(void **state) {
     assert_true(given.run_time == 90);
 }
 
-static void test_readers(void **state) {
+static void test_each_kind_of_value_is_read(void **state) {
     (void)state;
     RUN("a.fl", "--memory=1.5k", "--work", "2G");
     assert_true(given.memory == 1536);
@@ -164,8 +164,8 @@ static void test_due_frames(void **state) {
 TEST_GROUP(src_options) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_can_be_attached),
-        cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_readers),
+        cmocka_unit_test(test_omitted_options_have_their_defaults),
+        cmocka_unit_test(test_each_kind_of_value_is_read),
         cmocka_unit_test(test_invalid_values_are_reported),
         cmocka_unit_test(test_mistakes_are_reported),
         cmocka_unit_test(test_operands_of_other_commands),

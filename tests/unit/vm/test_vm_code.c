@@ -4,7 +4,7 @@
 
 #define Z "let z=frame*0\n"
 
-static void test_registers(void **state) {
+static void test_reused_registers_keep_live_values(void **state) {
     static const ScriptRow rows[] = {
         {Z "let a=(x where x=5+z)+(y where y=6+z)\n!a v=a\n", "!a v=11\n"},
         {Z "let a=(x+(y where y=2+z) where x=5+z)\n!a v=a\n", "!a v=7\n"},
@@ -30,7 +30,7 @@ static void test_registers(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 3);
 }
 
-static void test_loops(void **state) {
+static void test_loop_collects_values_that_are_not_null(void **state) {
     static const ScriptRow rows[] = {
         {Z "!a v=(i if i%2 else null for i in ..5+z)\n", "!a v=1;3\n"},
         {Z "!a v=(i if i>9 for i in ..5+z)\n", "!a\n"},
@@ -53,7 +53,7 @@ static void test_loops(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 3);
 }
 
-static void test_nodes(void **state) {
+static void test_node_operations_keep_the_original_node(void **state) {
     static const ScriptRow rows[] = {
         {Z "!a x=1+z y=null z=uniform(:a+z) w=2+z\n", "!a x=1 w=2\n"},
         {Z "!a x=1+z y=2 x=3+z\n", "!a x=3 y=2\n"},
@@ -72,7 +72,7 @@ static void test_nodes(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 3);
 }
 
-static void test_elements(void **state) {
+static void test_elements_and_comparisons_follow_the_language(void **state) {
     static const ScriptRow rows[] = {
         {Z "let v=(10..20)+z\n!a v=v[1..3];v[z+1..z+3];v[..2];v[8..12];v[-1..1];v[0.5..2.5];v[3..3];v[2..1]\n",
          "!a v=11;12;11;12;10;11;18;19;10;11;19;10;10;11\n"},
@@ -96,7 +96,7 @@ static void test_elements(void **state) {
 
 // In each frame, the n-th execution of a lookup first tries the slot that the n-th execution found in the previous
 // frame.
-static void test_lookups(void **state) {
+static void test_lookup_finds_entries_that_move_between_frames(void **state) {
     static const ScriptRow rows[] = {
         {"!a v=($(:k;(i+frame)%3) for i in ..3) w=$(:k;frame-1);$(frame+1);$:k;$'s';$('s';frame);$(nan+frame)\n"
          "!b v=($(:k;i) for i in ..(frame-1));($(:k;i;:nothing) for i in ..frame);$uniform(:k)\n"
@@ -114,8 +114,11 @@ static void test_lookups(void **state) {
 
 TEST_GROUP(vm_code) {
     const struct CMUnitTest tests[] = {
-        RUNNER_TEST(test_registers), RUNNER_TEST(test_loops),   RUNNER_TEST(test_nodes),
-        RUNNER_TEST(test_elements),  RUNNER_TEST(test_lookups),
+        RUNNER_TEST(test_reused_registers_keep_live_values),
+        RUNNER_TEST(test_loop_collects_values_that_are_not_null),
+        RUNNER_TEST(test_node_operations_keep_the_original_node),
+        RUNNER_TEST(test_elements_and_comparisons_follow_the_language),
+        RUNNER_TEST(test_lookup_finds_entries_that_move_between_frames),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

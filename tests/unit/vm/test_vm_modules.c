@@ -14,7 +14,7 @@ typedef struct ImportRow {
     const char *reported;
 } ImportRow;
 
-static void test_imports(void **state) {
+static void test_module_sees_no_state_or_engine_names(void **state) {
     static const ImportRow rows[] = {
         {"import a;b;f from 'm.fl'\n!r v=a;b;f(5);f(5, 1)\n", "!r v=10;2;7;6\n", ""},
         {"import c from 'outer.fl'\n!r v=c\n", "!r v=20\n", ""},
@@ -76,6 +76,7 @@ static void test_nested_imports_cost_more(void **state) {
 }
 
 TEST_GROUP(vm_modules) {
-    const struct CMUnitTest tests[] = {RUNNER_TEST(test_imports), RUNNER_TEST(test_nested_imports_cost_more)};
+    const struct CMUnitTest tests[] = {RUNNER_TEST(test_module_sees_no_state_or_engine_names),
+                                       RUNNER_TEST(test_nested_imports_cost_more)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

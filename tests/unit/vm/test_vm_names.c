@@ -1,7 +1,7 @@
 // test_vm_names.c: tests scopes, closures, calls and loops (language.md L8 to L10).
 #include "runner.h"
 
-static void test_scopes(void **state) {
+static void test_name_is_visible_in_its_block_only(void **state) {
     static const ScriptRow rows[] = {
         {"let x=1\n!a\n    let x=x+1\n    !b x=x\n!c x=x\n", "!a\n    !b x=2\n!c x=1\n"},
         {"let x=1\nlet x=x+1\n!a x=x\n", "!a x=2\n"},
@@ -24,7 +24,7 @@ static void test_scopes(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 1);
 }
 
-static void test_functions(void **state) {
+static void test_function_captures_values_at_its_definition(void **state) {
     static const ScriptRow rows[] = {
         // Values are captured when the definition is evaluated.
         {"let k=3\nfunc g(v)\n    k*v\nlet k=7\n!g v=g(5;6)\n", "!g v=15;18\n"},
@@ -50,7 +50,7 @@ static void test_functions(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 1);
 }
 
-static void test_templates(void **state) {
+static void test_template_passes_attributes_and_children(void **state) {
     static const ScriptRow rows[] = {
         {"func f(a, b=5)\n    !f a=a b=b\n@f\n@f a=1\n@f b=2\n    !x\n@f b=null\n    null\n",
          "!f b=5\n!f a=1 b=5\n!f a=(!x) b=2\n!f\n"},
@@ -62,7 +62,7 @@ static void test_templates(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 1);
 }
 
-static void test_control(void **state) {
+static void test_blocks_run_by_their_conditions(void **state) {
     static const ScriptRow rows[] = {
         {"for a;b in 1;2;3\n    !r a=a b=b\n", "!r a=1 b=2\n!r a=3\n"},
         {"for a in ..2, b in a..2\n    !s a=a b=b\n", "!s a=0 b=0\n!s a=0 b=1\n!s a=1 b=1\n"},
@@ -77,7 +77,7 @@ static void test_control(void **state) {
     check_trees(*state, rows, COUNT_OF(rows), 1);
 }
 
-static void test_nodes(void **state) {
+static void test_operations_on_nodes_make_new_nodes(void **state) {
     static const ScriptRow rows[] = {
         {"let n=!a\nlet m=(n x=1 y=2)\nn #q\nm x=null z=3\nm x=5\n(m x=null) x=6\n(n;n;3;'s') k=1\n"
          "n << (n;1;'x';null;!c)\n3\n'ignored'\n",
@@ -116,7 +116,7 @@ static void test_order_of_evaluation(void **state) {
     }
 }
 
-static void test_diagnostics(void **state) {
+static void test_unbound_names_and_bad_calls_are_reported(void **state) {
     Runner *runner = *state;
     static const ScriptRow rows[] = {
         {"let mass=1\n!a x=mas\n", "2:6 unbound name 'mas' is null [unbound-name]\n"},
@@ -143,9 +143,13 @@ static void test_diagnostics(void **state) {
 
 TEST_GROUP(vm_names) {
     const struct CMUnitTest tests[] = {
-        RUNNER_TEST(test_scopes),      RUNNER_TEST(test_functions), RUNNER_TEST(test_templates),
-        RUNNER_TEST(test_control),     RUNNER_TEST(test_nodes),     RUNNER_TEST(test_order_of_evaluation),
-        RUNNER_TEST(test_diagnostics),
+        RUNNER_TEST(test_name_is_visible_in_its_block_only),
+        RUNNER_TEST(test_function_captures_values_at_its_definition),
+        RUNNER_TEST(test_template_passes_attributes_and_children),
+        RUNNER_TEST(test_blocks_run_by_their_conditions),
+        RUNNER_TEST(test_operations_on_nodes_make_new_nodes),
+        RUNNER_TEST(test_order_of_evaluation),
+        RUNNER_TEST(test_unbound_names_and_bad_calls_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
