@@ -60,8 +60,8 @@ static void format_caret_line(Text *out, Str line, uint32_t column, size_t width
     for (uint32_t i = 1; i < column; i++)
         text_add_char(out, at < line.len && utf8_next(line, &at) == '\t' ? '\t' : ' ');
     text_add_char(out, '^');
-    size_t most = at < line.len ? utf8_length((Str){line.bytes + at, line.len - at}) : 0;
-    for (size_t i = 1; i < width && i < most; i++)
+    size_t max_width = at < line.len ? utf8_length((Str){line.bytes + at, line.len - at}) : 0;
+    for (size_t i = 1; i < width && i < max_width; i++)
         text_add_char(out, '~');
     text_add_c(out, plain);
     text_add_char(out, '\n');

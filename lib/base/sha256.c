@@ -63,12 +63,12 @@ static void compress(uint32_t state[8], const unsigned char *block) {
 void sha256_add(Sha256 *hash, const char *text, size_t length) {
     while (length > 0) {
         size_t used = hash->length % sizeof hash->block, room = sizeof hash->block - used;
-        size_t taken = length < room ? length : room;
-        memcpy(hash->block + used, text, taken);
-        hash->length += taken;
-        text += taken;
-        length -= taken;
-        if (taken == room)
+        size_t part = length < room ? length : room;
+        memcpy(hash->block + used, text, part);
+        hash->length += part;
+        text += part;
+        length -= part;
+        if (part == room)
             compress(hash->state, hash->block);
     }
 }

@@ -58,8 +58,8 @@ Value builtin_hsv(BuiltinContext *context, const Value *args, uint32_t count) {
     const double *x = value_numbers(&args[0]);
     double s = args[0].len > 1 ? clamp_unit(x[1]) : 1, v = args[0].len > 2 ? clamp_unit(x[2]) : 1;
     double l = v * (1 - s / 2);
-    double least = l < 1 - l ? l : 1 - l;
-    double saturation = l == 0 || l == 1 ? 0 : (v - l) / least;
+    double limit = l < 1 - l ? l : 1 - l; // of v - l
+    double saturation = l == 0 || l == 1 ? 0 : (v - l) / limit;
     return rgb_of_hsl(context->arena, x[0], saturation, l);
 }
 

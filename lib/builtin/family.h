@@ -20,9 +20,9 @@ static inline bool is_numeric_of(Value v, uint32_t len) {
     return v.kind == VALUE_NUMBERS && v.len == len;
 }
 
-// Returns the value of an argument, or `fallback` if it is absent.
-static inline Value value_or(Value v, Value fallback) {
-    return is_absent(v) ? fallback : v;
+// Returns the value of an argument, or `default_value` if it is absent.
+static inline Value value_or(Value v, Value default_value) {
+    return is_absent(v) ? default_value : v;
 }
 
 // Reports "NAME: result is too long" and returns null.

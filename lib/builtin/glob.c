@@ -156,7 +156,7 @@ static size_t list_hosted(Glob *glob, const char *path, Str **names) {
 // `names` and `bytes`; names that do not fit are dropped. Allocates nothing while the directory is open, because a
 // failed allocation would leave it open.
 static void scan_directory(Arena *arena, const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
-    size_t most_count = *count, most_size = *size;
+    size_t max_count = *count, max_size = *size;
     *count = *size = 0;
     DIR *directory = opendir(path);
     if (!directory && errno == ENOMEM)
@@ -168,7 +168,7 @@ static void scan_directory(Arena *arena, const char *path, Str *names, char *byt
         if (str_equal(name, STR(".")) || str_equal(name, STR("..")) || utf8_find_error(name) < name.len)
             continue;
         if (names) {
-            if (*count == most_count || *size + name.len > most_size)
+            if (*count == max_count || *size + name.len > max_size)
                 break;
             memcpy(bytes + *size, name.bytes, name.len);
             names[*count] = (Str){bytes + *size, name.len};

@@ -315,7 +315,7 @@ static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
 
 static Include find_include(Compiler *compiler, const Ast *ast, const Expr *file) {
     if (file->kind != EXPR_CONST)
-        return (Include){.span = file->origin.span, .fault = STR("the file name of an %include must be constant")};
+        return (Include){.span = file->origin.span, .error = STR("the file name of an %include must be constant")};
     Include include = {.span = ast->span};
     if (file->as.value.len == 0)
         return include;
@@ -324,7 +324,7 @@ static Include find_include(Compiler *compiler, const Ast *ast, const Expr *file
     const CompileHost *host = &compiler->options->host;
     include.ast = host->include(host->user_data, path, &include.source, &reason);
     if (!include.ast)
-        include.fault = str_format(compiler->arena, "cannot include '%.*s': %.*s", STR_ARGS(path), STR_ARGS(reason));
+        include.error = str_format(compiler->arena, "cannot include '%.*s': %.*s", STR_ARGS(path), STR_ARGS(reason));
     return include;
 }
 
@@ -338,8 +338,8 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_c
     size_t size = compiler->include_count++ * sizeof include;
     compiler->includes = arena_grow(compiler->scratch, compiler->includes, size, size + sizeof include);
     compiler->includes[compiler->include_count - 1] = include;
-    if (include.fault.len)
-        compile_report(compiler, include.span, DIAG_WARNING, "cannot-include", include.fault, (Str){0});
+    if (include.error.len)
+        compile_report(compiler, include.span, DIAG_WARNING, "cannot-include", include.error, (Str){0});
     if (!include.ast)
         return compile_constant(compiler, ast, VALUE_NULL);
     const Source *outer = compiler->source;

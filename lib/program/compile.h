@@ -58,7 +58,7 @@ typedef struct Include {
     const Ast *ast; // NULL: nothing to include
     const Source *source;
     Span span; // position at which an error is reported
-    Str fault; // error message; empty: none
+    Str error; // error message; empty: none
 } Include;
 
 typedef struct NameUses NameUses;

@@ -12,10 +12,10 @@
 
 // A value that can declare a parameter.
 typedef struct Declaration {
-    const Ast *use;         // NAME; NULL: the value does not declare a parameter
-    const Ast *test;        // the second NAME of `NAME if NAME != null else DEFAULT`, or NULL
-    const Ast *fallback;    // DEFAULT; NULL: it is not one node, because the value is `NAME or A or B`
-    uint32_t default_start; // offset at which the source text of the default begins
+    const Ast *use;           // NAME; NULL: the value does not declare a parameter
+    const Ast *test;          // the second NAME of `NAME if NAME != null else DEFAULT`, or NULL
+    const Ast *default_value; // DEFAULT; NULL: it is not one node, because the value is `NAME or A or B`
+    uint32_t default_start;   // offset at which the source text of the default begins
 } Declaration;
 
 // Returns the operand that is compared with null in `A != null`, or NULL for other expressions.
@@ -154,7 +154,7 @@ static bool is_parameter(Compiler *compiler, const Declaration *declared, const 
         return false;
     if (use->name == name->name)
         return true;
-    return !compiler->options->module && declared->fallback && is_plain_number(declared->fallback) &&
+    return !compiler->options->module && declared->default_value && is_plain_number(declared->default_value) &&
            compile_count_uses(compiler, use->name) == (declared->test ? 2 : 1) &&
            !compile_has_hint(compiler, use, name->name);
 }
@@ -176,7 +176,7 @@ void compile_note_parameter(Compiler *compiler, const Ast *binding) {
     compiler->parameters[compiler->parameter_count++] = parameter;
     compiler->parameter_use = declared.use;
     compiler->parameter_test = declared.test;
-    compiler->parameter_default = declared.fallback;
+    compiler->parameter_default = declared.default_value;
 }
 
 Str program_null_test(Arena *arena, const Parameter *parameter) {

@@ -135,7 +135,7 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
     if (reason)
         reader_report(reader, "invalid-system", "", str_from(reason));
     if (missing)
-        reader_report_fault(reader, "invalid-system", str_from(missing));
+        reader_report_error(reader, "invalid-system", str_from(missing));
     return !reason && !missing;
 }
 

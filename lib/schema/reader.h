@@ -74,7 +74,7 @@ typedef struct Reader {
 // Reports the warning "!kind id=…: text", once for each code and key.
 void reader_report(const Reader *reader, const char *code, const char *key, Str text);
 // Like reader_report, but an error if scripts are checked (Schema.lint).
-void reader_report_fault(const Reader *reader, const char *code, Str text);
+void reader_report_error(const Reader *reader, const char *code, Str text);
 // Like reader_report, but about an attribute, whose name is the key.
 void reader_report_attr(const Reader *reader, const char *code, AttrName name, Str text);
 // Like reader_report, but at a given origin.

@@ -30,7 +30,7 @@ void reader_report_at(const Reader *reader, const char *code, Origin place, Str 
     report(reader, DIAG_WARNING, code, place, key, text);
 }
 
-void reader_report_fault(const Reader *reader, const char *code, Str text) {
+void reader_report_error(const Reader *reader, const char *code, Str text) {
     report(reader, reader->schema->lint ? DIAG_ERROR : DIAG_WARNING, code, node_origin(reader->node, NULL), (Str){0},
            text);
 }

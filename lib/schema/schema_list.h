@@ -52,7 +52,7 @@
 #define PICTURE_EFFECT(id, name, scalable, help) NODE(id, #name, PICTURE, PICTURES, help)
 #endif
 #ifndef ATTR
-#define ATTR(kind, name, type, field, fallback, unit, help)
+#define ATTR(kind, name, type, field, default_value, unit, help)
 #endif
 #ifndef ALIAS
 #define ALIAS(kind, name, of, of_text, type, field, unit) ATTR(kind, name, type, field, NONE, unit, "")

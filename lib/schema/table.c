@@ -43,8 +43,8 @@ const TypeRow schema_types[TYPE_COUNT] = {
     { NAN, "", false, NULL }
 
 const SchemaRow schema_rows[ROW_COUNT] = {
-#define ATTR(kind, name, type, field, fallback, unit, help)                                                            \
-    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_NONE, field, fallback, unit, help},
+#define ATTR(kind, name, type, field, default_value, unit, help)                                                       \
+    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_NONE, field, default_value, unit, help},
 #define ALIAS(kind, name, of, of_text, type, field, unit)                                                              \
     {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_##of, field, NONE, unit, "alias; " of_text " takes precedence"},
 #include "schema/schema_list.h"
@@ -77,7 +77,7 @@ const char *schema_word(AttrType type, int value) {
 
 const SchemaRow *schema_row(NodeKind kind, AttrName name) {
     static const uint16_t numbers[KIND_COUNT][ATTR_COUNT] = {
-#define ATTR(kind, name, type, field, fallback, unit, help) [KIND_##kind][ATTR_##name] = ROW_##kind##_##name + 1,
+#define ATTR(kind, name, type, field, default_value, unit, help) [KIND_##kind][ATTR_##name] = ROW_##kind##_##name + 1,
 #include "schema/schema_list.h"
     };
     return numbers[kind][name] ? &schema_rows[numbers[kind][name] - 1] : NULL;

@@ -31,7 +31,7 @@ typedef enum AttrType {
 
 // The attributes, one row each. The rows of a kind are contiguous.
 typedef enum AttrRow {
-#define ATTR(kind, name, type, field, fallback, unit, help) ROW_##kind##_##name,
+#define ATTR(kind, name, type, field, default_value, unit, help) ROW_##kind##_##name,
 #include "schema/schema_list.h"
     ROW_COUNT
 } AttrRow;

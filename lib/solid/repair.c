@@ -120,7 +120,7 @@ static uint32_t *open_sides(Arena *arena, const Solid *solid, uint32_t *count) {
 }
 
 static bool fill_holes(Arena *arena, Solid *solid) {
-    uint32_t missing, made = solid->face_count;
+    uint32_t missing, face_count = solid->face_count;
     uint32_t *next = open_sides(arena, solid, &missing);
     if (!next)
         return false;
@@ -135,12 +135,12 @@ static bool fill_holes(Arena *arena, Solid *solid) {
             uint32_t after = next[at];
             next[at] = UINT32_MAX;
             if (after != first)
-                memcpy(faces[made++], (uint32_t[3]){first, at, after}, sizeof *faces);
+                memcpy(faces[face_count++], (uint32_t[3]){first, at, after}, sizeof *faces);
             at = after;
         }
     }
     solid->faces = faces;
-    solid->face_count = made;
+    solid->face_count = face_count;
     return solid_is_closed(arena, solid);
 }
 

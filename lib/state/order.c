@@ -146,9 +146,9 @@ static bool order_entries(State *state, StateSlot *slots, uint32_t count) {
 
 bool state_update_order(State *state) {
     Digest *digest = &state->digest;
-    uint32_t count = 0, most = state->count - digest->ordered;
-    size_t bytes = 2 * (most < state->entry_count ? most : state->entry_count) * sizeof(StateSlot);
-    if (most == 0)
+    uint32_t count = 0, new_count = state->count - digest->ordered;
+    size_t bytes = 2 * (new_count < state->entry_count ? new_count : state->entry_count) * sizeof(StateSlot);
+    if (new_count == 0)
         return true;
     StateSlot *slots = budget_reserve(state->budget, bytes) ? heap_alloc(bytes + 1) : NULL;
     bool done = slots;

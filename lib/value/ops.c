@@ -96,10 +96,10 @@ Value op_plus(Value v) {
     return value_is_numeric(v) ? v : VALUE_NULL;
 }
 
-// Reads one bound of a range. Sets *x to the value of v if it is a number, or to `fallback` if v is null. Returns false
-// for other values.
-static bool range_bound(Value v, double fallback, double *x) {
-    *x = v.len == 0 ? fallback : v.as.number;
+// Reads one bound of a range. Sets *x to the value of v if it is a number, or to `default_value` if v is null. Returns
+// false for other values.
+static bool range_bound(Value v, double default_value, double *x) {
+    *x = v.len == 0 ? default_value : v.as.number;
     return v.len == 0 || value_is_number(v);
 }
 

@@ -229,19 +229,19 @@ static bool run_nodes(LoopBatch *batch, const Instr *instr) {
     const Value first = vm_node(batch->vm, batch->frame, instr);
     const Node *node = first.as.items[0].as.node;
     vm_charge(batch->vm, instr->at, (uint64_t)(active - 1) * (1 + instr->count / 4));
-    NodeValue *made = arena_alloc(batch->vm->arena, active * sizeof *made);
+    NodeValue *nodes = arena_alloc(batch->vm->arena, active * sizeof *nodes);
     Attr *attrs = arena_alloc(batch->vm->arena, (size_t)active * count * sizeof *attrs);
     Value values[BATCH_SIZE];
     for (uint32_t k = 0; k < active; k++, attrs += count) {
-        made[k].node = *node;
-        made[k].node.attrs = attrs;
+        nodes[k].node = *node;
+        nodes[k].node.attrs = attrs;
         for (uint32_t i = 0; i < node->attr_count; i++) {
             attrs[i] = node->attrs[i];
             if (columns[i])
                 attrs[i].value = column_value(columns[i], batch->selection[k]);
         }
-        made[k].item = (Item){ITEM_NODE, .as.node = &made[k].node};
-        values[k] = (Value){.len = 1, .kind = VALUE_MIXED, .as.items = &made[k].item};
+        nodes[k].item = (Item){ITEM_NODE, .as.node = &nodes[k].node};
+        values[k] = (Value){.len = 1, .kind = VALUE_MIXED, .as.items = &nodes[k].item};
     }
     vm_batch_store(batch, instr->d, values);
     return true;

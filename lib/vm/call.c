@@ -77,8 +77,8 @@ static bool can_enter(Vm *vm, const Closure *closure, const Origin *at) {
                         : !vm_stack_left(vm)                      ? "stack limit"
                                                                   : NULL;
     if (limit)
-        vm_fault(vm, at, "recursion-depth", "recursion too deep in '%.*s': %s reached", STR_ARGS(closure->base.name),
-                 limit);
+        vm_report(vm, at, "recursion-depth", "recursion too deep in '%.*s': %s reached", STR_ARGS(closure->base.name),
+                  limit);
     return !limit;
 }
 
@@ -108,7 +108,7 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *a
     if (item.type != ITEM_FUNCTION) {
         static const char *const texts[] = {"a number cannot be called", "a string cannot be called",
                                             "a node cannot be called; write attributes without parentheses: !name a=1"};
-        vm_fault_text(vm, at, "not-callable", str_from(texts[item.type]));
+        vm_report_text(vm, at, "not-callable", str_from(texts[item.type]));
         return VALUE_NULL;
     }
     const Builtin *builtin = item.as.function->builtin;
@@ -190,8 +190,8 @@ static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr 
             text_add_format(&missing, " '%.*s'", STR_ARGS(name->name));
     }
     if (missing.len)
-        vm_fault(vm, instr->at, "unknown-import", "'%.*s' does not bind%.*s", STR_ARGS(module->source->name),
-                 STR_ARGS(missing));
+        vm_report(vm, instr->at, "unknown-import", "'%.*s' does not bind%.*s", STR_ARGS(module->source->name),
+                  STR_ARGS(missing));
     arena_rewind(&vm->slots, mark);
 }
 
@@ -203,11 +203,11 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
     if (!module) {
         if (!name.len)
             reason = STR("no file name");
-        vm_fault(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", STR_ARGS(path), STR_ARGS(reason));
+        vm_report(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", STR_ARGS(path), STR_ARGS(reason));
     } else if (is_importing(vm, module->source)) {
-        vm_fault(vm, instr->at, "circular-import", "circular import of '%.*s'", STR_ARGS(path));
+        vm_report(vm, instr->at, "circular-import", "circular import of '%.*s'", STR_ARGS(path));
     } else if (vm->imports->depth >= VM_IMPORT_DEPTH || !vm_stack_left(vm)) {
-        vm_fault(vm, instr->at, "recursion-depth", "imports nested too deeply");
+        vm_report(vm, instr->at, "recursion-depth", "imports nested too deeply");
     } else {
         run_module(vm, frame, module, instr);
     }

@@ -52,13 +52,13 @@ Value vm_append(Vm *vm, const Frame *frame, const Instr *instr) {
     bool too_high = false;
     Value result = value_append(vm->arena, frame->slots[instr->a], &list, &too_high);
     if (too_high)
-        vm_fault(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; the node is not appended");
+        vm_report(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; the node is not appended");
     return result;
 }
 
 static void attributes_too_deep(Vm *vm, const Origin *at) {
-    vm_fault(vm, at, "too-deep",
-             "nodes in attributes nested too deeply: the limit is 12000 levels; the attribute is not set");
+    vm_report(vm, at, "too-deep",
+              "nodes in attributes nested too deeply: the limit is 12000 levels; the attribute is not set");
 }
 
 Value vm_decorate(Vm *vm, const Frame *frame, const Instr *instr) {
@@ -107,7 +107,7 @@ static void set_attributes(Vm *vm, const Frame *frame, const Instr *instr, Node 
 
 static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList *list) {
     if (list->height >= NODE_MAX_HEIGHT) {
-        vm_fault(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; the node is not appended");
+        vm_report(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; the node is not appended");
         return;
     }
     if (list->count == 0)
@@ -126,21 +126,22 @@ Value vm_node(Vm *vm, const Frame *frame, const Instr *instr) {
     const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &frame->slots[instr->b];
     uint32_t room = children && children->kind == VALUE_MIXED ? children->len : 0;
     vm_charge(vm, instr->at, 1 + (instr->count + room) / 4);
-    NodeValue *made = arena_alloc(vm->arena, sizeof *made + instr->count * sizeof(Attr) + room * sizeof(const Node *));
-    Attr *attrs = (Attr *)(made + 1);
+    NodeValue *value =
+        arena_alloc(vm->arena, sizeof *value + instr->count * sizeof(Attr) + room * sizeof(const Node *));
+    Attr *attrs = (Attr *)(value + 1);
     const Node **nodes = (const Node **)(attrs + instr->count);
-    made->node = *plan->base;
-    made->node.program_lifetime = made->node.program_lifetime_children = false;
-    made->item = (Item){ITEM_NODE, .as.node = &made->node};
+    value->node = *plan->base;
+    value->node.program_lifetime = value->node.program_lifetime_children = false;
+    value->item = (Item){ITEM_NODE, .as.node = &value->node};
     if (instr->count)
-        set_attributes(vm, frame, instr, &made->node, attrs);
+        set_attributes(vm, frame, instr, &value->node, attrs);
     if (plan->constant_children) {
-        set_children(vm, instr, &made->node, plan->constant_children);
+        set_children(vm, instr, &value->node, plan->constant_children);
     } else if (room) {
         NodeList given = node_list_in(nodes, *children);
-        set_children(vm, instr, &made->node, &given);
+        set_children(vm, instr, &value->node, &given);
     }
-    return (Value){.len = 1, .kind = VALUE_MIXED, .as.items = &made->item};
+    return (Value){.len = 1, .kind = VALUE_MIXED, .as.items = &value->item};
 }
 
 // --- elements
@@ -167,7 +168,7 @@ Value vm_index_value(Vm *vm, Value vector, Value index) {
 }
 
 static void range_too_long(Vm *vm, const Origin *at) {
-    vm_fault(vm, at, "too-long", "range too long: the limit is 134217728 elements");
+    vm_report(vm, at, "too-long", "range too long: the limit is 134217728 elements");
 }
 
 static Value make_range(Vm *vm, const Origin *at, Value start, Value stop, Value step) {

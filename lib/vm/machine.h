@@ -129,10 +129,10 @@ static inline void vm_set_number(Value *to, double x) {
 // Reports a run-time error at the source position `at`. The address of the literal `format` identifies the error. The
 // same error is reported only once per position and frame. Repeated errors are not even formatted, because a deep
 // recursion may fail a million times.
-void vm_fault(Vm *vm, const Origin *at, const char *code, const char *format, ...)
+void vm_report(Vm *vm, const Origin *at, const char *code, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-// Like vm_fault, but takes the complete text, which also identifies the error.
-void vm_fault_text(Vm *vm, const Origin *at, const char *code, Str text);
+// Like vm_report, but takes the complete text, which also identifies the error.
+void vm_report_text(Vm *vm, const Origin *at, const char *code, Str text);
 // Like vector_finish, but reports an error if the vector was too long.
 Value vm_finish(Vm *vm, const Origin *at, Vector *vector);
 // Returns true if enough of the C stack is left for another call.

@@ -24,7 +24,7 @@ Value vm_global(Vm *vm, const Frame *frame, const Instr *instr) {
 Value vm_unbound(Vm *vm, const Frame *frame, const Instr *instr) {
     (void)frame;
     Str name = instr->as.name->name;
-    vm_fault(vm, instr->at, "unbound-name", "unbound name '%.*s' is null", STR_ARGS(name));
+    vm_report(vm, instr->at, "unbound-name", "unbound name '%.*s' is null", STR_ARGS(name));
     return VALUE_NULL;
 }
 

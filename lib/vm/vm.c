@@ -5,9 +5,9 @@
 #include <string.h>
 
 // Reports an error of a built-in at the position of its call.
-static void builtin_fault_here(void *host, Str text) {
+static void report_builtin_error(void *host, Str text) {
     Vm *vm = host;
-    vm_fault_text(vm, vm->at, "bad-call", text);
+    vm_report_text(vm, vm->at, "bad-call", text);
 }
 
 static void builtin_log(void *host, Str text) {
@@ -25,7 +25,7 @@ void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t sta
     arena_init(&vm->slots, "call frames", SIZE_MAX);
     vm->slots.budget = arena->budget;
     vm->builtins = (BuiltinContext){
-        .arena = arena, .symbols = symbols, .report_error = builtin_fault_here, .log = builtin_log, .user_data = vm};
+        .arena = arena, .symbols = symbols, .report_error = report_builtin_error, .log = builtin_log, .user_data = vm};
 }
 
 void vm_free(Vm *vm) {

@@ -124,7 +124,7 @@ static void find_candidates(const Side *sides, int base, const StateDifferences 
 
 // --- contributions of a side
 
-static char *taken(Text *text) {
+static char *take_text(Text *text) {
     return text->bytes ? text->bytes : memory_strdup("");
 }
 
@@ -143,7 +143,7 @@ static bool explain_here(const Side *side, const Candidate *candidate, int numbe
         contribution_add_partner(session, system, found.partner[c], &partner);
         contribution_add_vector(session, found.vector + (size_t)c * about.dimensions, about.dimensions, &vector);
         contribution_add_position(session, system, found.force[c], &position);
-        add_row(rows, (ForceRow){taken(&name), taken(&partner), taken(&vector), taken(&position)});
+        add_row(rows, (ForceRow){take_text(&name), take_text(&partner), take_text(&vector), take_text(&position)});
     }
     return true;
 }

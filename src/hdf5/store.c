@@ -30,9 +30,9 @@ void store_check(Store *store, int64_t result) {
     }
 }
 
-static hid_t check_id(Store *store, hid_t made) {
-    store_check(store, made);
-    return made;
+static hid_t check_id(Store *store, hid_t id) {
+    store_check(store, id);
+    return id;
 }
 
 static bool report_error(const Store *store, const char *why) {
@@ -164,12 +164,12 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
     StoreColumn column = {.parent = parent, .name = name, .type = type, .fill = fill, .rank = rank};
     hsize_t max_sizes[STORE_RANKS] = {H5S_UNLIMITED, H5S_UNLIMITED, H5S_UNLIMITED};
     choose_chunk(rank, sizes, column.chunk);
-    hid_t made = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, column.sizes, max_sizes);
-    H5Pset_obj_track_times(made, false);
-    H5Pset_chunk(made, rank, column.chunk);
-    H5Pset_fill_value(made, type, fill);
-    column.set = check_id(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
-    H5Pclose(made);
+    hid_t properties = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, column.sizes, max_sizes);
+    H5Pset_obj_track_times(properties, false);
+    H5Pset_chunk(properties, rank, column.chunk);
+    H5Pset_fill_value(properties, type, fill);
+    column.set = check_id(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT));
+    H5Pclose(properties);
     H5Sclose(space);
     return column;
 }
@@ -177,11 +177,11 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
 // Returns true if the sizes of an existing column are plausible, apart from the number of rows. The file of a stranger
 // can claim any sizes, which would then be read. In petri's files, every frame has a step, and the longest row is
 // stored.
-static bool is_plausible(const StoreColumn *column, hid_t made) {
+static bool is_plausible(const StoreColumn *column, hid_t properties) {
     // Maxima: values in a chunk, components of a vector if there are no particles, compression ratio of deflate.
     enum { MAX_CHUNK = 1 << 22, MAX_EMPTY = 1 << 20, MAX_RATIO = 1032 };
     hsize_t stored = H5Dget_storage_size(column->set) / sizeof(double), chunk = 1;
-    stored *= H5Pget_nfilters(made) > 0 ? MAX_RATIO : 1;
+    stored *= H5Pget_nfilters(properties) > 0 ? MAX_RATIO : 1;
     for (int k = 0; k < column->rank; k++) {
         bool rows = k == 0 && column->rank > 1, empty = k == 2 && column->sizes[1] == 0;
         if ((!rows && column->sizes[k] > (empty ? MAX_EMPTY : stored)) || column->chunk[k] > MAX_CHUNK / chunk)
@@ -194,17 +194,18 @@ static bool is_plausible(const StoreColumn *column, hid_t made) {
 StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_t type, int rank, const void *fill) {
     StoreColumn column = {.parent = parent, .name = name, .type = type, .fill = fill, .rank = rank};
     column.set = check_id(store, H5Dopen2(parent, name, H5P_DEFAULT));
-    hid_t space = check_id(store, H5Dget_space(column.set)), made = check_id(store, H5Dget_create_plist(column.set));
-    if (H5Sget_simple_extent_ndims(space) != rank || H5Pget_chunk(made, rank, column.chunk) != rank)
+    hid_t space = check_id(store, H5Dget_space(column.set)),
+          properties = check_id(store, H5Dget_create_plist(column.set));
+    if (H5Sget_simple_extent_ndims(space) != rank || H5Pget_chunk(properties, rank, column.chunk) != rank)
         store->failed = true;
     else
         H5Sget_simple_extent_dims(space, column.sizes, NULL);
-    if (store->failed || !is_plausible(&column, made)) {
+    if (store->failed || !is_plausible(&column, properties)) {
         memset(column.sizes, 0, sizeof column.sizes);
         store->failed = true;
     }
     H5Sclose(space);
-    H5Pclose(made);
+    H5Pclose(properties);
     return column;
 }
 
@@ -278,11 +279,11 @@ void store_write_row(Store *store, StoreColumn *column, hsize_t row, const hsize
 
 hid_t store_array(Store *store, hid_t parent, const char *name, hid_t type, int rank, const hsize_t *sizes,
                   const void *array) {
-    hid_t space = H5Screate_simple(rank, sizes, NULL), made = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_obj_track_times(made, false);
-    hid_t set = check_id(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
+    hid_t space = H5Screate_simple(rank, sizes, NULL), properties = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(properties, false);
+    hid_t set = check_id(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, properties, H5P_DEFAULT));
     store_check(store, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, array));
-    H5Pclose(made);
+    H5Pclose(properties);
     H5Sclose(space);
     return set;
 }

@@ -76,40 +76,40 @@ static Outcome step_once(Repl *repl, const StepRequest *request) {
     return result.is_true ? REACHED : RUNNING;
 }
 
-static void report_outcome(Repl *repl, const StepRequest *request, int64_t made, Outcome outcome) {
+static void report_outcome(Repl *repl, const StepRequest *request, int64_t frames, Outcome outcome) {
     repl->incomplete = repl_interrupted();
     if (repl_interrupted())
-        repl_fail(repl, "interrupted after %" PRId64 " frame%s", made, made == 1 ? "" : "s");
+        repl_fail(repl, "interrupted after %" PRId64 " frame%s", frames, frames == 1 ? "" : "s");
     else if (outcome == RUNNING && request->until)
-        repl_fail(repl, "the condition was not true within %" PRId64 " frame%s; --limit sets this maximum", made,
-                  made == 1 ? "" : "s");
+        repl_fail(repl, "the condition was not true within %" PRId64 " frame%s; --limit sets this maximum", frames,
+                  frames == 1 ? "" : "s");
     else if (outcome == RUNNING && request->limited)
-        repl_note(repl, "stopped after %" PRId64 " frames; --limit sets this maximum", made);
+        repl_note(repl, "stopped after %" PRId64 " frames; --limit sets this maximum", frames);
 }
 
 static bool step_frames(Repl *repl, const StepRequest *request) {
     Progress progress;
     Outcome outcome = RUNNING;
-    int64_t made = 0;
+    int64_t frames = 0;
     repl_refresh(repl);
     repl->failed = false; // a failed reload is not a failure of the step, because the old script continues
     progress_start(&progress, repl->terminal && progress_possible(), request->count);
     repl_busy(repl);
     bool shown = true;
-    while (made < request->count && outcome == RUNNING && !repl_interrupted() && repl->output.error == 0) {
+    while (frames < request->count && outcome == RUNNING && !repl_interrupted() && repl->output.error == 0) {
         int64_t before = petri_frame_number(repl->session);
         outcome = step_once(repl, request);
         if (petri_frame_number(repl->session) == before)
             break;
-        made++;
-        shown = show_step(repl, &progress, made == request->count || outcome != RUNNING);
-        progress_update(&progress, made);
+        frames++;
+        shown = show_step(repl, &progress, frames == request->count || outcome != RUNNING);
+        progress_update(&progress, frames);
     }
     progress_erase(&progress);
     repl_idle(repl);
     if (!shown)
         show_step(repl, &progress, true);
-    report_outcome(repl, request, made, outcome);
+    report_outcome(repl, request, frames, outcome);
     repl_watch_files(repl); // the frames may have imported modules
     return !repl->failed;
 }
@@ -117,13 +117,13 @@ static bool step_frames(Repl *repl, const StepRequest *request) {
 // Goes to a frame. Within the history, goes there directly. Beyond its end, computes frame by frame and shows a
 // progress line. `last` is the last frame of the history.
 static PetriStatus seek_frame(Repl *repl, int64_t frame, int64_t last) {
-    int64_t made = 0;
+    int64_t frames = 0;
     Progress progress;
     PetriStatus status = petri_history_goto(repl->history, frame < last ? frame : last);
     progress_start(&progress, repl->terminal && progress_possible(), frame - last);
     while (status == PETRI_OK && petri_frame_number(repl->session) < frame) {
-        status = petri_history_goto(repl->history, last + ++made);
-        progress_update(&progress, made);
+        status = petri_history_goto(repl->history, last + ++frames);
+        progress_update(&progress, frames);
     }
     progress_erase(&progress);
     return status;

@@ -181,7 +181,7 @@ PetriPicture *live_script_draw(LiveScript *live) {
         return NULL;
     PetriStatus status = petri_picture_render(live->picture, live->painter);
     bool complete = status == PETRI_OK && !petri_picture_lacks_shader(live->picture);
-    live->picture_state = complete ? PICTURE_COMPLETE : PICTURE_MADE;
+    live->picture_state = complete ? PICTURE_COMPLETE : PICTURE_VISIBLE;
     live_script_check_drawn(live, status);
     size_t before = live->error_text.len;
     petri_picture_report(live->session, live->picture);
@@ -200,7 +200,7 @@ static void update_picture(LiveScript *live) {
         return;
     retire_picture(live);
     PetriStatus status = petri_picture(live->session, &options, &live->picture);
-    live->picture_state = !live->picture ? PICTURE_NONE : live->before_first_picture ? PICTURE_HIDDEN : PICTURE_MADE;
+    live->picture_state = !live->picture ? PICTURE_NONE : live->before_first_picture ? PICTURE_HIDDEN : PICTURE_VISIBLE;
     if (live_script_check_drawn(live, status) && !live->before_first_picture)
         record_frame(live);
 }

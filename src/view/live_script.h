@@ -42,7 +42,7 @@ typedef struct Warnings {
 } Warnings;
 
 typedef enum LiveState { LIVE_RUNNING, LIVE_HALTED, LIVE_OUTDATED, LIVE_OUTDATED_HALTED } LiveState;
-typedef enum PictureState { PICTURE_NONE, PICTURE_HIDDEN, PICTURE_MADE, PICTURE_COMPLETE } PictureState;
+typedef enum PictureState { PICTURE_NONE, PICTURE_HIDDEN, PICTURE_VISIBLE, PICTURE_COMPLETE } PictureState;
 
 typedef struct LiveScript {
     const Options *options;

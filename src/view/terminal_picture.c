@@ -110,8 +110,8 @@ static void cell_size(const TerminalPicture *renderer, double *width, double *he
     }
 }
 
-static int clamp_size(double x, int most) {
-    return x < 1 ? 1 : x > most ? most : (int)x;
+static int clamp_size(double x, int max) {
+    return x < 1 ? 1 : x > max ? max : (int)x;
 }
 
 TerminalCells terminal_picture_fit(const TerminalPicture *renderer, int columns, int rows, int width, int height) {

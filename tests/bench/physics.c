@@ -48,15 +48,15 @@ static int by_value(const void *a, const void *b) {
 // Returns the median seconds of a frame of `steps` steps.
 static double measure_steps(Workload *w, int steps, double budget) {
     enum { MAX_SAMPLES = 101 };
-    double taken[MAX_SAMPLES], start = seconds();
+    double times[MAX_SAMPLES], start = seconds();
     int count = 0;
     do {
         double begin = seconds();
         workload_frame(w, steps);
-        taken[count++] = seconds() - begin;
+        times[count++] = seconds() - begin;
     } while (count < MAX_SAMPLES && (count < 5 || seconds() - start < budget));
-    qsort(taken, (size_t)count, sizeof *taken, by_value);
-    return taken[count / 2];
+    qsort(times, (size_t)count, sizeof *times, by_value);
+    return times[count / 2];
 }
 
 static uint64_t hash_of(const Workload *w) {

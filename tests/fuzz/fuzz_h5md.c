@@ -71,8 +71,8 @@ static void replace_data(hid_t file, const char *name, unsigned first, unsigned 
     if (rank > 0)
         H5Pset_chunk(how, rank, chunk);
     H5Ldelete(file, name, H5P_DEFAULT);
-    hid_t made = H5Dcreate2(file, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT);
-    H5Dclose(made);
+    hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT);
+    H5Dclose(set);
     H5Pclose(how);
     H5Sclose(space);
     H5Tclose(type);
@@ -84,10 +84,11 @@ static void replace_attribute(hid_t file, const char *name, unsigned first, unsi
     hid_t object = H5Oopen(file, name, H5P_DEFAULT);
     hid_t type = make_type(first & 127), space = make_space(second, false);
     H5Adelete(object, attribute);
-    hid_t made = H5Acreate2(object, attribute, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    if (made >= 0 && (first & 7) < 6 && (size_t)H5Sget_simple_extent_npoints(space) < sizeof zeros / H5Tget_size(type))
-        H5Awrite(made, type, zeros);
-    H5Aclose(made);
+    hid_t attribute_id = H5Acreate2(object, attribute, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    if (attribute_id >= 0 && (first & 7) < 6 &&
+        (size_t)H5Sget_simple_extent_npoints(space) < sizeof zeros / H5Tget_size(type))
+        H5Awrite(attribute_id, type, zeros);
+    H5Aclose(attribute_id);
     H5Sclose(space);
     H5Tclose(type);
     H5Oclose(object);

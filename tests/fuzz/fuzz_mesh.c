@@ -47,12 +47,12 @@ static void make_mesh(void *context) {
     const Input *input = context;
     Arena *arena = input->arena;
     Mesh mesh = {0};
-    MeshError fault = {0};
+    MeshError error = {0};
     uint8_t how = input->bytes[0];
     bool good = how & LISTS
                     ? make_hull(input, &mesh)
-                    : mesh_from_file(arena, (Str){(const char *)input->bytes + 1, input->size - 1}, &mesh, &fault);
-    if (!good && !(how & LISTS) && !fault.text)
+                    : mesh_from_file(arena, (Str){(const char *)input->bytes + 1, input->size - 1}, &mesh, &error);
+    if (!good && !(how & LISTS) && !error.text)
         fuzz_fail("a file was rejected without a reason");
     if (!good || mesh.index_count == 0)
         return;

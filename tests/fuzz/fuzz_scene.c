@@ -14,7 +14,7 @@ typedef struct Reading {
     Arena *arena;
     const DrawNode *node;
     const FileAccess *reach;
-    DiagSink faults;
+    DiagSink diags;
 } Reading;
 
 static void view_scene(const Scene *scene, const SceneCamera *camera, const SceneBox *boxes) {
@@ -34,7 +34,7 @@ static void view_scene(const Scene *scene, const SceneCamera *camera, const Scen
 static void read_scene(void *context) {
     Reading *reading = context;
     static SceneLight lights[SCENE_MAX_LIGHTS];
-    Scene *scene = scene_read(reading->arena, reading->node, 32, 32, 8, reading->reach, &reading->faults);
+    Scene *scene = scene_read(reading->arena, reading->node, 32, 32, 8, reading->reach, &reading->diags);
     scene->detail = 1;
     SceneBox *boxes = arena_alloc_array(reading->arena, scene->model_count, sizeof *boxes);
     for (uint32_t i = 0; i < scene->model_count; i++) {
@@ -66,7 +66,7 @@ static void find_scenes(const CanvasPicture *picture, const DrawNode *node) {
     Arena *const arenas[] = {&arena};
     Reading reading = {&arena, node, &picture->reach, diag_sink_new(&arena, 100)};
     arena_protect(arenas, 1, read_scene, &reading);
-    diag_sink_free(&reading.faults);
+    diag_sink_free(&reading.diags);
     arena_free(&arena);
 }
 

@@ -33,13 +33,13 @@ static bool read_solid(const Input *input, const uint8_t *bytes, size_t size, co
     bool triangles = input->bytes[0] & TRIANGLES, wide = input->bytes[0] & WIDE;
     uint32_t corners = triangles ? 3 : 4, sides = triangles ? 3 : 12, count = (uint32_t)(size / (wide ? 6 : 3));
     double(*points)[3] = arena_alloc_array(input->arena, count, sizeof *points);
-    uint32_t *indices = arena_alloc_array(input->arena, 3 * (size_t)count, sizeof *indices), made = 0;
+    uint32_t *indices = arena_alloc_array(input->arena, 3 * (size_t)count, sizeof *indices), used = 0;
     for (uint32_t i = 0; i < 3 * count; i++)
         points[i / 3][i % 3] = wide ? bytes[2 * i] * 256 + bytes[2 * i + 1] - 32768 : 256 * ((int8_t)bytes[i]);
     for (uint32_t i = 0; i + corners <= count; i += corners)
         for (uint32_t k = 0; k < sides; k++)
-            indices[made++] = i + (triangles ? k : tetrahedron[k]);
-    return solid_from_mesh(input->arena, grid, (const double(*)[3])points, count, indices, made, solid) ||
+            indices[used++] = i + (triangles ? k : tetrahedron[k]);
+    return solid_from_mesh(input->arena, grid, (const double(*)[3])points, count, indices, used, solid) ||
            solid_repair(input->arena, solid);
 }
 

@@ -21,10 +21,13 @@ SKIPPED = re.compile(r'^(CHANGELOG\.md|LICENSE|tests/conformance/|tests/golden/.
 
 
 class Rule:
-    """A line of prose.txt: where it applies, the pattern, and what to write instead, separated by tabs."""
+    """A line of prose.txt: where it applies, the pattern, and what to write instead, separated by tabs. "WHERE except A B"
+    leaves out the folders A and B."""
 
     def __init__(self, line):
-        self.where, pattern, self.instead = line.split('\t')
+        where, pattern, self.instead = line.split('\t')
+        self.where, _, folders = where.partition(' except ')
+        self.excluded = tuple(folder + '/' for folder in folders.split())
         ignore_case = not re.search('[A-Z]', re.sub(r'\\[A-Z]|\[A-Z\]', '', pattern))
         self.anchored = pattern.startswith('^')
         self.regex = re.compile(pattern, re.I if ignore_case else 0)
@@ -187,7 +190,7 @@ def main():
                 hits += [(n, t, 'write: ' + r.instead) for n, t, r in find_hits(rules, kind, what, block)]
         where = NAME_RULES.get(Path(path).suffix)
         for rule in rules:
-            if where and rule.where == where:
+            if where and rule.where == where and not path.startswith(rule.excluded):
                 hits += [(n, lines[n - 1], rule.instead) for n, code in enumerate(code_only(lines, kind), 1)
                          if rule.regex.search(code)]
         for number, line, reason in hits:

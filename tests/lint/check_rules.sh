@@ -18,7 +18,7 @@ LC_ALL=C sort -cu "$work/codes" || failed=1
 [ "$(wc -l <"$work/codes")" -gt 60 ]
 # Codes in calls such as report(..., "code", ...) and in recorded diagnostics.
 {
-    grep -rhoE '(report[a-z_]*\([^;"]*|vm_fault[a-z_]*\([^;"]*|warning[a-z_]*\([^;"]*|\.code = )"[a-z]+(-[a-z]+)+"' lib src --include=*.c |
+    grep -rhoE '(report[a-z_]*\([^;"]*|warning[a-z_]*\([^;"]*|\.code = )"[a-z]+(-[a-z]+)+"' lib src --include=*.c |
         grep -oE '"[a-z-]+"$' | tr -d '"'
     grep -rhoE '\[[a-z]+(-[a-z]+)+\]$' tests/repl samples src/manual README.md --include=*.session --include=*.md |
         tr -d '[]'

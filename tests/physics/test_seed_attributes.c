@@ -64,8 +64,8 @@ static void compare_states(const char *node, const char *attribute, const char *
 typedef struct Row {
     const char *node;
     const char *attribute;
-    const char *fallback; // the default, which must act like omitting the attribute; "": there is none to test
-    const char *other;    // a value that gives a different state
+    const char *default_value; // the default, which must act like omitting the attribute; "": there is none to test
+    const char *other;         // a value that gives a different state
 } Row;
 
 static const Row floats[] = {
@@ -127,8 +127,8 @@ static const Row body_floats[] = {
 // Invalid values of an attribute that must be one number, and values that count as missing.
 static void check_float(const Row *row) {
     static const char *const wrong[] = {"1;2", "\"3\"", ":x;1", "!node", "nan", "uniform(:x)[..3]"};
-    if (*row->fallback)
-        compare_states(row->node, row->attribute, row->fallback, "", true, "");
+    if (*row->default_value)
+        compare_states(row->node, row->attribute, row->default_value, "", true, "");
     compare_states(row->node, row->attribute, "null", "", true, "");
     compare_states(row->node, row->attribute, "uniform(:x)", "", true, ""); // a stream counts as null
     compare_states(row->node, row->attribute, row->other, "", false, "");
@@ -149,7 +149,7 @@ static void test_body_floats(void **state) {
         Row row = body_floats[i];
         char *node = text_of("!collision\n !gravity\n !electrostatic\n !drag\n !constant force=1;1\n %s", row.node);
         char *found[4];
-        const char *const values[] = {"", row.fallback, row.other, "null"};
+        const char *const values[] = {"", row.default_value, row.other, "null"};
         for (int k = 0; k < 4; k++) {
             char *attribute = text_of("%s%s%s", *values[k] ? row.attribute : "", *values[k] ? "=" : "", values[k]);
             found[k] = state_with(node, attribute, "");
@@ -197,7 +197,7 @@ static void test_malformed_vector_counts_as_the_default(void **state) {
     static const char *const wrong[] = {"1;2;3", "\"x\"", "1;\"x\"", "!node", "..9"};
     for (size_t i = 0; i < COUNT_OF(vectors); i++) {
         const Row *row = &vectors[i];
-        compare_states(row->node, row->attribute, row->fallback, "", true, "");
+        compare_states(row->node, row->attribute, row->default_value, "", true, "");
         compare_states(row->node, row->attribute, "null", "", true, "");
         compare_states(row->node, row->attribute, row->other, "", false, "");
         compare_states(row->node, row->attribute, "3", "3;3", true, "");

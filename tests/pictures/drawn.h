@@ -6,16 +6,16 @@
 
 #include <stdlib.h>
 
-enum { MAX_DRAWN = 1920 * 1080, TOLD = 20000 };
+enum { MAX_DRAWN = 1920 * 1080, MAX_REPORTED = 20000 };
 
 typedef struct Drawn {
     PetriSession *session;
     PetriPainter *painter;
     int width;
     int height;
-    uint32_t *pixels;    // last frame, rows from the top
-    char reported[TOLD]; // diagnostics except notes, one per line: LINE [CODE] TEXT
-    unsigned column;     // column of the last diagnostic
+    uint32_t *pixels;            // last frame, rows from the top
+    char reported[MAX_REPORTED]; // diagnostics except notes, one per line: LINE [CODE] TEXT
+    unsigned column;             // column of the last diagnostic
 } Drawn;
 
 static inline void drawn_on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
@@ -24,7 +24,8 @@ static inline void drawn_on_diagnostic(void *host, const PetriDiagnostic *diagno
     if (diagnostic->level == PETRI_NOTE)
         return;
     drawn->column = diagnostic->column;
-    snprintf(drawn->reported + at, TOLD - at, "%u [%s] %s\n", diagnostic->line, diagnostic->code, diagnostic->text);
+    snprintf(drawn->reported + at, MAX_REPORTED - at, "%u [%s] %s\n", diagnostic->line, diagnostic->code,
+             diagnostic->text);
 }
 
 static inline void drawn_next(Drawn *drawn) {

@@ -24,10 +24,10 @@ static double read_number_at(const char *at) {
     return strncmp(at, "true", 4) == 0 ? 1 : strtod(at, NULL);
 }
 
-double model_number(const char *attrs, const char *name, int k, double fallback) {
+double model_number(const char *attrs, const char *name, int k, double default_value) {
     const char *at = find_attr(attrs, name);
     if (!at)
-        return fallback;
+        return default_value;
     double first = read_number_at(at);
     for (const char *next = at; k > 0; k--) {
         next += strcspn(next, "; ");

@@ -41,7 +41,7 @@ typedef struct Work {
 
 // Attributes. model_number returns the k-th number; a single number is repeated. model_has returns whether the
 // attribute exists, and model_word whether its value is this word.
-double model_number(const char *attrs, const char *name, int k, double fallback);
+double model_number(const char *attrs, const char *name, int k, double default_value);
 bool model_has(const char *attrs, const char *name);
 bool model_word(const char *attrs, const char *name, const char *word);
 

@@ -19,8 +19,8 @@ typedef struct Pass {
 
 typedef Px Program(const Pass *pass, double u, double v);
 
-static double number(const Pass *pass, const char *name, double fallback) {
-    return model_number(pass->attrs, name, 0, fallback);
+static double number(const Pass *pass, const char *name, double default_value) {
+    return model_number(pass->attrs, name, 0, default_value);
 }
 
 static double clamp(double x, double low, double high) {
@@ -343,16 +343,16 @@ static Px flare_ghosts(const Pass *pass, double u, double v) {
 
 static void add_streak(const Pass *pass, double n, double slant, double u, double v, double sum[3]) {
     for (int i = 0; i < n; i++) {
-        Px most = {{0}};
+        Px brightest = {{0}};
         for (int s = 0; s < 4; s++) {
             double x = slant != 0 ? (s & 1 ? -i : i) : s < 2 ? (s & 1 ? -i : i) : 0;
             double y = slant != 0 ? (s & 2 ? -i : i) : s < 2 ? 0 : s & 1 ? -i : i;
             Px t = model_sample(pass->t, &pass->edges, u + x / pass->w, v + y / pass->h);
             for (int k = 0; k < 3; k++)
-                most.c[k] = s == 0 ? t.c[k] : fmax(most.c[k], t.c[k]);
+                brightest.c[k] = s == 0 ? t.c[k] : fmax(brightest.c[k], t.c[k]);
         }
         double share = (1 - i / n) * (1 - i / n) / n;
-        add_bright(pass, most, (const double[3]){share, share, share}, sum);
+        add_bright(pass, brightest, (const double[3]){share, share, share}, sum);
     }
 }
 

@@ -60,13 +60,13 @@ static void read_window(uint32_t *pixels) {
 
 // Returns the largest difference between two pictures in any channel.
 static int distance(const uint32_t *one, const uint32_t *other) {
-    int most = 0;
+    int max = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         for (unsigned shift = 0; shift < 32; shift += 8) {
             int apart = abs((int)(one[i] >> shift & 255) - (int)(other[i] >> shift & 255));
-            most = apart > most ? apart : most;
+            max = apart > max ? apart : max;
         }
-    return most;
+    return max;
 }
 
 static const PetriLabel label = {.text = "on top",

@@ -53,11 +53,11 @@ static int place_teardown(void **state) {
 }
 
 // Returns how many errors an expression reports.
-static uint32_t faults_of(World *world, const char *text) {
-    world->faults = 0;
+static uint32_t errors_of(World *world, const char *text) {
+    world->errors = 0;
     evaluate(world, text);
     arena_reset(&world->frame);
-    return world->faults;
+    return world->errors;
 }
 
 static void test_read_returns_contents(void **state) {
@@ -91,28 +91,28 @@ static void test_failures_are_reported_once(void **state) {
     World *world = place->world;
     make_directory(place, "folder");
     write_bytes(place, "binary", "\xff", 1);
-    assert_int_equal(faults_of(world, "read('')"), 0);
-    assert_int_equal(faults_of(world, "read('missing')"), 1);
+    assert_int_equal(errors_of(world, "read('')"), 0);
+    assert_int_equal(errors_of(world, "read('missing')"), 1);
     assert_string_equal(world->text, "read: cannot read 'missing': no such file");
-    assert_int_equal(faults_of(world, "read('missing')"), 0);
-    assert_int_equal(faults_of(world, "csv('missing', 0)"), 1);
-    assert_int_equal(faults_of(world, "read('folder')"), 1);
+    assert_int_equal(errors_of(world, "read('missing')"), 0);
+    assert_int_equal(errors_of(world, "csv('missing', 0)"), 1);
+    assert_int_equal(errors_of(world, "read('folder')"), 1);
     assert_string_equal(world->text, "read: cannot read 'folder': it is a directory");
-    assert_int_equal(faults_of(world, "read('folder')"), 0);
-    assert_int_equal(faults_of(world, "read_bytes('folder')"), 1);
-    assert_int_equal(faults_of(world, "read('binary')"), 1);
+    assert_int_equal(errors_of(world, "read('folder')"), 0);
+    assert_int_equal(errors_of(world, "read_bytes('folder')"), 1);
+    assert_int_equal(errors_of(world, "read('binary')"), 1);
     assert_string_equal(world->text, "read: cannot read 'binary': it is not UTF-8 text");
-    assert_int_equal(faults_of(world, "read('binary')"), 0);
-    assert_int_equal(faults_of(world, "read_bytes('binary')"), 0);
-    assert_int_equal(faults_of(world, "read(chr(97;0))"), 1);
+    assert_int_equal(errors_of(world, "read('binary')"), 0);
+    assert_int_equal(errors_of(world, "read_bytes('binary')"), 0);
+    assert_int_equal(errors_of(world, "read(chr(97;0))"), 1);
     write_bytes(place, "binary", "\xff\xff", 2);
-    assert_int_equal(faults_of(world, "read('binary')"), 1);
+    assert_int_equal(errors_of(world, "read('binary')"), 1);
     write_file(place, "missing", "here");
-    assert_int_equal(faults_of(world, "read('missing')"), 0);
+    assert_int_equal(errors_of(world, "read('missing')"), 0);
     assert_true(check(world, "read('missing') => 'here'"));
     world->context.files = (file_cache_free(world->context.files), NULL);
-    assert_int_equal(faults_of(world, "read('missing')"), 1);
-    assert_int_equal(faults_of(world, "glob('*')"), 0);
+    assert_int_equal(errors_of(world, "read('missing')"), 1);
+    assert_int_equal(errors_of(world, "glob('*')"), 0);
 }
 
 static void test_changed_files_are_read_again(void **state) {
@@ -130,7 +130,7 @@ static void test_changed_files_are_read_again(void **state) {
     assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
     assert_true(check(world, "read('a.txt') => 'seven'"));
     assert_int_equal(unlink(path), 0);
-    assert_int_equal(faults_of(world, "read('a.txt')"), 1);
+    assert_int_equal(errors_of(world, "read('a.txt')"), 1);
     write_file(place, "a.txt", "again");
     assert_true(check(world, "read('a.txt') => 'again'"));
     // A value that was read before the change stays as it was.
@@ -236,9 +236,9 @@ static void test_srt_returns_lines(void **state) {
         "srt('empty.srt',1);srt('lone.srt',1);srt('missing.srt',1) => null",
     };
     CHECK_ALL(place->world, lines);
-    assert_int_equal(faults_of(place->world, "srt('lone.srt',1)"), 0); // this error was already reported above
+    assert_int_equal(errors_of(place->world, "srt('lone.srt',1)"), 0); // this error was already reported above
     write_file(place, "lone.srt", "1\nx");
-    assert_int_equal(faults_of(place->world, "srt('lone.srt',1)"), 1);
+    assert_int_equal(errors_of(place->world, "srt('lone.srt',1)"), 1);
     assert_string_equal(place->world->text,
                         "srt: cannot read 'lone.srt': it is not a subtitle file: line 2 is not START --> END");
 }
@@ -303,10 +303,10 @@ static void test_glob_finds_matches(void **state) {
     check_glob(place, "d/..", ".");
     check_glob(place, "nothing*", "");
     check_glob(place, "**a.t**", "a.txt");
-    assert_int_equal(faults_of(place->world, "glob('')"), 1);
-    assert_int_equal(faults_of(place->world, "glob(null)"), 1);
-    assert_int_equal(faults_of(place->world, "glob('/tmp/*')"), 1);
-    assert_int_equal(faults_of(place->world, "glob(pattern='none')"), 0);
+    assert_int_equal(errors_of(place->world, "glob('')"), 1);
+    assert_int_equal(errors_of(place->world, "glob(null)"), 1);
+    assert_int_equal(errors_of(place->world, "glob('/tmp/*')"), 1);
+    assert_int_equal(errors_of(place->world, "glob(pattern='none')"), 0);
 }
 
 // Running out of memory while a file is read leaves the cache usable.
@@ -340,7 +340,7 @@ static void test_cache_is_limited(void **state) {
         if (i % 1000 == 0)
             arena_reset(&world->frame);
     }
-    assert_true(world->faults >= 40000);
+    assert_true(world->errors >= 40000);
     assert_true(check(world, "read('a.txt') => 'text'"));
 }
 

@@ -60,16 +60,16 @@ static Samples samples_new(World *world) {
 }
 
 static void try_call(World *world, const Builtin *builtin, const Value *args, uint32_t count) {
-    world->faults = 0;
+    world->errors = 0;
     Value v = builtin_call(&world->context, builtin, args, count, NULL, NULL, 0);
-    if (world->faults > 1)
-        fail_msg("%s: %u faults, the last: %s", builtin->name, world->faults, world->text);
+    if (world->errors > 1)
+        fail_msg("%s: %u errors, the last: %s", builtin->name, world->errors, world->text);
     assert_well_formed(v);
     if (count < builtin->required || (count > builtin->fixed && !builtin->variadic)) {
-        assert_int_equal(world->faults, 1);
+        assert_int_equal(world->errors, 1);
         assert_true(value_is_null(v));
     }
-    if (world->faults)
+    if (world->errors)
         assert_true(value_is_null(v));
     arena_reset(&world->frame);
 }
@@ -180,12 +180,12 @@ static void test_any_argument_names_give_valid_results(void **state) {
         for (uint32_t count = 0; count < 4; count++)
             for (uint32_t first = 0; first < 3; first++)
                 for (uint32_t named = 1; named <= 3 - first; named++) {
-                    world->faults = 0;
+                    world->errors = 0;
                     Value v = builtin_call(&world->context, &builtin_table[b],
                                            (Value[]){value_number(1), value_number(2), value_number(3)}, count,
                                            names + first, values + first, named);
                     assert_well_formed(v);
-                    assert_true(world->faults <= 1);
+                    assert_true(world->errors <= 1);
                     arena_reset(&world->frame);
                 }
 }

@@ -362,7 +362,7 @@ static void test_bad_calls_report_one_error(void **state) {
     World *world = *state;
     static const struct {
         const char *call;
-        uint32_t faults;
+        uint32_t errors;
     } calls[] = {
         {"sin(null)", 0},
         {"sin('a')", 0},
@@ -401,10 +401,10 @@ static void test_bad_calls_report_one_error(void **state) {
         {"angle(xy=1;2, ys=3)", 0},
     };
     for (size_t i = 0; i < sizeof calls / sizeof calls[0]; i++) {
-        world->faults = 0;
+        world->errors = 0;
         evaluate(world, calls[i].call);
-        if (world->faults != calls[i].faults)
-            fail_msg("%s: %u faults: %s", calls[i].call, world->faults, world->text);
+        if (world->errors != calls[i].errors)
+            fail_msg("%s: %u errors: %s", calls[i].call, world->errors, world->text);
         arena_reset(&world->frame);
     }
 }
@@ -420,9 +420,9 @@ static void test_too_long_results_are_rejected(void **state) {
         const Builtin *builtin = builtin_find(str_from(names[i]));
         uint32_t count = builtin->variadic ? 3 : 1;
         args[0] = strcmp(names[i], "noise") == 0 ? VALUE_NULL : vast;
-        world->faults = 0;
+        world->errors = 0;
         assert_true(value_is_null(builtin_call(&world->context, builtin, args, count, NULL, NULL, 0)));
-        assert_int_equal(world->faults, 1);
+        assert_int_equal(world->errors, 1);
     }
 }
 

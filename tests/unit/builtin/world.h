@@ -22,7 +22,7 @@ typedef struct World {
     Arena frame;
     SymbolTable symbols;
     BuiltinContext context;
-    uint32_t faults;
+    uint32_t errors;
     uint32_t logs;
     char text[400]; // text of the last error or log line
 } World;
@@ -31,9 +31,9 @@ static inline void world_note(World *world, Str text) {
     snprintf(world->text, sizeof world->text, "%.*s", (int)text.len, text.bytes);
 }
 
-static inline void world_fault(void *user_data, Str text) {
+static inline void world_report(void *user_data, Str text) {
     World *world = user_data;
-    world->faults++;
+    world->errors++;
     world_note(world, text);
 }
 
@@ -55,7 +55,7 @@ static inline World *world_new(void) {
         .files = file_cache_new(),
         .noise = noise_cache_new(),
         .directory = STR(""),
-        .report_error = world_fault,
+        .report_error = world_report,
         .log = world_log,
         .user_data = &world,
     };

@@ -76,14 +76,14 @@ typedef struct Point {
 
 static void step(Point *at, const Light *light, const double L[3], double d, double b, bool first, bool last) {
     const double *f = light->falloff;
-    double NL = clamp(dot(at->N, L), 0, 1), I[3], most = 0;
+    double NL = clamp(dot(at->N, L), 0, 1), I[3], max = 0;
     if (NL == 0)
         return;
     for (int k = 0; k < 3; k++) {
         I[k] = light->color[k] * b * NL / (f[0] + f[1] * d + f[2] * d * d + f[3] * d * d * d);
-        most = fmax(most, fabs(I[k]));
+        max = fmax(max, fabs(I[k]));
     }
-    if (most < 1e-3 * (last ? at->alpha2 : 1))
+    if (max < 1e-3 * (last ? at->alpha2 : 1))
         return;
     double H[3];
     add_scaled(H, at->V, 1, L);

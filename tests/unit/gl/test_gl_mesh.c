@@ -177,18 +177,18 @@ static void test_remapped_coordinates_do_not_cross_the_seam(void **state) {
 }
 
 static bool from_file(Arena *arena, const char *text, Mesh *mesh) {
-    MeshError fault = {0};
-    return mesh_from_file(arena, str_copy(arena, str_from(text)), mesh, &fault);
+    MeshError error = {0};
+    return mesh_from_file(arena, str_copy(arena, str_from(text)), mesh, &error);
 }
 
 // Checks that a file is rejected with this message at this line; 0: no line.
 static void check_bad(Arena *arena, const char *text, uint32_t line, const char *problem) {
     Mesh mesh;
-    MeshError fault = {0};
-    bool good = mesh_from_file(arena, str_copy(arena, str_from(text)), &mesh, &fault);
-    assert_claim(text, !good && fault.text);
-    assert_claim(text, fault.line == line);
-    assert_claim(text, strstr(fault.text, problem) != NULL);
+    MeshError error = {0};
+    bool good = mesh_from_file(arena, str_copy(arena, str_from(text)), &mesh, &error);
+    assert_claim(text, !good && error.text);
+    assert_claim(text, error.line == line);
+    assert_claim(text, strstr(error.text, problem) != NULL);
 }
 
 static void test_obj_file_gives_triangles_or_the_bad_line(void **state) {

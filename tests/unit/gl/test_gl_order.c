@@ -226,14 +226,14 @@ static void test_disc_mesh_is_regular(void **state) {
 }
 
 // Reads a scene with `count` references to the same node. Collects the diagnostics.
-static Scene *read_many(Arena *arena, DiagSink *faults, NodeKind kind, AttrValue *attr, uint32_t count) {
+static Scene *read_many(Arena *arena, DiagSink *diags, NodeKind kind, AttrValue *attr, uint32_t count) {
     DrawNode *node = arena_alloc(arena, sizeof *node), *top = arena_alloc(arena, sizeof *top);
     const DrawNode **children = arena_alloc_array(arena, count, sizeof *children);
     *node = (DrawNode){.kind = (uint8_t)kind, .attrs = attr, .attr_count = 1};
     for (uint32_t i = 0; i < count; i++)
         children[i] = node;
     *top = (DrawNode){.kind = KIND_CANVAS3D, .children = children, .child_count = count};
-    return scene_read(arena, top, WIDTH, WIDTH, 16, NULL, faults);
+    return scene_read(arena, top, WIDTH, WIDTH, 16, NULL, diags);
 }
 
 // Instances beyond the limits are omitted, which is reported once.
@@ -253,19 +253,19 @@ static void test_limits_are_reported_once(void **state) {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         Arena arena;
         arena_init(&arena, "test", SIZE_MAX);
-        DiagSink faults = diag_sink_new(&arena, 100);
+        DiagSink diags = diag_sink_new(&arena, 100);
         const SchemaRow *row = schema_row(rows[i].kind, rows[i].name);
         AttrValue attr = {
             .name = (uint16_t)rows[i].name, .row = (uint16_t)(row - schema_rows), .as.numbers = {1, 1, 1}};
         if (rows[i].name == ATTR_ID)
             attr.as.text = STR("c");
-        Scene *scene = read_many(&arena, &faults, rows[i].kind, &attr, rows[i].count);
+        Scene *scene = read_many(&arena, &diags, rows[i].kind, &attr, rows[i].count);
         uint32_t count = rows[i].kind == KIND_SPHERE  ? scene->instance_count
                          : rows[i].kind == KIND_LIGHT ? scene->light_count
                                                       : scene->camera_count;
         assert_int_equal(count, rows[i].max);
-        assert_int_equal(faults.count, 1);
-        assert_string_equal(faults.items[0].code, rows[i].code);
+        assert_int_equal(diags.count, 1);
+        assert_string_equal(diags.items[0].code, rows[i].code);
         if (rows[i].kind == KIND_SPHERE) { // the limit of triangles would be exceeded if all spheres were near
             const SceneBox box = {.low = {-1, -1, -1}, .high = {1, 1, 1}, .triangles = 2048};
             Eye eye = scene_eye(scene, &scene->cameras[0]);
@@ -274,7 +274,7 @@ static void test_limits_are_reported_once(void **state) {
             DrawOrder order = draw_order(scene, &eye, &view, &projection, WIDTH, &box);
             assert_true(order.cut && order.triangles <= SCENE_MAX_TRIANGLES && order.count > 10000);
         }
-        diag_sink_free(&faults);
+        diag_sink_free(&diags);
         arena_free(&arena);
     }
 }

@@ -22,9 +22,9 @@ static int64_t first_in(int64_t a, int64_t m, int64_t l, int64_t r) {
         return 0;
     if (a == 0)
         return -1;
-    int64_t least = (l + a - 1) / a;
-    if ((Long)least * a <= r)
-        return least;
+    int64_t first = (l + a - 1) / a;
+    if ((Long)first * a <= r)
+        return first;
     int64_t from = (a - r % a) % a, to = (a - l % a) % a;
     int64_t y = first_in(m % a, a, from, to);
     return y < 0 ? -1 : (int64_t)(((Long)l + (Long)m * y + a - 1) / a);

@@ -272,12 +272,12 @@ static void test_memory_limit(void **state) {
 }
 
 // Adds the contributions of an explanation, and compares the sum with the force of the step.
-static void check_explanation(const PhysSystem *system, uint32_t particle, uint32_t least_count) {
+static void check_explanation(const PhysSystem *system, uint32_t particle, uint32_t min_count) {
     PhysExplanation explanation;
     PhysColumns columns = phys_columns(system);
     const double *force = phys_at_particle(columns.force, particle);
     assert_int_equal(phys_explain(system, particle, 0, &explanation), PHYS_OK);
-    assert_true(explanation.count >= least_count);
+    assert_true(explanation.count >= min_count);
     double sum[3] = {0, 0, 0};
     for (uint32_t c = 0; c < explanation.count; c++)
         for (size_t k = 0; k < 3; k++)

@@ -88,7 +88,7 @@ static void test_include_paths_are_folded(void **state) {
     static const struct {
         const char *script;
         uint32_t included;
-        const char *told;
+        const char *reported;
     } rows[] = {
         {"let seen=1\n%include 'inc.fl'\n", 1, ""},
         {"let seen=frame name='inc';'.fl'\nfor i in ..2\n    %include name\n", 1, NULL},
@@ -103,8 +103,8 @@ static void test_include_paths_are_folded(void **state) {
         for (size_t i = 0; i < COUNT_OF(rows); i++) {
             compile(desk, rows[i].script);
             assert_int_equal(desk->include_calls, rows[i].included);
-            if (rows[i].told)
-                assert_text(rows[i].script, text_c(&desk->reported), rows[i].told);
+            if (rows[i].reported)
+                assert_text(rows[i].script, text_c(&desk->reported), rows[i].reported);
         }
     }
     assert_text("names", code_of(desk, "let seen=5\n%include 'inc.fl'\n"),

@@ -29,9 +29,9 @@ static const char *const loops[LOOPS] = {"..40", "(5;..40)",  "..20|0.5",    "(x
 static const char *make_script(char *text, size_t size, bool in_place, bool dynamic, const char *node,
                                const char *loop) {
     const char *factor = dynamic ? "*(1+0*frame)" : ""; // this factor keeps the sign of zero
-    char made[1000] = "many", line[1000] = "many";
+    char vector[1000] = "many", line[1000] = "many";
     if (in_place) {
-        snprintf(made, sizeof made, "((%s) for i in %s%s)", node, loop, factor);
+        snprintf(vector, sizeof vector, "((%s) for i in %s%s)", node, loop, factor);
         snprintf(line, sizeof line, "for i in %s%s\n                %s", loop, factor, node);
     }
     snprintf(text, size,
@@ -41,7 +41,7 @@ static const char *make_script(char *text, size_t size, bool in_place, bool dyna
              "!top\n    !first\n    for j in ..2\n        !group\n            %s\n            !last\n"
              "!same v=(a==b);(a<b);(a in b) w=uniform(a)[..2] x=len(a) y=str(a) z=debug(a)\n"
              "!holder n=a\n",
-             node, loop, factor, made, line);
+             node, loop, factor, vector, line);
     return text;
 }
 

@@ -254,7 +254,7 @@ static void test_hints_are_rendered(void **state) {
 static void test_invalid_definitions_are_rejected(void **state) {
     Player *player = *state;
     static const struct {
-        const char *definition, *fallback, *reported;
+        const char *definition, *default_value, *reported;
     } rows[] = {
         {"N=12x", "3",
          "error t.fl:1:5 '12x' is not a number; 'N' takes numbers, such as its default 3 [bad-definition]\n"},
@@ -272,7 +272,7 @@ static void test_invalid_definitions_are_rejected(void **state) {
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         PetriOptions options = player_options(player);
         char script[100];
-        snprintf(script, sizeof script, "let N=N or %s\n!a v=N\n", rows[i].fallback);
+        snprintf(script, sizeof script, "let N=N or %s\n!a v=N\n", rows[i].default_value);
         player_reopen(player, &options);
         assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
         bool wrong = rows[i].reported[0] != 0;

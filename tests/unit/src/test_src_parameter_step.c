@@ -2,15 +2,15 @@
 #include "check.h"
 #include "view/parameter_step.h"
 
-static PetriParameter parameter(double number, double fallback, double min, double max, double step) {
-    return (PetriParameter){.number = number, .default_number = fallback, .min = min, .max = max, .step = step};
+static PetriParameter parameter(double number, double default_value, double min, double max, double step) {
+    return (PetriParameter){.number = number, .default_number = default_value, .min = min, .max = max, .step = step};
 }
 
 static void test_step_gives_expected_value(void **state) {
     (void)state;
     static const struct {
         const char *row;
-        double number, fallback, min, max, step;
+        double number, default_value, min, max, step;
         int steps;
         double to;
     } rows[] = {
@@ -43,7 +43,7 @@ static void test_step_gives_expected_value(void **state) {
         {"infinite value", INFINITY, 1, -INFINITY, INFINITY, 0, 1, NAN},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        PetriParameter row = parameter(rows[i].number, rows[i].fallback, rows[i].min, rows[i].max, rows[i].step);
+        PetriParameter row = parameter(rows[i].number, rows[i].default_value, rows[i].min, rows[i].max, rows[i].step);
         assert_number(rows[i].row, parameter_stepped(&row, rows[i].steps), rows[i].to);
     }
 }
@@ -65,7 +65,7 @@ static void test_fraction_selects_value(void **state) {
     (void)state;
     static const struct {
         const char *row;
-        double number, fallback, min, max, step, fraction, to;
+        double number, default_value, min, max, step, fraction, to;
     } rows[] = {
         {"minimum", 3, 3, 1, 9, 0, 0, 1},
         {"maximum", 3, 3, 1, 9, 0, 1, 9},
@@ -78,7 +78,7 @@ static void test_fraction_selects_value(void **state) {
         {"0 if it is the default", 1, 0, 0, 10, 0, 0, 0},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        PetriParameter row = parameter(rows[i].number, rows[i].fallback, rows[i].min, rows[i].max, rows[i].step);
+        PetriParameter row = parameter(rows[i].number, rows[i].default_value, rows[i].min, rows[i].max, rows[i].step);
         assert_number(rows[i].row, parameter_at(&row, rows[i].fraction), rows[i].to);
     }
 }

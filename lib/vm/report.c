@@ -1,4 +1,4 @@
-// fault.c: reporting of run-time errors; see machine.h.
+// report.c: reporting of run-time errors; see machine.h.
 #include "vm/machine.h"
 
 #include <stdarg.h>
@@ -6,7 +6,7 @@
 // Returns true if an error must be reported, and records the error. Returns false if the same error was already
 // reported at this position in this frame, or if too many errors were reported. If execution is speculative, does not
 // record the error, sets speculation_failed and returns false.
-static bool first_fault(Vm *vm, const Origin *at, uint64_t what) {
+static bool is_new_error(Vm *vm, const Origin *at, uint64_t what) {
     if (vm->reported_count >= VM_REPORTED / 2)
         return false;
     uint32_t i = (uint32_t)hash_mix((uint64_t)(uintptr_t)at ^ what << 1) % VM_REPORTED;
@@ -27,13 +27,13 @@ static void report_diagnostic(Vm *vm, const Origin *at, DiagLevel level, const c
     vm->host.report(vm->host.user_data, &diag);
 }
 
-void vm_fault_text(Vm *vm, const Origin *at, const char *code, Str text) {
-    if (first_fault(vm, at, hash_bytes(0, text.bytes, text.len)))
+void vm_report_text(Vm *vm, const Origin *at, const char *code, Str text) {
+    if (is_new_error(vm, at, hash_bytes(0, text.bytes, text.len)))
         report_diagnostic(vm, at, DIAG_WARNING, code, text);
 }
 
-void vm_fault(Vm *vm, const Origin *at, const char *code, const char *format, ...) {
-    if (!first_fault(vm, at, (uint64_t)(uintptr_t)format))
+void vm_report(Vm *vm, const Origin *at, const char *code, const char *format, ...) {
+    if (!is_new_error(vm, at, (uint64_t)(uintptr_t)format))
         return;
     va_list args;
     va_start(args, format);
@@ -45,6 +45,6 @@ void vm_fault(Vm *vm, const Origin *at, const char *code, const char *format, ..
 
 Value vm_finish(Vm *vm, const Origin *at, Vector *vector) {
     if (vector->overflow)
-        vm_fault(vm, at, "too-long", "vector too long: the limit is 134217728 elements");
+        vm_report(vm, at, "too-long", "vector too long: the limit is 134217728 elements");
     return vector_finish(vector);
 }
