@@ -118,7 +118,7 @@ const char *schema_formula(NodeKind kind) {
 // Forces whose reach is INVERSE_SQUARE have an attribute `theta`, and other forces have none.
 enum {
     THETA_ROWS = 0
-#define ATTR(kind, name, type, field, fallback, unit, help) +(ATTR_##name == ATTR_THETA)
+#define ATTR(kind, name, type, field, default_value, unit, help) +(ATTR_##name == ATTR_THETA)
 #include "schema/schema_list.h"
     ,
 #define COUNT_CONTACT(KIND)
