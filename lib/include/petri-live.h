@@ -109,12 +109,12 @@ PETRI_API void petri_history_free(PetriHistory *history);
 // lives as long as the history.
 PETRI_API PetriStatus petri_history_start(PetriHistory *history, const char *reason);
 
-// Like petri_step, but adds the frame to the timeline. If a past frame still has the configuration that it had when it
-// was computed, the next frame gets the one that it had.
+// Like petri_step, but adds the frame to the timeline. If it was in the timeline before and is not the last one, the
+// session then gets the configuration that the next frame had, so that steps repeat the changes.
 PETRI_API PetriStatus petri_history_step(PetriHistory *history);
 
 // Goes to the last frame before `frame` that is kept as a snapshot, or to the first frame of the timeline if `frame` is
-// that frame. petri_history_step then leads to `frame` in short steps. The session gets the configuration that the
+// that frame. A few calls of petri_history_step then lead to `frame`. The session gets the configuration that the next
 // frame had. Returns PETRI_INVALID if there is no such frame.
 PETRI_API PetriStatus petri_history_rewind(PetriHistory *history, int64_t frame);
 

@@ -243,7 +243,7 @@ static void drop_frames_after(PetriHistory *history, int64_t frame) {
     history->last = frame;
 }
 
-// Gives the session the configuration with which the next frame was computed.
+// Gives the session the configuration with which the next frame was computed or will be computed.
 static void follow_epoch(PetriHistory *history) {
     PetriSession *session = history->session;
     const Epoch *epoch = epoch_of(history, session->clock.number + 1);
@@ -252,12 +252,11 @@ static void follow_epoch(PetriHistory *history) {
         session->clock.base = epoch->base;
 }
 
-// Prepares the next frame: gives it the configuration with which it was computed before, or starts an epoch if the
-// configuration was changed since then. Returns false if out of memory.
+// Prepares the next frame: starts an epoch if it was computed, or would be, with another configuration. Returns false
+// if out of memory.
 static bool choose_epoch(PetriHistory *history) {
     int64_t frame = history->session->clock.number;
-    bool past = frame > history->first && frame < history->last;
-    if (has_config(history, epoch_of(history, frame + 1)) || (past && has_config(history, epoch_of(history, frame)))) {
+    if (has_config(history, epoch_of(history, frame + 1))) {
         follow_epoch(history);
         return true;
     }
@@ -291,6 +290,8 @@ static PetriStatus record_frame(PetriHistory *history) {
     int64_t frame = history->session->clock.number;
     record_time(history);
     history->seconds += made->evaluation_seconds + made->physics_seconds;
+    if (frame < history->last)
+        follow_epoch(history);
     if (frame <= history->last)
         return PETRI_OK;
     history->last = frame;
@@ -335,7 +336,11 @@ static const Keyframe *keyframe_before(const PetriHistory *history, int64_t fram
 PetriStatus petri_history_rewind(PetriHistory *history, int64_t frame) {
     PetriStatus status = ensure_started(history);
     const Keyframe *from = status == PETRI_OK ? keyframe_before(history, frame) : NULL;
-    return from ? petri_rewind(history->session, from->snapshot) : status == PETRI_OK ? PETRI_INVALID : status;
+    if (status == PETRI_OK)
+        status = from ? petri_rewind(history->session, from->snapshot) : PETRI_INVALID;
+    if (status == PETRI_OK)
+        follow_epoch(history);
+    return status;
 }
 
 // Computes frames again up to `frame`, which must be in the timeline. Starts at the current frame if it is between the

@@ -292,6 +292,8 @@ export interface Session {
     /** Stores the complete state of the session for `rewind`. */
     snapshot(): Snapshot;
     rewind(snapshot: Snapshot): this;
+    /** Keeps the frames that `History.step` computes, with snapshots of at most `bytes` bytes (default: 64 MiB). */
+    history(bytes?: number): History;
     close(): void;
 }
 
@@ -305,6 +307,16 @@ export interface Picture {
     screen?: boolean;
     /** Set by `render`: true if the browser has lost the WebGL context. */
     lost?: boolean;
+}
+
+export interface History {
+    /** Starts again at the current frame. */
+    start(): unknown;
+    /** Like `Session.step`. Steps from a past frame repeat the changes of parameters and of the script. */
+    step(): unknown;
+    /** Goes to a frame before `frame`, from which few steps lead to it. Returns false if there is none. */
+    rewind(frame: number): boolean;
+    free(): void;
 }
 
 export interface Snapshot {

@@ -487,6 +487,11 @@ export class Session {
         return this.check('restore the snapshot', wasm => wasm.petri_rewind(this.handle, snapshot.at));
     }
 
+    // Returns a history, which keeps the frames that its `step` computes, to go back to them.
+    history(bytes = 0) {
+        return new History(this, bytes);
+    }
+
     report(diagnostic) {
         this.reported.push(diagnostic);
         this.onDiagnostic?.(diagnostic);
@@ -526,6 +531,40 @@ class Snapshot {
     free() {
         if (this.at)
             this.session.run(wasm => wasm.petri_snapshot_free(this.at));
+        this.at = 0;
+    }
+}
+
+// A timeline of frames (petri_history_new). It must be freed before the session is closed.
+class History {
+    constructor(session, bytes) {
+        this.session = session;
+        this.at = session.run(wasm => wasm.petri_history_new(session.handle, bytes));
+        if (!this.at)
+            throw new PetriError('memory', session.reported, 'keep the history');
+    }
+
+    // Starts again at the current frame.
+    start() {
+        return this.session.check('keep the history', wasm => wasm.petri_history_start(this.at, 0));
+    }
+
+    // Like Session.step. Steps from a past frame repeat the changes of parameters and of the script.
+    step() {
+        return this.session.check('compute the frame', wasm => wasm.petri_history_step(this.at));
+    }
+
+    // Goes to a frame before `frame`, from which few steps lead to it. Returns false if there is none. Pictures that depend on earlier
+    // pictures start again.
+    rewind(frame) {
+        this.session.closePainter();
+        this.session.servePainter();
+        return STATUS[this.session.run(wasm => wasm.petri_history_rewind(this.at, BigInt(frame)))] === 'ok';
+    }
+
+    free() {
+        if (this.at)
+            this.session.run(wasm => wasm.petri_history_free(this.at));
         this.at = 0;
     }
 }

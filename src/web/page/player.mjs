@@ -1,9 +1,6 @@
-// player.mjs: runs a script in the worker, with keyframes for going back, and records changes of parameters and of the script.
+// player.mjs: runs a script in the worker, with a history for going back, and records changes of parameters and of the script.
 
-const EVERY = 20; // frames between keyframes, doubled each time when there are too many
-const MAX_KEYFRAMES = 64; // maximum number of keyframes, not counting those after parameter changes
-const MAX_BYTES = 256 << 20;
-const MAX_TIME = 1000; // ms of computing after which a frame becomes a keyframe, so that going back in a slow world takes about a second
+const MAX_BYTES = 256 << 20; // of the history
 export const FIRST_SEEN = 2; // first frame in which particles are at their positions
 
 export class Player {
@@ -14,7 +11,6 @@ export class Player {
         this.options = options;
         this.files = {};
         this.session = null;
-        this.time = 0; // ms of computing since the last keyframe
     }
 
     // Opens a new session for a script, before frame 0. If loading fails, throws the error and keeps the current session.
@@ -36,18 +32,21 @@ export class Player {
 
     replace(options, text, name, changes, load) {
         const session = this.engine.open({ ...this.options, ...options });
+        let history;
         try {
             load(session);
+            history = session.history(MAX_BYTES);
         } catch (error) {
             session.close();
             throw error;
         }
-        this.forget(-2);
+        this.history?.free();
         this.session?.close();
         this.archive?.close();
         Object.assign(this, {
-            session, text, name, keyframes: [], every: EVERY, first: 0, frame: -1, lastFrame: -1, torn: false, lacksHistory: false,
+            session, history, text, name, first: 0, frame: -1, lastFrame: -1, torn: false, lacksHistory: false,
             archive: null, recordedEnd: -1, replays: false, verified: new Set(), differing: new Set(),
+            known: session.frame.number, // last frame of the history, to which steps repeat the changes
         });
         this.setChanges(changes);
     }
@@ -94,17 +93,9 @@ export class Player {
         }
     }
 
-    // Frees the keyframes of all frames after `frame`.
-    forget(frame) {
-        const keep = this.keyframes?.filter(key => key.frame <= frame) ?? [];
-        this.keyframes?.filter(key => key.frame > frame).forEach(key => key.snapshot.free());
-        this.keyframes = keep;
-    }
-
     step() {
-        const start = performance.now();
         this.torn = true; // the session has no valid frame until this step is complete
-        this.session.step();
+        this.history.step();
         this.needsHistory = this.session.renderIfNeeded();
         this.torn = false;
         this.frame++;
@@ -114,15 +105,13 @@ export class Player {
         if (this.replays && this.frame === this.recordedEnd && this.frame < this.archive.info.lastFrame)
             this.endReplay();
         this.watches.see(this);
-        const later = this.changesAt.get(this.frame) ?? [];
+        const later = this.frame >= this.known ? this.changesAt.get(this.frame) ?? [] : [];
+        this.known = Math.max(this.known, this.frame);
         for (const [, name, value] of later)
             if (name === null)
                 this.session.reload(value, this.name);
             else
                 this.session.setParameter(name, value);
-        this.time += performance.now() - start;
-        if (later.length || this.frame % this.every === 0 || this.time > MAX_TIME)
-            this.keep(later.length > 0);
     }
 
     // Called after the WebGL context was restored. The next `seek` to the current frame renders all earlier pictures again if this frame
@@ -132,67 +121,36 @@ export class Player {
         this.lacksHistory = !!this.needsHistory;
     }
 
-    keep(changed) {
-        this.time = 0;
-        const there = this.keyframes.findIndex(key => key.frame === this.frame);
-        if (there >= 0) {
-            if (!changed)
-                return;
-            this.keyframes[there].snapshot.free();
-            this.keyframes.splice(there, 1);
+    // Goes to a frame before `frame`, from which few steps lead to it.
+    back(frame) {
+        const end = this.lastFrame;
+        // If pictures depend on earlier pictures, all of them are rendered again from the first.
+        // After the end of a replay, its frames need their recorded input again, which only the archive can load.
+        if (!this.needsHistory && this.history.rewind(frame) && (this.replays || this.session.frame.number >= this.recordedEnd)) {
+            this.frame = this.session.frame.number;
+        } else if (this.archive) {
+            this.archive.load(this.session, this.needsHistory ? -1 : Math.min(frame, this.recordedEnd) - 1);
+            this.history.start();
+            this.frame = this.known = this.session.frame.number;
+            this.replays = true;
+        } else {
+            this.load(this.text, this.name, this.changes);
         }
-        this.keyframes.push({ frame: this.frame, snapshot: this.session.snapshot(), changed });
-        this.keyframes.sort((a, b) => a.frame - b.frame);
-        this.thin();
+        this.lastFrame = end;
     }
 
-    thin() {
-        const bytes = this.keyframes.reduce((sum, key) => sum + key.snapshot.bytes, 0);
-        const changed = this.keyframes.filter(key => key.changed);
-        // If there are too many keyframes after changes, treats them like the others. They save work but are not needed, because stepping
-        // from an earlier keyframe repeats the changes.
-        if (changed.length > MAX_KEYFRAMES || (changed.length > 0 && bytes > MAX_BYTES))
-            changed.forEach(key => { key.changed = false; });
-        const usual = this.keyframes.filter(key => !key.changed);
-        if (usual.length < 2 || (usual.length <= MAX_KEYFRAMES && bytes <= MAX_BYTES))
-            return;
-        this.every *= 2;
-        const dropped = usual.filter(key => key.frame % this.every !== 0);
-        dropped.forEach(key => key.snapshot.free());
-        this.keyframes = this.keyframes.filter(key => !dropped.includes(key));
-    }
-
-    // Goes to a frame. To go back, restores the last keyframe before the frame and steps from there, so that the frame's tree is computed.
-    // Takes at most `max` steps, and ends after a step if `ends` returns true. Returns false if the frame is not reached yet.
+    // Goes to a frame. To go back, steps from an earlier frame, so that the frame's tree is computed. Takes at most `max` steps, and ends
+    // after a step if `ends` returns true. Returns false if the frame is not reached yet.
     seek(wanted, max = Infinity, ends = () => false) {
         const frame = Math.max(wanted, this.first);
-        if (frame < this.frame || (frame === this.frame && (this.torn || this.lacksHistory))) {
-            // If pictures depend on earlier pictures, all of them are rendered again from the first.
-            // After the end of a replay, its frames need their recorded input again, which only the archive can load.
-            const usable = key => key.frame < frame && (this.replays || key.frame >= this.recordedEnd);
-            const key = this.needsHistory ? null : this.keyframes.findLast(usable);
-            const end = this.lastFrame;
-            if (key) {
-                this.session.rewind(key.snapshot);
-                this.frame = key.frame;
-            } else if (this.archive) {
-                this.archive.load(this.session, this.needsHistory ? -1 : Math.min(frame, this.recordedEnd) - 1);
-                this.frame = this.session.frame.number;
-                this.replays = true;
-            } else {
-                const { text, name, changes, keyframes } = this;
-                this.keyframes = [];
-                this.load(text, name, changes);
-                keyframes.forEach(old => old.snapshot.free());
-            }
-            this.lastFrame = end;
-        }
+        if (frame < this.frame || (frame === this.frame && (this.torn || this.lacksHistory)))
+            this.back(frame);
         for (let i = 0; this.frame < frame && i < max && !ends(); i++)
             this.step();
         return this.frame >= frame;
     }
 
-    // Changes a parameter for the next and all later frames. Frees later keyframes.
+    // Changes a parameter for the next and all later frames. Forgets the later frames.
     set(name, value) {
         if (this.archive)
             this.cutReplay();
@@ -210,11 +168,8 @@ export class Player {
             this.seek(at);
             return;
         }
-        const key = again && this.keyframes.find(({ frame }) => frame === at - 1);
-        if (key) {
-            this.session.rewind(key.snapshot);
-            this.frame = at - 1;
-        } else if (again) {
+        if (again) {
+            this.back(at);
             this.seek(at - 1);
         }
         try {
@@ -230,10 +185,7 @@ export class Player {
     record(name, value) {
         const before = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));
         this.setChanges([...before, [this.frame, name, value]]);
-        this.forget(this.frame);
-        this.lastFrame = this.frame;
+        this.lastFrame = this.known = this.frame;
         this.watches.forget(this.frame);
-        if (this.frame >= 0)
-            this.keep(true);
     }
 }
