@@ -10,24 +10,35 @@ bool sweep_owns_run(const Sweep *sweep, size_t run) {
     return run % sweep->shards == sweep->shard;
 }
 
+bool sweep_has_result(const Sweep *sweep, size_t run) {
+    return sweep->results[run].rows.bytes;
+}
+
 bool sweep_wants_run(const Sweep *sweep, size_t run) {
-    return sweep_owns_run(sweep, run) && !sweep->results[run].rows.bytes;
+    return sweep_owns_run(sweep, run) && !sweep_has_result(sweep, run);
 }
 
 void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, Str rows) {
     Result *result = &sweep->results[run];
-    if (!result->rows.bytes) {
+    if (!sweep_has_result(sweep, run)) {
         result->rows = (Str){memory_strndup(rows.bytes, rows.len), rows.len};
         result->frames = frames;
     }
 }
 
 // A run has failed if its last row has an error, which is the last cell.
-bool sweep_is_failed(const Result *result) {
+bool sweep_is_failed(const Sweep *sweep, size_t run) {
     Cell cell = {CELL_NONE};
-    for (Str rows = result->rows; cell_next(&rows, &cell);) {
+    for (Str rows = sweep->results[run].rows; cell_next(&rows, &cell);) {
     }
     return cell.kind == CELL_TEXT;
+}
+
+size_t sweep_count_runs(const Sweep *sweep, bool (*has)(const Sweep *sweep, size_t run)) {
+    size_t count = 0;
+    for (size_t run = 0; run < sweep->design.run_count; run++)
+        count += has(sweep, run);
+    return count;
 }
 
 void sweep_report(void *context, PetriLevel level, const char *rendered) {

@@ -65,13 +65,6 @@ static int dry_run(Sweep *sweep) {
     return status;
 }
 
-static size_t count_done(const Sweep *sweep, bool ours) {
-    size_t count = 0;
-    for (size_t run = 0; run < sweep->design.run_count; run++)
-        count += sweep->results[run].rows.bytes && (!ours || sweep_owns_run(sweep, run));
-    return count;
-}
-
 static void print_cache_report(const Sweep *sweep) {
     size_t verified = sweep->origins[RESULT_VERIFIED], differs = sweep->origins[RESULT_DIFFERS];
     if (differs > 0)
@@ -82,9 +75,7 @@ static void print_cache_report(const Sweep *sweep) {
 }
 
 static void print_report(const Sweep *sweep, double seconds, size_t executed) {
-    size_t failed = 0, runs = sweep->design.run_count;
-    for (size_t run = 0; run < runs; run++)
-        failed += sweep_is_failed(&sweep->results[run]);
+    size_t failed = sweep_count_runs(sweep, sweep_is_failed), runs = sweep->design.run_count;
     if (failed > 0)
         message("%zu of %zu runs failed; see the column 'error'", failed, runs);
     if (sweep->options->verbosity > LOG_QUIET && sweep->options->output) {
@@ -129,10 +120,10 @@ static bool write_all(const Sweep *sweep) {
 
 // Writes the table if all runs of all shards are done. The shard that finishes last therefore writes the table.
 static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t executed) {
-    size_t done = count_done(sweep, false);
+    size_t done = sweep_count_runs(sweep, sweep_has_result);
     if (done < sweep->design.run_count && journal->path) {
         journal_merge(journal, sweep);
-        done = count_done(sweep, false);
+        done = sweep_count_runs(sweep, sweep_has_result);
     }
     if (done < sweep->design.run_count) {
         message("%zu of %zu runs are done; the last shard to finish writes %s", done, sweep->design.run_count,
@@ -156,12 +147,13 @@ static int64_t jobs_of(const Sweep *sweep) {
 
 static int make_runs(Sweep *sweep, Journal *journal) {
     double start = clock_seconds();
-    size_t before = count_done(sweep, true);
+    size_t wanted = sweep_count_runs(sweep, sweep_wants_run);
+    size_t before = sweep_count_runs(sweep, sweep_owns_run) - wanted;
     if (before > 0 && sweep->options->verbosity > LOG_QUIET)
         message("%zu runs are already done", before);
     int status = worker_pool_run(sweep, journal, jobs_of(sweep));
     if (status == STATUS_DONE)
-        status = finish_sweep(sweep, journal, start, count_done(sweep, true) - before);
+        status = finish_sweep(sweep, journal, start, wanted - sweep_count_runs(sweep, sweep_wants_run));
     if (status > STATUS_SIGNAL) {
         message(!journal->path ? "stopped; to keep finished runs, use -o FILE.csv"
                                : "stopped; run the same command to resume");

@@ -90,13 +90,16 @@ void axis_add_literal(Text *out, const char *value);
 // Creates the design and reads the metrics and all other options of a sweep. Returns false after a message.
 bool sweep_read_options(Sweep *sweep, const Command *command);
 
-// Returns true if the run belongs to the shard of this process.
+// Properties of a run: it belongs to the shard of this process; it has a result; it belongs to the shard and has none;
+// it has failed.
 bool sweep_owns_run(const Sweep *sweep, size_t run);
-// Returns true if it also has no result.
+bool sweep_has_result(const Sweep *sweep, size_t run);
 bool sweep_wants_run(const Sweep *sweep, size_t run);
+bool sweep_is_failed(const Sweep *sweep, size_t run);
+// Returns the number of runs with a property.
+size_t sweep_count_runs(const Sweep *sweep, bool (*has)(const Sweep *sweep, size_t run));
 // Stores the result of a run and copies `rows`. Does nothing if the run already has a result.
 void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, Str rows);
-bool sweep_is_failed(const Result *result);
 // Shows a diagnostic, unless it was shown before or --quiet hides it. `sweep` points to the Sweep. For measure_open.
 void sweep_report(void *sweep, PetriLevel level, const char *rendered);
 

@@ -111,7 +111,6 @@ void table_commands(const Sweep *sweep, Text *out) {
         text_add(out, text_str(&head));
         add_definitions(design, run, out);
         // `frames` does not count the frame in which a run failed, but the command must compute it as well.
-        const Result *result = &sweep->results[run];
-        text_add_format(out, " --frames %" PRId64 "\n", result->frames + sweep_is_failed(result));
+        text_add_format(out, " --frames %" PRId64 "\n", sweep->results[run].frames + sweep_is_failed(sweep, run));
     }
 }

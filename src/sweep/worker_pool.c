@@ -84,6 +84,10 @@ static void become_worker(const WorkerPool *pool, int requests, int results, pid
 
 // --- in the parent
 
+bool worker_pool_is_remote(const Sweep *sweep) {
+    return sweep->host->channel && sweep->host->channel->rank > 0;
+}
+
 static bool start_worker(WorkerPool *pool, PoolWorker *worker) {
     int requests[2] = {-1, -1}, results[2] = {-1, -1};
     pid_t parent = getpid();
@@ -108,15 +112,11 @@ static bool start_worker(WorkerPool *pool, PoolWorker *worker) {
     return worker->pid > 0;
 }
 
-static bool is_remote(const WorkerPool *pool) {
-    return pool->channel && pool->channel->rank > 0;
-}
-
 // Returns the next run to assign, or -1.
 static int64_t next_run(WorkerPool *pool) {
     if (pool->returned_count > 0)
         return pool->returned[--pool->returned_count];
-    for (; !is_remote(pool) && pool->next < pool->sweep->design.run_count; pool->next++)
+    for (; !worker_pool_is_remote(pool->sweep) && pool->next < pool->sweep->design.run_count; pool->next++)
         if (sweep_wants_run(pool->sweep, pool->next))
             return (int64_t)pool->next++;
     return -1;
@@ -140,7 +140,7 @@ static void assign_runs(WorkerPool *pool) {
 // Stores a result, or sends it to rank 0. Returns false after a message.
 static bool store_result(WorkerPool *pool, const ResultPacket *result) {
     pool->done++;
-    if (is_remote(pool)) {
+    if (worker_pool_is_remote(pool->sweep)) {
         pool->channel->send(0, result, result_size(result));
         return true;
     }
@@ -171,7 +171,7 @@ static bool receive_messages(WorkerPool *pool) {
     SCOPED_TEXT packet = {0};
     bool good = true;
     for (int from = 0; good && pool->channel && pool->channel->receive(&from, &packet); packet.len = 0) {
-        if (is_remote(pool)) {
+        if (worker_pool_is_remote(pool->sweep)) {
             int64_t run;
             memcpy(&run, packet.bytes, sizeof run);
             pool->ended = pool->ended || run == END_OF_RUNS;
@@ -238,7 +238,7 @@ static bool poll_workers(WorkerPool *pool) {
 
 // On ranks other than 0, requests as many runs from rank 0 as the workers can hold.
 static void request_runs(const WorkerPool *pool) {
-    for (int64_t i = 0; is_remote(pool) && i < pool->jobs * RUNS_PER_WORKER; i++)
+    for (int64_t i = 0; worker_pool_is_remote(pool->sweep) && i < pool->jobs * RUNS_PER_WORKER; i++)
         pool->channel->send(0, "", 1);
 }
 
@@ -246,13 +246,6 @@ static void request_runs(const WorkerPool *pool) {
 static void announce_end(const WorkerPool *pool) {
     for (int rank = 1; pool->channel && pool->channel->rank == 0 && rank < pool->channel->count; rank++)
         pool->channel->send(rank, &END_OF_RUNS, sizeof END_OF_RUNS);
-}
-
-static int64_t count_wanted(const Sweep *sweep) {
-    int64_t count = 0;
-    for (size_t run = 0; run < sweep->design.run_count; run++)
-        count += sweep_wants_run(sweep, run);
-    return count;
 }
 
 static void stop_workers(WorkerPool *pool) {
@@ -268,17 +261,13 @@ static void stop_workers(WorkerPool *pool) {
 }
 
 static bool has_work(const WorkerPool *pool) {
-    return is_remote(pool) ? !pool->ended : pool->done < pool->wanted;
-}
-
-bool worker_pool_is_remote(const Sweep *sweep) {
-    return sweep->host->channel && sweep->host->channel->rank > 0;
+    return worker_pool_is_remote(pool->sweep) ? !pool->ended : pool->done < pool->wanted;
 }
 
 int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs) {
-    WorkerPool pool = {
-        .sweep = sweep, .journal = journal, .wanted = count_wanted(sweep), .channel = sweep->host->channel};
-    pool.jobs = jobs < pool.wanted || is_remote(&pool) ? jobs : pool.wanted;
+    WorkerPool pool = {.sweep = sweep, .journal = journal, .channel = sweep->host->channel};
+    pool.wanted = (int64_t)sweep_count_runs(sweep, sweep_wants_run);
+    pool.jobs = jobs < pool.wanted || worker_pool_is_remote(sweep) ? jobs : pool.wanted;
     pool.workers = memory_calloc((size_t)pool.jobs * sizeof *pool.workers);
     pool.returned = memory_calloc((size_t)pool.jobs * (2 * RUNS_PER_WORKER + 1) * sizeof *pool.returned);
     worker_catch_signals();

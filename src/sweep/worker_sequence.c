@@ -84,8 +84,7 @@ int worker_pool_run(Sweep *sweep, Journal *journal, int64_t jobs) {
     if (worker_pool_is_remote(sweep))
         return help(sweep);
     Sequence sequence = {.sweep = sweep, .journal = journal};
-    for (size_t run = 0; run < sweep->design.run_count; run++)
-        sequence.wanted += sweep_wants_run(sweep, run);
+    sequence.wanted = (int64_t)sweep_count_runs(sweep, sweep_wants_run);
     worker_catch_signals();
     progress_start(&sequence.progress, sweep->options->verbosity > LOG_QUIET && progress_possible(), sequence.wanted);
     sequence.progress.things = "runs";

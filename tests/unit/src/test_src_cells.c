@@ -80,6 +80,13 @@ static void add_rows(const Sweep *sweep, Text *rows) {
 static Metric metrics[] = {{.name = "a", .expression = "1"}, {.name = "energy"}};
 static const Sweep two_metrics = {.metrics = metrics, .metric_count = COUNT_OF(metrics)};
 
+// Returns a sweep whose only run has these rows. It is valid until the next call.
+static Sweep with_result(Str rows) {
+    static Result result;
+    result.rows = rows;
+    return (Sweep){.metrics = metrics, .metric_count = COUNT_OF(metrics), .results = &result, .design.run_count = 1};
+}
+
 static void test_only_whole_rows_are_valid(void **state) {
     (void)state;
     SCOPED_TEXT rows = {0};
@@ -93,11 +100,11 @@ static void test_only_whole_rows_are_valid(void **state) {
     for (size_t at = 0; at < rows.len; at++) {
         SCOPED_STRING part = memory_strndup(rows.bytes, rows.len);
         part[at] = 4; // no kind of cell
-        Result result = {.rows = {part, rows.len}};
+        Sweep sweep = with_result((Str){part, rows.len});
         Row row;
-        rows_are_valid(&two_metrics, result.rows);
-        sweep_is_failed(&result);
-        for (Str rest = result.rows; row_next(&two_metrics, &rest, 0, &row);) {
+        rows_are_valid(&sweep, sweep.results->rows);
+        sweep_is_failed(&sweep, 0);
+        for (Str rest = sweep.results->rows; row_next(&two_metrics, &rest, 0, &row);) {
         }
     }
     rows.bytes[0] = CELL_NUMBER;
@@ -121,10 +128,10 @@ static void test_rows_have_the_numbers_of_metrics(void **state) {
         assert_true(row.frame == 4 && isnan(row.x)); // the row has an error
         assert_false(row_next(&two_metrics, &rest, cases[i].metric, &row));
     }
-    Result result = {.rows = text_str(&rows)};
-    assert_true(sweep_is_failed(&result));
-    result.rows = (Str){"", 0};
-    assert_false(sweep_is_failed(&result));
+    Sweep failed = with_result(text_str(&rows));
+    assert_true(sweep_is_failed(&failed, 0));
+    Sweep empty = with_result((Str){"", 0});
+    assert_false(sweep_is_failed(&empty, 0));
 }
 
 // An expression is written like the language writes it, a quantity with 17 digits.
