@@ -63,7 +63,8 @@ static void add_value(Axis *axis, const char *value) {
     texts_add(&axis->values, value);
 }
 
-// Adds the values of a range, rounded to twelve digits, so that 0..1|0.1 contains 0.3, not 0.30000000000000004.
+// Adds the values of a range, rounded to twelve digits, so that 0..1|0.1 contains 0.3, not 0.30000000000000004. Whole
+// numbers with more digits are not rounded.
 static bool add_range(Axis *axis, const Range *range) {
     double step = range->step > 0 ? range->step : 1;
     double count = floor((range->max - range->min) / step + 1e-9) + 1;
@@ -76,7 +77,10 @@ static bool add_range(Axis *axis, const Range *range) {
     }
     for (int i = 0; i < (int)count; i++) {
         char value[32];
-        snprintf(value, sizeof value, "%.12g", range->min + i * step);
+        double x = range->min + i * step;
+        snprintf(value, sizeof value, "%.12g", x);
+        if (x == floor(x) && fabs(x) < 1e18 && strtod(value, NULL) != x)
+            snprintf(value, sizeof value, "%.0f", x);
         add_value(axis, value);
     }
     return true;

@@ -32,6 +32,10 @@ static void test_axis_lists_and_ranges(void **state) {
     assert_string_equal(axis_values("N=2..2"), "2");
     assert_string_equal(axis_values("N=0..0.5|0.1"), "0 0.1 0.2 0.3 0.4 0.5"); // not 0.30000000000000004
     assert_string_equal(axis_values("N=0..1|0.4"), "0 0.4 0.8");
+    assert_string_equal(axis_values("N=0.1..0.7|0.3"), "0.1 0.4 0.7");
+    assert_string_equal(axis_values("N=1000000000001..1000000000003"), "1000000000001 1000000000002 1000000000003");
+    assert_string_equal(axis_values("N=9007199254740990..9007199254740992|2"), "9007199254740990 9007199254740992");
+    assert_string_equal(axis_values("N=1e12..3e12|1e12"), "1e+12 2e+12 3e+12");
     assert_string_equal(axis_values("N=7;1..3;red"), "7 1 2 3 red");
     assert_string_equal(axis_values("N=(1;2);(3;4)"), "1;2 3;4");
     assert_string_equal(axis_values("N=a..b"), "a..b"); // text, because it does not begin with a number
