@@ -212,7 +212,7 @@ static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
         text_add_format(&error, "the process ended with status %d", WEXITSTATUS(status));
     row_add_failure(pool->sweep, 0, error.bytes, &row);
     ResultPacket head = {.run = worker->assigned[0]};
-    return !result || store_result(pool, result_pack(head, text_str(&row), (Str){0}, &packet));
+    return !result || store_result(pool, result_pack(&head, text_str(&row), (Str){0}, &packet));
 }
 
 // Waits for results and messages and handles them. Returns false, after a message, if the sweep cannot continue.

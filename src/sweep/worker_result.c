@@ -13,11 +13,12 @@ void result_add_diagnostic(void *context, PetriLevel level, const char *rendered
     }
 }
 
-const ResultPacket *result_pack(ResultPacket head, Str rows, Str diagnostics, Text *bytes) {
-    head.rows = rows.len;
-    head.diagnostics = diagnostics.len;
+const ResultPacket *result_pack(const ResultPacket *head, Str rows, Str diagnostics, Text *bytes) {
+    ResultPacket whole = *head;
+    whole.rows = rows.len;
+    whole.diagnostics = diagnostics.len;
     bytes->len = 0;
-    text_add(bytes, (Str){(const char *)&head, sizeof head});
+    text_add(bytes, (Str){(const char *)&whole, sizeof whole});
     text_add(bytes, rows);
     text_add(bytes, diagnostics);
     return (const ResultPacket *)(const void *)bytes->bytes;
@@ -30,7 +31,7 @@ size_t result_size(const ResultPacket *packet) {
 const ResultPacket *result_execute(Measure *measure, int64_t run, Text *diagnostics, Text *bytes) {
     diagnostics->len = 0;
     measure_run(measure, (size_t)run);
-    return result_pack((ResultPacket){.run = run, .frames = measure->result.frames, .origin = measure->origin},
+    return result_pack(&(ResultPacket){.run = run, .frames = measure->result.frames, .origin = measure->origin},
                        text_str(&measure->result.rows), text_str(diagnostics), bytes);
 }
 

@@ -19,8 +19,9 @@ typedef struct ResultPacket {
 // For measure_open: adds a diagnostic to the Text `context`: a letter for the level, the text, NUL. Ignores diagnostics
 // after 64 KiB.
 void result_add_diagnostic(void *context, PetriLevel level, const char *rendered);
-// Replaces the bytes of `bytes` by a ResultPacket, and returns it. It is valid until `bytes` changes.
-const ResultPacket *result_pack(ResultPacket head, Str rows, Str diagnostics, Text *bytes);
+// Replaces the bytes of `bytes` by a ResultPacket, whose run, frames and origin are those of `head`, and returns it. It
+// is valid until `bytes` changes.
+const ResultPacket *result_pack(const ResultPacket *head, Str rows, Str diagnostics, Text *bytes);
 size_t result_size(const ResultPacket *packet); // in bytes
 // Executes a run and returns its result like result_pack. `diagnostics` is the context of measure_open.
 const ResultPacket *result_execute(Measure *measure, int64_t run, Text *diagnostics, Text *bytes);
