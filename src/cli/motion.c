@@ -146,7 +146,7 @@ static void add_cell(Text *cells, const double *values, uint32_t count) {
     SCOPED_TEXT text = {0};
     for (uint32_t k = 0; count > 1 && k < count; k++)
         text_add_format(&text, "%s%.17g", k == 0 ? "" : ";", values[k]);
-    cell_add(cells, count == 0   ? (Cell){CELL_NONE}
+    cell_add(cells, count == 0   ? (Cell){.kind = CELL_NONE}
                     : count == 1 ? (Cell){CELL_NUMBER, {.number = values[0]}}
                                  : (Cell){CELL_TEXT, {.text = text.bytes}});
 }

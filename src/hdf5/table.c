@@ -58,7 +58,7 @@ static void choose_type(Table *table, size_t number) {
 // Reads the data of hdf5_table.
 static Table read_table(Str data) {
     Table table = {0};
-    Cell cell = {CELL_NONE};
+    Cell cell = {.kind = CELL_NONE};
     cell_next(&data, &cell);
     table.width = (size_t)cell.as.integer;
     cell_next(&data, &cell);

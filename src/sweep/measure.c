@@ -126,7 +126,7 @@ static PetriStatus add_value(Measure *measure, const char *expression) {
                                                               : !petri_symbol_name(measure->session, result.number));
     cell_add(&measure->result.rows, number ? (Cell){CELL_NUMBER, {.number = isnan(result.number) ? NAN : result.number}}
                                     : result.length > 0 ? (Cell){CELL_TEXT, {.text = value.bytes}}
-                                                        : (Cell){CELL_NONE});
+                                                        : (Cell){.kind = CELL_NONE});
     return PETRI_OK;
 }
 
@@ -146,7 +146,7 @@ static PetriStatus add_row(Measure *measure) {
     cell_add(&measure->result.rows, (Cell){CELL_INTEGER, {.integer = frame_number(measure)}});
     for (size_t i = 0; status == PETRI_OK && i < measure->sweep->metric_count; i++)
         status = add_metric(measure, &measure->sweep->metrics[i]);
-    cell_add(&measure->result.rows, (Cell){CELL_NONE}); // no error
+    cell_add(&measure->result.rows, (Cell){.kind = CELL_NONE}); // no error
     measure->result.rows.len = status == PETRI_OK ? measure->result.rows.len : before;
     return status;
 }

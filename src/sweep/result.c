@@ -28,7 +28,7 @@ void sweep_store_result(Sweep *sweep, size_t run, int64_t frames, Str rows) {
 
 // A run has failed if its last row has an error, which is the last cell.
 bool sweep_is_failed(const Sweep *sweep, size_t run) {
-    Cell cell = {CELL_NONE};
+    Cell cell = {.kind = CELL_NONE};
     for (Str rows = sweep->results[run].rows; cell_next(&rows, &cell);) {
     }
     return cell.kind == CELL_TEXT;
@@ -67,7 +67,7 @@ bool row_next(const Sweep *sweep, Str *rows, size_t metric, Row *row) {
 void row_add_failure(const Sweep *sweep, int64_t frame, const char *error, Text *rows) {
     cell_add(rows, (Cell){CELL_INTEGER, {.integer = frame}});
     for (size_t i = 0; i < sweep->metric_count; i++)
-        cell_add(rows, (Cell){CELL_NONE});
+        cell_add(rows, (Cell){.kind = CELL_NONE});
     cell_add(rows, (Cell){CELL_TEXT, {.text = error}});
 }
 

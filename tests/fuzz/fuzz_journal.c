@@ -41,7 +41,7 @@ static void print_results(Sweep *sweep) {
     cell_add(&rows, (Cell){CELL_INTEGER, {.integer = 3}});
     cell_add(&rows, (Cell){CELL_NUMBER, {.number = 1}});
     cell_add(&rows, (Cell){CELL_TEXT, {.text = "2;3"}});
-    cell_add(&rows, (Cell){CELL_NONE});
+    cell_add(&rows, (Cell){.kind = CELL_NONE});
     for (size_t run = 0; run < RUNS; run++) {
         sweep_store_result(sweep, run, 3, text_str(&rows));
         fuzz_sink(NULL, "", sweep_is_failed(sweep, run));

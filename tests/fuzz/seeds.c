@@ -289,8 +289,8 @@ static void write_results(void) {
         text_add_format(&text, run == 1 ? "\x01\x03" : "\x1e\x02\x05");
         cell_add(&text, (Cell){CELL_INTEGER, {.integer = run}});
         cell_add(&text, (Cell){CELL_NUMBER, {.number = 1.5}});
-        cell_add(&text, run == 1 ? (Cell){CELL_NONE} : (Cell){CELL_TEXT, {.text = "1;2"}});
-        cell_add(&text, run == 1 ? (Cell){CELL_NONE} : (Cell){CELL_TEXT, {.text = "an error"}});
+        cell_add(&text, run == 1 ? (Cell){.kind = CELL_NONE} : (Cell){CELL_TEXT, {.text = "1;2"}});
+        cell_add(&text, run == 1 ? (Cell){.kind = CELL_NONE} : (Cell){CELL_TEXT, {.text = "an error"}});
     }
     write_seed("journal", "results", text.bytes, text.len);
 }

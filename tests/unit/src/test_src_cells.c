@@ -72,8 +72,8 @@ static void test_texts_are_one_line(void **state) {
 static void add_rows(const Sweep *sweep, Text *rows) {
     cell_add(rows, (Cell){CELL_INTEGER, {.integer = 3}});
     cell_add(rows, (Cell){CELL_NUMBER, {.number = 0.5}});
-    cell_add(rows, (Cell){CELL_NONE});
-    cell_add(rows, (Cell){CELL_NONE});
+    cell_add(rows, (Cell){.kind = CELL_NONE});
+    cell_add(rows, (Cell){.kind = CELL_NONE});
     row_add_failure(sweep, 4, "crashed", rows);
 }
 
