@@ -1,5 +1,5 @@
-// context.c: EGL contexts; see internal.h.
-#include "gl/internal.h"
+// context.c: EGL contexts; see context.h.
+#include "gl/context.h"
 
 #include <dlfcn.h>
 #include <epoxy/egl.h>

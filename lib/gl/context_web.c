@@ -1,6 +1,6 @@
 // context_web.c: the WebGL 2 context of a page, which has one thread and shares the context between all painters; see
-// internal.h.
-#include "gl/internal.h"
+// context.h.
+#include "gl/context.h"
 
 #define HOST(name) __attribute__((import_module("petri"), import_name(#name)))
 

@@ -3,8 +3,8 @@
 // and a function `main`.
 #include "gl/effect.h"
 
+#include "gl/context.h"
 #include "gl/input_composite.h"
-#include "gl/internal.h"
 #include "gl/shader.h"
 #include "gl/shader_sources.h"
 

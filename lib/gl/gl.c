@@ -1,6 +1,6 @@
 // gl.c: opens and closes a Gl, and tries out programs; see gl.h.
 #include "base/heap.h"
-#include "gl/internal.h"
+#include "gl/context.h"
 
 #include <math.h>
 #include <stdio.h>

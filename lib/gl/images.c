@@ -1,6 +1,6 @@
 // images.c: pictures on the GPU; see gl.h.
 #include "base/heap.h"
-#include "gl/internal.h"
+#include "gl/context.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // input_composite.c: see input_composite.h.
 #include "gl/input_composite.h"
 
-#include "gl/internal.h"
+#include "gl/context.h"
 
 GlEdge gl_edge(const DrawNode *node, GlEdge default_edge) {
     const AttrValue *repeat = draw_attr(node, ATTR_REPEAT);

@@ -1,5 +1,5 @@
 // passes.c: runs the passes of effects and custom shaders; see shader.h.
-#include "gl/internal.h"
+#include "gl/context.h"
 #include "gl/shader.h"
 #include "gl/uniforms.h"
 

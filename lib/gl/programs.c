@@ -1,7 +1,7 @@
 // programs.c: compiles shader programs and caches them by their source.
 #include "base/clock.h"
 #include "base/heap.h"
-#include "gl/internal.h"
+#include "gl/context.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 // shader.c: see shader.h.
 #include "gl/shader.h"
 
+#include "gl/context.h"
 #include "gl/input_composite.h"
-#include "gl/internal.h"
 
 #include <math.h>
 

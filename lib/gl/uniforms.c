@@ -1,7 +1,7 @@
 // uniforms.c: see uniforms.h.
 #include "gl/uniforms.h"
 
-#include "gl/internal.h"
+#include "gl/context.h"
 #include "maths/maths.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // window.c: draws pictures on the window of an adopted context, without downloading them; see gl.h.
-#include "gl/internal.h"
+#include "gl/context.h"
 #include "gl/shader_sources.h"
 
 static const uint32_t ONE = 1;

@@ -260,7 +260,7 @@ PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
 // overlay, darken, lighten, color_dodge, color_burn, hard_light, soft_light, difference, exclusion, hue, saturation,
 // color and luminosity.
 //
-// lib/draw/display_list_rows.awk reads these lists. It generates the code that writes and reads display lists.
+// lib/picture/display_list_rows.awk reads these lists. It generates the code that writes and reads display lists.
 enum {
     PETRI_DRAW_MATRIX, // sets the matrix that maps coordinates of the following commands to the picture: matrix
     PETRI_DRAW_COLOR,  // paint: colour

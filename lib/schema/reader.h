@@ -107,7 +107,7 @@ void schema_defaults(NodeKind kind, void *record) PRIVATE_API(schema_defaults);
 // the default. Vectors are borrowed from the node or allocated from the reader's arena.
 void reader_fill(const Reader *reader, void *record);
 
-// A function that is an attribute, and its results. Functions exist only as long as the frame, so lib/draw calls the
+// A function that is an attribute, and its results. Functions exist only as long as the frame, so lib/picture calls the
 // function before the drawing leaves the session's thread.
 typedef struct FunctionSamples {
     const Function *function; // valid as long as the frame

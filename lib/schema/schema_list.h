@@ -8,12 +8,12 @@
 //     which nodes are allowed in it (PlaceKind).
 // FORCE(ID, "kind", "help", "formula"): a NODE for the force with the same ID in force_list.h. The formula has the same
 //     lines as in lib/physics/README.md; tests/docs/formulas.sh compares them.
-// SHAPE(ID, name, "help"): a NODE for a drawing that adds to a path. lib/draw has a function add_NAME.
-// COMMAND(ID, name, "help"): a NODE for another drawing without children. lib/draw has a function add_NAME.
-// SOURCE(ID, name, CHILDREN, "help"): a NODE for a paint source. lib/draw has a function make_NAME.
+// SHAPE(ID, name, "help"): a NODE for a drawing that adds to a path. lib/picture has a function add_NAME.
+// COMMAND(ID, name, "help"): a NODE for another drawing without children. lib/picture has a function add_NAME.
+// SOURCE(ID, name, CHILDREN, "help"): a NODE for a paint source. lib/picture has a function make_NAME.
 // FILTER(ID, name, reader, CHILDREN, inputs, "help"): a NODE FILTER_ID for a filter. Its children are at most 1 filter,
-//     or exactly 2. lib/draw has functions apply_NAME and read_READER. petri-draw.h has a row PETRI_FILTER_ID.
-// EFFECT(ID, name, "help"): a NODE for a path effect. lib/draw has functions read_NAME and apply_NAME.
+//     or exactly 2. lib/picture has functions apply_NAME and read_READER. petri-draw.h has a row PETRI_FILTER_ID.
+// EFFECT(ID, name, "help"): a NODE for a path effect. lib/picture has functions read_NAME and apply_NAME.
 // PICTURE_EFFECT(ID, name, scalable, "help"): a NODE for an effect on pictures, with a shader of this name and a row
 //     effect_NAME in lib/gl. `scalable` is true if a result of lower resolution looks similar.
 // ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). In scripts, NAME is written in lower case: attr_names.awk

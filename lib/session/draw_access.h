@@ -1,4 +1,4 @@
-// draw_access.h: the internal interface through which lib/draw reads the last frame.
+// draw_access.h: the internal interface through which lib/picture reads the last frame.
 #pragma once
 
 #include "base/private_api.h"
@@ -49,7 +49,7 @@ bool session_has_source(const PetriSession *session, const Diag *fault) PRIVATE_
 // Adds the work of drawing to the result of petri_work.
 void session_add_work(PetriSession *session, uint64_t work) PRIVATE_API(session_add_work);
 
-// Returns memory for lib/draw that lives as long as the session and is zeroed before frame 0. All calls must pass the
+// Returns memory for lib/picture that lives as long as the session and is zeroed before frame 0. All calls must pass the
 // same size. Called within a protected call.
 void *session_draw_memory(PetriSession *session, size_t size) PRIVATE_API(session_draw_memory);
 

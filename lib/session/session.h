@@ -96,7 +96,7 @@ struct PetriSession {
     NoiseCache *noise;
     Ranks ranks; // must outlive `scene`
     Schema schema;
-    void *draw_memory; // data of lib/draw (session_draw_memory); NULL: none yet
+    void *draw_memory; // data of lib/picture (session_draw_memory); NULL: none yet
     size_t draw_memory_size;
     Vm vm;
     Vm static_vm;                  // folds constant expressions at load time

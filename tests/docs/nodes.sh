@@ -116,7 +116,7 @@ compare() { # AREA ROOT DOCUMENT [ANOTHER]
 }
 compare physics "$2" lib/physics/README.md
 compare canvas "$2" lib/canvas/README.md lib/gl/README.md
-compare canvas3d "$2" lib/gl/SCENE.md
+compare canvas3d "$2" lib/scene3d/SCENE.md
 
 # Excerpts "```flitter NAME.png" must be consecutive lines of tests/pictures/NAME.fl.
 awk -v work="$work" '
@@ -145,7 +145,7 @@ for excerpt in "$work"/*.excerpt; do
 done
 
 # Files that the references link to must exist.
-for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md; do
+for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/scene3d/SCENE.md; do
     folder=$2/$(dirname "$document")
     for target in $(grep -o '](\([^)#]*\)' "$2/$document" | sed 's/^](//' | sort -u); do
         checked=$((checked + 1))
@@ -156,7 +156,7 @@ for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/
     done
 done
 # Headings that the references link to must exist.
-for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md; do
+for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/scene3d/SCENE.md; do
     awk -v document="$document" "$slug"'
         /^```/ { code = !code }
         !code && /^#+ / { sub(/^#+ /, ""); there[slug($0)] = 1 }

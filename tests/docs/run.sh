@@ -15,7 +15,7 @@ set -u
 LC_ALL=C.UTF-8
 export LC_ALL
 
-documents="grammar/README.md README.md lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md"
+documents="grammar/README.md README.md lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/scene3d/SCENE.md"
 min_examples=100
 if [ $# -ne 2 ]; then
     echo "usage: run.sh PETRI ROOT" >&2

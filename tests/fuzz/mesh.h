@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fuzz.h"
-#include "gl/scene_mesh.h"
+#include "scene3d/mesh.h"
 
 // Checks that all indices of a mesh refer to its vertices.
 static inline void mesh_check(const Mesh *mesh) {

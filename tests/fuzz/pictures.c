@@ -7,7 +7,7 @@ PetriSession *pictures_open(const char *script, size_t length) {
     PetriOptions options = fuzz_options();
     options.work_limit = 1 << 22; // about 40 ms without sanitizers
     // A path is drawn in one call of Cairo, which cannot be interrupted. A call takes up to a few seconds (MAX_WORK in
-    // lib/draw/cairo_paint.c), and longer with sanitizers.
+    // lib/cairo/shape.c), and longer with sanitizers.
     fuzz_interrupt_limit = 600;
     PetriSession *session = fuzz_open(&options);
     if (petri_load_text(session, fuzz_file("fuzz.fl"), script, length) != PETRI_OK || petri_step(session) != PETRI_OK)

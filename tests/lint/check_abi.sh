@@ -30,7 +30,7 @@ check() {
 
 # is_complete: succeeds if the libraries were built with Cairo, OpenGL and SQLite.
 is_complete() {
-    [ "$(nm -D lib/draw/libpetri-draw.so lib/recording/libpetri-archive.so |
+    [ "$(nm -D lib/cairo/libpetri-draw.so lib/recording/libpetri-archive.so |
         grep -c -e ' U cairo_create$' -e ' U epoxy_eglBindAPI$' -e ' U sqlite3_step$')" -eq 3 ]
 }
 
@@ -38,7 +38,7 @@ grep -v -e '^petri-draw ' -e '^petri-archive ' -e '^#' "$listed" | sed 's/.* //'
 sed -n "s/^petri-draw //p" "$listed" | sort >"$scratch/draw"
 sed -n "s/^petri-archive //p" "$listed" | sort >"$scratch/archive"
 check petri lib/session/libpetri.so -D
-check draw lib/draw/libpetri-draw.so -D
+check draw lib/cairo/libpetri-draw.so -D
 check archive lib/recording/libpetri-archive.so -D
 check petri src/packaging/libpetri.a -g
 check draw src/packaging/libpetri-draw.a -g
@@ -46,9 +46,9 @@ check archive src/packaging/libpetri-archive.a -g
 
 # The private names of libpetri.so are those that the other libraries need. The linker has reported missing ones.
 private() { kind=$1; shift; nm -D "$@" | sed -n "s/.* $kind \(_petri_[a-z0-9_]*\)@.*/\1/p" | sort -u; }
-if [ -e lib/draw/libpetri-draw.so ]; then
+if [ -e lib/cairo/libpetri-draw.so ]; then
     private '[TDRBV]' lib/session/libpetri.so >"$scratch/exported"
-    private U lib/draw/libpetri-draw.so lib/recording/libpetri-archive.so >"$scratch/used"
+    private U lib/cairo/libpetri-draw.so lib/recording/libpetri-archive.so >"$scratch/used"
     if [ ! -s "$scratch/used" ] || { is_complete && ! cmp -s "$scratch/exported" "$scratch/used"; }; then
         echo "PRIVATE_API that the other libraries do not need:" $(comm -23 "$scratch/exported" "$scratch/used")
         faults=1

@@ -13,7 +13,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
     # Headers that need a library are checked only if it is installed.
     isa=
     case $header in
-    lib/draw/draw.h | lib/draw/hdr_composite.h | lib/draw/hdr_paint.h)
+    lib/cairo/*)
         pkg-config --exists pangocairo 2>/dev/null || continue
         isa=$(pkg-config --cflags pangocairo)
         ;;
@@ -24,7 +24,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
         isa=$(pkg-config --cflags hdf5)
         ;;
     lib/recording/archive.h) pkg-config --exists sqlite3 2>/dev/null || continue ;;
-    lib/gl/internal.h) pkg-config --exists epoxy 2>/dev/null || continue ;;
+    lib/gl/context.h | lib/scene3d/gpu_cache.h | lib/scene3d/scene_program.h) pkg-config --exists epoxy 2>/dev/null || continue ;;
     esac
     # The header is included in another file, because compilers report unused definitions in the main file.
     printf '#include "%s"\n' "$PWD/$header" >"$scratch/alone.c"

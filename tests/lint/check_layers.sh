@@ -40,7 +40,7 @@ cd "$2"
 ninja -t deps | awk "$component_of"'
     /^[^ ]/ { object = $1; sub(/:$/, "", object); ours = object ~ /^(lib|src|grammar)\/.*\.o$/; component = component_of(object) }
     ours && /^[^ ]/ { print object >objects }
-    ours && /^ .*\.h$/ && match($1, /(^|\/)(lib\/[a-z]+|src\/[a-z]+|grammar)\/[a-z_-]+\.h$/) {
+    ours && /^ .*\.h$/ && match($1, /(^|\/)(lib\/[a-z0-9]+|src\/[a-z0-9]+|grammar)\/[a-z_-]+\.h$/) {
         count = split($1, part, "/")
         target = part[count - 1]
         if (target == "include")

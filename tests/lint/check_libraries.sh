@@ -52,7 +52,7 @@ done
     faults=1
 }
 # Checks that petri-pictures needs Cairo. Otherwise, the checks above would prove nothing.
-if nm lib/draw/libpetri-draw.a 2>/dev/null | grep -q ' U cairo_create$'; then
+if nm lib/cairo/libpetri-draw.a 2>/dev/null | grep -q ' U cairo_create$'; then
     if ! needed src/petri-pictures | grep -q '^libcairo\.'; then
         echo "petri-pictures does not need Cairo"
         faults=1

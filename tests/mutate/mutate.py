@@ -35,7 +35,8 @@ SUITES = {
     'lib/session': ['session', 'state', 'scene', 'memory', 'repl_sessions', 'cli'],
     'grammar': ['syntax', 'program', 'vm', 'session', 'memory', 'repl_sessions', 'cli'],
     'lib/syntax': ['syntax', 'program', 'vm', 'session', 'memory', 'repl_sessions', 'cli'],
-    'lib/draw': ['draw', 'pictures', 'canvas', 'gl', 'memory', 'cli'],
+    **dict.fromkeys(['lib/picture', 'lib/cairo'], ['draw', 'pictures', 'canvas', 'gl', 'memory', 'cli']),
+    'lib/scene3d': ['gl', 'draw', 'pictures', 'memory', 'cli'],
 }
 CORPORA = 'scripts'
 SLOW = 4  # tests that take more seconds run only if mutants are tried again (--only)

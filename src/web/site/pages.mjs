@@ -34,7 +34,7 @@ export const GROUPS = [
             parts: [['lib/canvas/README.md']] },
         { name: 'effects', title: 'Effects', about: 'Blur, bloom, feedback, shaders and the render graph',
             parts: [['lib/gl/README.md']] },
-        { name: 'scenes', title: 'Three dimensions', about: 'Scenes, materials, lights, cameras', parts: [['lib/gl/SCENE.md']],
+        { name: 'scenes', title: 'Three dimensions', about: 'Scenes, materials, lights, cameras', parts: [['lib/scene3d/SCENE.md']],
             made: 'scenes' },
         { name: 'nodes', title: 'All nodes', about: 'Every attribute with its type, unit and default', made: 'nodes' },
     ]],

@@ -1,7 +1,7 @@
 // test_draw_framing.c: tests of the automatic picture's view, which shows all relevant bodies and only grows, and of
 // its scale bar.
 #include "check.h"
-#include "draw/automatic.h"
+#include "picture/automatic.h"
 
 #include <math.h>
 

@@ -89,7 +89,7 @@ static void test_record_is_saved_as_jpeg(void **state) {
     folder_close(&folder);
     petri_picture_free(&picture);
     petri_painter_close(&painter);
-    if (rendered == PETRI_UNSUPPORTED)
+    if (saved == PETRI_UNSUPPORTED)
         skip();
     assert_int_equal(saved, PETRI_OK);
     assert_int_equal(length, sizeof start);

@@ -1,6 +1,6 @@
 // test_gl_mesh.c: tests of the triangles of models (spec canvas3d.md 6 to 8), without OpenGL.
 #include "check.h"
-#include "gl/scene_mesh.h"
+#include "scene3d/mesh.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 // test_gl_order.c: tests, without OpenGL, of reading scenes and of draw_order: limits, which spheres are drawn as
 // discs, and the positions of the discs.
 #include "check.h"
-#include "gl/draw_order.h"
-#include "gl/scene_mesh.h"
-#include "gl/sphere_impostor.h"
+#include "scene3d/draw_order.h"
+#include "scene3d/mesh.h"
+#include "scene3d/sphere_impostor.h"
 
 #include <math.h>
 #include <string.h>

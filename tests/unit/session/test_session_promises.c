@@ -117,7 +117,7 @@ static int *draw_memory(Player *player) {
     return memory;
 }
 
-// The memory that lib/draw stores across frames is zeroed before frame 0.
+// The memory that lib/picture stores across frames is zeroed before frame 0.
 static void test_draw_memory_is_zeroed_before_frame_0(void **state) {
     Player *player = *state;
     player_run(player, "!a", 1);

@@ -1,5 +1,0 @@
-// no_scenes.c: replaces scene_draw.c in builds without OpenGL.
-#include "gl/scene.h"
-
-GlImage (*const scene_draw)(Gl *gl, const Scene *scene, const SceneCamera *camera,
-                            const ScenePictures *pictures) = NULL;
