@@ -1,4 +1,7 @@
 // literal.c: see literal.h.
+//
+// literal_number, literal_timecode and literal_string get tokens of the scanner, whose form is known.
+// literal_parse_number and literal_parse_timecode get any text, and check all of it.
 #include "ast/literal.h"
 
 #include "base/number.h"

@@ -1,4 +1,7 @@
 // arena.c: see arena.h.
+//
+// The blocks form a list. `current` is the block that is being filled, and all blocks after it are empty. They are used
+// again, so a frame that needs no more memory than an earlier one allocates none.
 #include "base/arena.h"
 
 #include "base/heap.h"

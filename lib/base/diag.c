@@ -1,4 +1,7 @@
 // diag.c: see diag.h.
+//
+// Text that can come from a script is printed by text_add_printable, so that it cannot control the terminal, and its
+// length is limited.
 #include "base/diag.h"
 
 DiagSink diag_sink_new(Arena *arena, uint32_t limit) {

@@ -1,4 +1,7 @@
 // file.c: see file.h.
+//
+// A failed allocation in an arena does not return. So while a file is open, functions allocate from an arena only
+// within arena_protect, which lets them close the file.
 #include "base/file.h"
 
 #include "base/os.h"

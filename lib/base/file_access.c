@@ -1,4 +1,7 @@
 // file_access.c: see file_access.h.
+//
+// A path is always resolved before it is compared with the allowed folders, and then opened from that folder without
+// following links. If a path is not allowed, errno is EXDEV.
 #include "base/file_access.h"
 
 #include "base/file.h"

@@ -1,4 +1,7 @@
 // number.c: see number.h.
+//
+// number_format writes the shortest decimal that parses as the same double. It has three methods, from the fastest to
+// the most general: for integers, for fractions in 128-bit integers, and by trial with printf.
 #include "base/number.h"
 
 #include "base/heap.h"

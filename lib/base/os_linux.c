@@ -1,4 +1,7 @@
-// os_linux.c: see os.h. For Linux, with glibc or musl.
+// os_linux.c: see os.h.
+//
+// For Linux, with glibc or musl. A call that an older kernel, a file system or a sandbox lacks fails, and the caller
+// then uses a portable way.
 #define _GNU_SOURCE // openat2, O_PATH, O_TMPFILE, pipe2, sched_getaffinity
 #include "base/os.h"
 

@@ -1,4 +1,8 @@
 // replace.c: see replace.h.
+//
+// All steps refer to the open folder, so that they are not redirected if the folder is renamed. A temporary file is
+// locked while its process lives, so files without a lock are stale. After an error, errno has the cause and the
+// temporary file is removed.
 #include "base/replace.h"
 
 #include "base/file.h"

@@ -1,4 +1,6 @@
 // str.c: string views, and the search for similar names; see str.h.
+//
+// The bytes of an empty Str can be NULL, so functions of the C library are called only for a length above 0.
 #include "base/str.h"
 
 #include <string.h>

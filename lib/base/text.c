@@ -1,4 +1,7 @@
 // text.c: the growing string buffer Text; see str.h.
+//
+// All functions add to a text by text_reserve, which leaves room for a NUL, and add_len, which writes it. They do not
+// return errors: if memory runs out, an arena escapes, and a text on the heap ends the process.
 #include "base/heap.h"
 #include "base/str.h"
 

@@ -1,4 +1,7 @@
 // builtin.c: the table of built-ins, argument matching, and predefined constants; see builtin.h.
+//
+// The table is sorted by name. Arguments in the order of the parameters are passed on as they are; only named or
+// missing arguments are matched and copied (call_matched).
 #include "builtin/builtin.h"
 
 #include "builtin/family.h"

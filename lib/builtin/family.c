@@ -1,4 +1,7 @@
-// family.c: implementation of family.h.
+// family.c: see family.h.
+//
+// Long vectors are computed and charged in chunks of BUDGET_CHUNK, so that an interrupt is noticed soon. Array
+// functions have the same bits as the functions of single numbers that they replace.
 #include "builtin/family.h"
 
 Value builtin_error(BuiltinContext *context, const char *name, const char *format, ...) {

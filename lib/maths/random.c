@@ -1,4 +1,7 @@
 // random.c: see random.h.
+//
+// random_normals has the same bits as random_normal. Items 2k and 2k + 1 are made from the same two uniform numbers, so
+// it computes whole pairs and drops those that were not requested.
 #include "maths/random.h"
 
 #include "base/number.h"

@@ -1,4 +1,7 @@
 // lint.c: lints of code that is valid but unlikely to be intended; see compile.h.
+//
+// Lints never change the code. Those that need names as they are written take the syntax tree; those that need
+// constants take the folded expression.
 #include "base/file.h"
 #include "builtin/builtin.h"
 #include "program/compile.h"

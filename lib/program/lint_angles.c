@@ -1,4 +1,7 @@
 // lint_angles.c: lints of angles, which are in turns: those that are written in degrees or radians; see compile.h.
+//
+// A whole number of 2 or more is taken for degrees; in a vector of angles, only one of 9 or more. An expression with pi
+// or tau is taken for radians. An expression that divides by tau has already been converted.
 #include "builtin/builtin.h"
 #include "program/compile.h"
 #include "schema/table.h"

@@ -1,4 +1,7 @@
 // lint_nodes.c: lints of the attributes of nodes in the syntax tree; see compile.h.
+//
+// What lints need to know about a value is computed once, when a name is bound to it (Traits). So a chain of bindings
+// is not walked again for each use of a name.
 #include "builtin/builtin.h"
 #include "program/compile.h"
 

@@ -1,4 +1,8 @@
 // lower_node.c: lowering of loops and nodes; see lower.h.
+//
+// If possible, one instruction creates a node with its attributes and children (build_node). Otherwise, DECORATE and
+// APPEND extend a node step by step. If their length is limited, the parts of a loop's body are yielded one by one, so
+// that no vector is made for an iteration.
 #include "program/lower.h"
 #include "value/node_batch.h"
 

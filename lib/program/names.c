@@ -1,4 +1,7 @@
 // names.c: bindings of names, and hints about names without one; see compile.h.
+//
+// compile_unbound_hint tries hints from the most certain to the least certain: words of other languages and colours,
+// then mistakes that the syntax tree shows, then similar names.
 #include "builtin/builtin.h"
 #include "program/compile.h"
 

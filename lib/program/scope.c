@@ -1,4 +1,8 @@
 // scope.c: scopes and name resolution; see compile.h.
+//
+// A name is searched from the innermost scope to the outermost, then among predefined names. A name of an enclosing
+// function is captured by each function in between, so that a closure copies values only from the function that creates
+// it.
 #include "builtin/builtin.h"
 #include "program/compile.h"
 

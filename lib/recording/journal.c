@@ -1,4 +1,7 @@
 // journal.c: see journal.h.
+//
+// As in SQLite, reading ends at the first record that is incomplete or has a wrong checksum. SQLite does not change a
+// page of the database before its record is on disk.
 #include "recording/journal.h"
 
 #include "base/file.h"

@@ -1,4 +1,7 @@
 // mirror.c: implementation of mirror.h (spec physics.md section 2, steps 5 and 6).
+//
+// Order in a frame: mirror_reuse, or else mirror_open, mirror_add for each body and mirror_remove_vanished. After the
+// simulation, mirror_store puts rows and entries in sync.
 #include "scene/mirror.h"
 
 #include "base/heap.h"

@@ -1,4 +1,7 @@
 // drawing_reader.c: reads attributes of drawing nodes into lists; see reader.h.
+//
+// Numbers in a list are finite, within the limits of their type and not symbols. An attribute with another value is
+// reported and left out, so that the default applies.
 #include "schema/reader_internal.h"
 #include "value/value_hash.h"
 

@@ -1,4 +1,7 @@
 // reports.c: reports of mistakes in nodes; see reader.h.
+//
+// All reports pass through report(), which names the node by its kind and its id or state, and counts them. A report
+// says what is wrong; if there is a likely remedy, it follows after a semicolon.
 #include "base/number.h"
 #include "schema/reader_internal.h"
 #include "value/format.h"

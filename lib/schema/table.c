@@ -1,4 +1,7 @@
-// table.c: implementation of table.h.
+// table.c: see table.h.
+//
+// Each table is made from the same rows of schema_list.h by other macros, so that a fact is written once. All tables
+// therefore have the order of the rows.
 #include "schema/table.h"
 
 #include "maths/random.h"

@@ -1,4 +1,8 @@
 // boolean.c: assembles the results of boolean operations; see solid.h.
+//
+// Each line of the result is added to the polygons of both triangles that it borders, once in each direction, so the
+// result is closed. solid_combine therefore makes the points first, then the chords, which mark the triangles that are
+// cut, then the edges of these triangles. Their polygons are filled last.
 #include "base/heap.h"
 #include "solid/entries.h"
 #include "solid/fill.h"

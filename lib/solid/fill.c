@@ -1,4 +1,7 @@
-// fill.c: see fill.h. Holes are joined to the polygons around them, and then ears are cut off.
+// fill.c: see fill.h.
+//
+// Holes are joined to the polygons around them, and then ears are cut off. If rounding has left no proper ear, a flat
+// corner and then any corner is cut off. So each side of a polygon borders exactly one triangle of the result.
 #include "solid/fill.h"
 
 #include "solid/predicates.h"

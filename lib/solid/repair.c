@@ -1,4 +1,8 @@
 // repair.c: repair of meshes that are not closed; see solid.h.
+//
+// Order: duplicates are removed, so that they do not count as neighbours. Neighbours are turned the same way, so that
+// the open sides of a hole form a loop. After holes are filled, the parts are turned outwards, because only a closed
+// part has a volume.
 #include "solid/predicates.h"
 #include "solid/topology.h"
 

@@ -1,4 +1,7 @@
 // topology.c: see topology.h.
+//
+// Sides and triangles are sorted by their points, so that equal and opposite ones follow each other. So results depend
+// only on the order of points and triangles in the input.
 #include "solid/topology.h"
 
 #include <string.h>

@@ -1,4 +1,7 @@
 // digest.c: see digest.h and spec digest.md.
+//
+// The numbers of all values, in the canonical order of their keys, are divided into chunks of CHUNK_NUMBERS. The digest
+// is a hash of the shape and of the chunks' hashes, so it does not depend on the number of parts or threads.
 #include "base/cpu.h"
 #include "base/heap.h"
 #include "base/number.h"

@@ -1,4 +1,7 @@
 // key_range.c: see key_range.h.
+//
+// In each frame, the owner refers to the slots in order. Until it has reached a slot, the slot's value remains in the
+// previous array, which is why the owner keeps that array readable.
 #include "state/key_range.h"
 
 #include "base/number.h"

@@ -1,4 +1,8 @@
 // state.c: see state.h.
+//
+// A key range contains only references to an owner's numbers, or no values. Before any other value is stored in one of
+// its slots, the range is converted to entries (ensure_entry). A change of anything but the numbers of a value makes
+// the digest stale.
 #include "base/arena.h"
 #include "base/hash_index.h"
 #include "base/heap.h"

@@ -1,4 +1,7 @@
 // bindings.c: see bindings.h.
+//
+// The scope is a stack of entries. Each name has a chain in a hash table, which begins with its innermost entry. A
+// value is walked before its name is bound, because the value does not see the name.
 #include "syntax/bindings.h"
 
 #include <ctype.h>

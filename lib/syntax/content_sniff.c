@@ -1,4 +1,7 @@
 // content_sniff.c: see content_sniff.h.
+//
+// The errors of a text are replaced by one if at least half of its lines are invalid and nothing says that it is a
+// script. A text with a NUL is always binary.
 #include "syntax/content_sniff.h"
 
 #include <string.h>

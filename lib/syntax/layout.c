@@ -1,4 +1,7 @@
 // layout.c: see layout.h.
+//
+// Each INDENT is followed by one DEDENT, even after errors. A level whose INDENT the parser has rejected ends without
+// one.
 #include "syntax/layout.h"
 
 #include "parser.h"

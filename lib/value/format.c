@@ -1,4 +1,7 @@
 // format.c: see format.h.
+//
+// There are two formats: format_value has all digits and only the kind of a node; format_debug has nine digits and
+// whole nodes. Both charge the arena for each element, because a value can have millions.
 #include "value/format.h"
 
 #include "base/number.h"

@@ -1,4 +1,7 @@
 // node.c: see node.h.
+//
+// The height of a node and `has_batches` depend on its descendants. Every function that adds attributes or children
+// updates them. A copy does not have the lifetime of the program, even if the original has.
 #include "value/node_batch.h"
 
 #include <string.h>

@@ -1,4 +1,7 @@
 // node_batch.c: see node_batch.h.
+//
+// A row has the numbers of all attributes that differ, in the order of the attributes. Attributes that are equal in all
+// nodes, or that count up, take no space. A node that does not fit leaves the batch unchanged.
 #include "value/node_batch.h"
 
 #include "base/number.h"

@@ -1,4 +1,7 @@
 // ops.c: see ops.h.
+//
+// The shorter operand is repeated. Frequent cases are loops over arrays, which the compiler vectorises. They have the
+// same bits, because an element of the result depends on one element of each operand.
 #include "value/ops.h"
 
 #include "base/cpu.h"

@@ -1,4 +1,7 @@
 // value.c: construction of vectors, and access to their elements; see value.h.
+//
+// Every function keeps the invariants of value.h. In particular, a part of a mixed vector that has only numbers becomes
+// a numeric vector.
 #include "value/value.h"
 
 #include "base/number.h"

@@ -1,4 +1,7 @@
 // batch.c: execution of loops in batches of iterations; see batch_columns.h.
+//
+// A batch never reports an error. If one of its iterations would, the batch is discarded (Vm.speculative) and its
+// iterations are executed one by one. So values and diagnostics do not depend on batches.
 #include "vm/batch_columns.h"
 
 #include <string.h>

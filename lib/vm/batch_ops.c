@@ -1,4 +1,7 @@
 // batch_ops.c: execution of one instruction for a batch of iterations; see batch_columns.h.
+//
+// A function for columns that returns false has changed no column. vm_batch_call then executes the instruction once for
+// each selected iteration, with the same result.
 #include "builtin/noise.h"
 #include "value/stream.h"
 #include "vm/batch_columns.h"

@@ -1,4 +1,7 @@
 // construct.c: instructions that create vectors and nodes, or take their elements; see machine.h.
+//
+// vm_node allocates a node together with its attributes and children. An attribute or child that would make a tree
+// higher than NODE_MAX_HEIGHT is reported and left out, because functions that walk trees are recursive.
 #include "value/stream.h"
 #include "vm/machine.h"
 

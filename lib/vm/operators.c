@@ -1,4 +1,7 @@
 // operators.c: instructions that read names, compute operators, or take the element of a loop; see machine.h.
+//
+// An instruction sets Vm.at before it calls a function that can exceed the budget, because the host reports that
+// position.
 #include "vm/machine.h"
 
 static Value truth(bool x) {

@@ -1,4 +1,7 @@
 // vm.c: evaluation of programs; see vm.h.
+//
+// Every evaluation begins with reset_evaluation, so that nothing is left of an evaluation that was aborted by a
+// longjmp.
 #include "vm/machine.h"
 
 #include <math.h>

@@ -1,4 +1,8 @@
 // segments.c: see segments.h.
+//
+// Threads take the segments in order. The result is the first segment that differs, whatever the number of threads: a
+// segment is abandoned only if an earlier one is known to differ. If one cannot be computed, the whole verification
+// fails.
 #include "archive/segments.h"
 
 #include "archive/details.h"

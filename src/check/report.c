@@ -1,4 +1,7 @@
 // report.c: see report.h.
+//
+// Diagnostics are added to one text as they arrive. SARIF has its list of rules before the results, so report_end adds
+// it when all codes are known.
 #include "check/report.h"
 
 #include "cli/json.h"

@@ -1,4 +1,7 @@
 // layout.c: see layout.h.
+//
+// Words are written line by line to Writer.text. Comments after code follow in a second pass (write_lines), when the
+// widths of all lines are known. layout_same checks that the words and the compiled code are unchanged.
 #include "fmt/layout.h"
 
 #include "base/source.h"

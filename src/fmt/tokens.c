@@ -1,4 +1,7 @@
 // tokens.c: see tokens.h.
+//
+// The properties of a word follow from the words before it. Only the spaces around + and - depend on their whole
+// segment. So a word refers to its segment, and word_is_unspaced is called when all words are read.
 #include "fmt/tokens.h"
 
 #include "cli/memory.h"

@@ -1,4 +1,7 @@
 // table.c: see table.h.
+//
+// The rows are written as records of one table. If they form a grid of parameter values, each column is also written as
+// an array with one dimension per parameter.
 #include "hdf5/table.h"
 
 #include "base/number.h"

@@ -1,4 +1,7 @@
 // link_session.c: see link_session.h.
+//
+// A link can be from a stranger. So its script can read only files below the given folder, and all others seem to be
+// missing. Its work is limited. A change after frame -1 is a definition, because it is made before the first frame.
 #include "link/link_session.h"
 
 #include "base/file.h"

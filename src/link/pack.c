@@ -1,4 +1,7 @@
 // pack.c: see pack.h.
+//
+// A link can be from a stranger. So its length, its size after decompression, the depth of its JSON, its frames and its
+// changes are limited. Its name must be printable.
 #include "link/pack.h"
 
 #include "cli/cli.h"

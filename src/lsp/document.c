@@ -1,4 +1,7 @@
 // document.c: see document.h.
+//
+// Every change of the text makes tokens and names stale; document_read reads them again when they are needed. The text
+// is valid UTF-8, and all offsets count its bytes. Only positions that are exchanged with the editor count its units.
 #include "lsp/document.h"
 
 #include "base/os.h"

@@ -1,4 +1,7 @@
 // rpc.c: see rpc.h.
+//
+// Bytes after a message stay in `input` for the next one. A message with invalid content is skipped. A header without a
+// valid length ends the session, because the start of the next message is unknown.
 #include "lsp/rpc.h"
 
 #include "base/file.h"

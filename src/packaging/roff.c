@@ -1,4 +1,6 @@
 // roff.c: see roff.h.
+//
+// Text passes through write_escaped, so that it cannot begin a request of roff and keeps its ASCII characters.
 #include "packaging/roff.h"
 
 #include "petri.h"

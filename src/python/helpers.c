@@ -1,4 +1,8 @@
-// helpers.c: see helpers.h. build_petri.py inserts the text of helpers.h before this file.
+// helpers.c: see helpers.h.
+//
+// build_petri.py inserts the text of helpers.h before this file. The handler of SIGINT is installed only during steps
+// and then restored. If a function of the script steps another session, the handler stays, and only the active session
+// changes.
 #include <signal.h>
 #include <string.h>
 

@@ -1,4 +1,7 @@
 // recording.c: see recording.h.
+//
+// Each file name has one entry until the end of the run. A video stays open until recording_end or until it has reached
+// its length. A picture is not written twice.
 #include "render/recording.h"
 
 #include "cli/memory.h"

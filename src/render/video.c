@@ -1,4 +1,7 @@
 // video.c: videos, encoded by an ffmpeg process; see video.h.
+//
+// ffmpeg writes to the open temporary file of base/replace.h, which gets its name when ffmpeg has succeeded. A signal
+// can arrive at any time between video_open and video_close; abort_on_signal then kills ffmpeg and removes the file.
 #include "render/video.h"
 
 #include "base/file.h"

@@ -1,4 +1,6 @@
 // video_arguments.c: see video_arguments.h.
+//
+// Words are not copied. They belong to the tables, to the options or to the VideoArguments, which must not be moved.
 #include "render/video_arguments.h"
 
 #include "base/str.h"

@@ -1,4 +1,7 @@
 // line.c: reading lines at the prompt, and grouping them into statements; see line.h.
+//
+// Input is read in blocks and returned line by line, so that pasted lines are not lost. While it waits for input, the
+// reader also watches the files of the script.
 #include "repl/line.h"
 
 #include "base/file.h"

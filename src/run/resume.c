@@ -1,4 +1,7 @@
 // resume.c: see resume.h.
+//
+// Nothing is removed from a file before its content up to the given frame was recognised as a trajectory. Then
+// everything after the last complete frame is removed, and the run appends as if it had never stopped.
 #include "run/resume.h"
 
 #include "base/file.h"

@@ -1,4 +1,6 @@
-// display_probe.c: implementation of display_probe.h.
+// display_probe.c: see display_probe.h.
+//
+// A child process connects and waits for the answer, so that an alarm can end it without ending petri.
 #include "view/display_probe.h"
 
 #include "cli/subprocess.h"

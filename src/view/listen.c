@@ -1,4 +1,7 @@
-// listen.c: implementation of listen.h.
+// listen.c: see listen.h.
+//
+// There is one client at a time, and reading never blocks the view. Only an answer may wait, for at most one second. A
+// client that is silent for MAX_SILENCE is disconnected if another one waits. Only the owner can open the socket.
 #include "view/listen.h"
 
 #include "base/clock.h"

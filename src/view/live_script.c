@@ -1,4 +1,7 @@
-// live_script.c: implementation of live_script.h.
+// live_script.c: see live_script.h.
+//
+// The text of errors describes the current state: a load that succeeds removes it, and a completed frame removes what
+// it has added. A reload, a new value of a parameter and a step back take time, so they resynchronise the clock.
 #include "view/live_script.h"
 
 #include "cli/parameters.h"

@@ -16,9 +16,9 @@
 // States of the picture (PictureState), which is replaced after each frame:
 //
 //                    the particles are at their positions (petri_picture_ready)
-//       NONE ────────────────────────────────────────────────────▶ MADE ◀──────▶ COMPLETE
-//        │ not yet: the picture is made only for its size            ▲    drawn with all
-//        └───────────────────────▶ HIDDEN ───────────────────────────┘    shaders, or not
+//       NONE ────────────────────────────────────────────────────▶ VISIBLE ◀──────▶ COMPLETE
+//        │ not yet: the picture is made only for its size            ▲       drawn with all
+//        └───────────────────────▶ HIDDEN ───────────────────────────┘       shaders, or not
 //
 //     Out of memory: NONE. While a later frame is not ready, the picture and its state are retained.
 //

@@ -1,4 +1,7 @@
-// overlay_text.c: implementation of overlay_text.h.
+// overlay_text.c: see overlay_text.h.
+//
+// overlay_set removes escape sequences and control characters, which a message can contain, and replaces invalid UTF-8.
+// So the other functions can count characters.
 #include "view/overlay_text.h"
 
 #include "base/str.h"

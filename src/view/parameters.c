@@ -1,4 +1,7 @@
-// parameters.c: implementation of parameters.h.
+// parameters.c: see parameters.h.
+//
+// The first key only shows the selected parameter. The number of parameters is read again for each key, because a
+// reload can change it.
 #include "view/parameters.h"
 
 #include "cli/parameters.h"

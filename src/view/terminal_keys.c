@@ -1,4 +1,7 @@
-// terminal_keys.c: implementation of terminal_keys.h.
+// terminal_keys.c: see terminal_keys.h.
+//
+// Bytes stay in the buffer until they form a complete sequence. An escape can be a key or the start of a sequence, so
+// it counts as a key only after ESCAPE_SECONDS.
 #include "view/terminal_keys.h"
 
 #include "base/clock.h"

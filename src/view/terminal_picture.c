@@ -1,4 +1,7 @@
-// terminal_picture.c: implementation of terminal_picture.h.
+// terminal_picture.c: see terminal_picture.h.
+//
+// The abilities of the terminal are found once, from environment variables, without a request to which it might not
+// answer. Only the size of its cells is read again for each picture.
 #include "view/terminal_picture.h"
 
 #include "base/os.h"

@@ -1,4 +1,6 @@
-// window_manager.c: implementation of window_manager.h.
+// window_manager.c: see window_manager.h.
+//
+// If SDL uses another driver, full screen counts as supported and the screen is never lost.
 #include "view/window_manager.h"
 
 #ifdef HAVE_SDL
