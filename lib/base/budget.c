@@ -1,4 +1,7 @@
 // budget.c: see budget.h.
+//
+// A charge only adds its work and compares the sum with next_check (base/arena.h). budget_check looks at the interrupt
+// and the limit after every CHECK_INTERVAL units.
 #include "base/budget.h"
 
 #include <math.h>

@@ -1,4 +1,6 @@
 // cpu.c: see cpu.h.
+//
+// A request can only lower the level, so that petri never executes instructions that the processor lacks.
 #include "base/cpu.h"
 
 #include <stdlib.h>

@@ -1,4 +1,6 @@
 // heap.c: see heap.h.
+//
+// Blocks are counted, because the allocator can be changed only while there is none.
 #include "base/heap.h"
 
 #include <stdatomic.h>

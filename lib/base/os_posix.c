@@ -1,4 +1,6 @@
-// os_posix.c: see os.h. For systems of which only POSIX.1-2008 is known.
+// os_posix.c: see os.h.
+//
+// For systems of which only POSIX.1-2008 is known. What POSIX lacks fails with ENOTSUP, and petri then does without it.
 #include "base/os.h"
 
 #include <errno.h>

@@ -1,4 +1,6 @@
 // source.c: see source.h.
+//
+// The text of a source always ends with a line feed and a NUL byte, on which the scanner and source_locate rely.
 #include "base/source.h"
 
 #include <string.h>

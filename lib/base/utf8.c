@@ -1,4 +1,6 @@
 // utf8.c: UTF-8; see str.h.
+//
+// An invalid byte counts as one character, so that loops always advance and every text has a length.
 #include "base/str.h"
 
 int32_t utf8_next(Str text, size_t *at) {

@@ -1,4 +1,7 @@
 // expr.c: makes expressions, and reports what is wrong with them; see expr.h and compile.h.
+//
+// What an expression depends on is computed from its children when it is made, so that no other function walks the tree
+// for it.
 #include "program/compile.h"
 
 static void add_dependency(Expr *expr, const Expr *child) {

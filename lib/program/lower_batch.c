@@ -1,4 +1,7 @@
 // lower_batch.c: batch plans for loops that the VM can execute in batches; see BatchPlan in code.h.
+//
+// A loop can be executed in batches if no iteration depends on another one: its calls have no side effects, its jumps
+// lead forward within the body, and no register carries a value to the next iteration (number_columns).
 #include "program/lower.h"
 
 #include <string.h>

@@ -1,4 +1,6 @@
 // grid.c: conversion between meshes and solids; see solid.h.
+//
+// The step is a power of two, and the middle is a multiple of it. So all coordinates of the grid are exact as doubles.
 #include "solid/topology.h"
 
 #include <math.h>

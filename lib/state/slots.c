@@ -1,4 +1,7 @@
 // slots.c: the keys and values of slots, in entries and in key ranges; see state.h.
+//
+// A key in a range is written to a buffer of the caller. Only state_slot_key stores the keys of a whole range, because
+// its result has the lifetime of the state.
 #include "state/internal.h"
 
 #include <math.h>

@@ -1,4 +1,7 @@
 // syntax_hints.c: see syntax_hints.h.
+//
+// Patterns are compiled only after an error. Most are excluded before that (cannot_match), because an error has many
+// candidates.
 #include "syntax/syntax_hints.h"
 
 #include <regex.h>

@@ -1,4 +1,6 @@
 // tokens.c: see tokens.h.
+//
+// The scanner has no tokens for comments. They are found between two tokens, where all else is white space.
 #include "syntax/tokens.h"
 
 #include "parser.h"

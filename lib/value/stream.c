@@ -1,4 +1,6 @@
 // stream.c: see stream.h.
+//
+// Items at consecutive positions are computed by array functions, which have the same bits as those for single items.
 #include "value/stream.h"
 
 #include "base/cpu.h"

@@ -1,4 +1,6 @@
 // symbol.c: see symbol.h.
+//
+// An interned name becomes a symbol only by symbol_register, which refuses a name whose number another symbol has.
 #include "value/symbol.h"
 
 #include "base/number.h"

@@ -1,4 +1,6 @@
 // tree_memo.c: see tree_memo.h.
+//
+// The cache has one entry for each hash. A result that another one has overwritten is computed again.
 #include "value/tree_memo.h"
 
 #include "maths/random.h"

@@ -1,4 +1,7 @@
 // value_hash.c: see value_hash.h.
+//
+// A hash does not depend on how a value was made: attributes are hashed in the order of their names, and children in
+// batches like other children.
 #include "value/value_hash.h"
 
 #include "base/number.h"

@@ -1,4 +1,7 @@
 // vector.c: the vector builder; see value.h.
+//
+// A single part is returned as it is, without a copy. Elements are stored as numbers until the first one that is not a
+// number; then all are converted once.
 #include "value/value.h"
 
 #include <string.h>

@@ -1,4 +1,7 @@
 // batch_columns.c: reading and writing of columns; see batch_columns.h.
+//
+// If only some iterations are selected, the values of the others must be kept. If the kind of a column does not suit
+// the new values, its values are first converted to the most general kind (make_values).
 #include "vm/batch_columns.h"
 
 #include <string.h>

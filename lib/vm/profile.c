@@ -1,4 +1,7 @@
 // profile.c: see profile.h.
+//
+// The counts outlive a reload: a file is recognised by its path and text, and only once in each frame, because texts
+// are long to compare (find_file).
 #include "vm/profile.h"
 
 #include "base/clock.h"

@@ -1,4 +1,7 @@
 // report.c: reporting of run-time errors; see machine.h.
+//
+// The table of reported errors is at most half full, so a search is short. After that, the frame reports no further
+// errors.
 #include "vm/machine.h"
 
 #include <stdarg.h>

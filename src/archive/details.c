@@ -1,4 +1,6 @@
 // details.c: see details.h.
+//
+// The computed state is printed first, because loading the recorded state into the session replaces it.
 #include "archive/details.h"
 
 #include "cli/state_text.h"

@@ -1,4 +1,7 @@
 // ranks.c: see ranks.h.
+//
+// Rank 0 chooses the segments and sends them, so that all ranks divide the same sample. It then receives all results,
+// of which the first segment that differs counts.
 #include "archive/ranks.h"
 
 #include "cli/mpi_channel.h"

@@ -1,4 +1,8 @@
-// scale.c: see scale.h. Written without the library libhdf5_hl, whose name and location differ between systems.
+// scale.c: see scale.h.
+//
+// Written without the library libhdf5_hl, whose name and location differ between systems. Data sets and scales refer to
+// each other. scale_attach writes the references to the scales and collects those from the scales, which scale_end
+// writes.
 #include "hdf5/scale.h"
 
 #include <stdlib.h>

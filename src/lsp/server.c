@@ -1,4 +1,7 @@
 // server.c: the open documents of the language server, other files, and the sessions that read them; see server.h.
+//
+// There are two sessions: one for complete checks, which a new message interrupts, and a quick one, which has a small
+// limit of work and is not interrupted.
 #include "lsp/server.h"
 
 #include "base/file.h"

@@ -1,4 +1,6 @@
 // bare.c: commands typed without their dot; see repl.h.
+//
+// A word that the script, the prompt or petri binds is never taken for a command.
 #include "cli/help.h"
 #include "repl/repl.h"
 

@@ -1,4 +1,7 @@
 // interrupt.c: Ctrl-C, notes and messages, which all commands use; see repl.h.
+//
+// Ctrl-C sets a flag. Between repl_busy and repl_idle, it also interrupts the session. An interrupt that comes too late
+// is dropped.
 #include "repl/repl.h"
 
 #include <signal.h>

@@ -1,4 +1,7 @@
 // drag_sliders.c: dragging of the sliders in the window; see view.h.
+//
+// Events only store the last value. view_apply_drag sets the parameter, so that many movements of the pointer cost one
+// change.
 #include "petri-live.h"
 #include "view/parameter_step.h"
 #include "view/view.h"

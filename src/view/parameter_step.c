@@ -1,4 +1,7 @@
-// parameter_step.c: implementation of parameter_step.h.
+// parameter_step.c: see parameter_step.h.
+//
+// Steps lead to multiples of the step size, so that values stay round numbers. The value 0 is skipped if the script
+// would take it for a missing one.
 #include "view/parameter_step.h"
 
 #include <math.h>

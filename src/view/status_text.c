@@ -1,4 +1,6 @@
 // status_text.c: updates the texts shown over the picture; see view.h.
+//
+// A function requests a new picture only if it has changed a text (View.redraw).
 #include "base/clock.h"
 #include "petri-live.h"
 #include "view/view.h"
