@@ -89,7 +89,7 @@ static void end_bounce(const Columns *columns, size_t i, const PhysForce *barrie
 //   w as above; if w < 0: v_k = v_k − w·normal_k               not beyond the apex of the bounce
 //   x as above; if x < 0: put on the surface
 //   a_k = (v_k − u_k) / τ if τ > 0, else 0                     for the next barrier
-void phys_reflect(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
+static void reflect(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;
     double x = particle_height(columns, i, barrier, -columns->radius[phys_numbers_at(columns, i)]);
     if (x >= 0)
@@ -115,4 +115,13 @@ void phys_reflect(const Columns *columns, size_t i, const Force *force, double d
     if (tau > 0)
         move_particles(columns->dimensions, &block, tau, speed_of_light);
     end_bounce(columns, i, barrier, tau, u);
+}
+
+void phys_integrate_reflect(const IntegratePass *pass, size_t i, const double *before) {
+    const Columns *columns = pass->columns;
+    double *acceleration = phys_acceleration(columns);
+    for (size_t k = 0; k < columns->dimensions; k++)
+        acceleration[k] = (columns->velocity[k * columns->stride + i] - before[k]) / pass->delta;
+    for (uint32_t b = 0; b < pass->barrier_count; b++)
+        reflect(columns, i, phys_barriers(pass)[b], pass->delta, pass->speed_of_light);
 }

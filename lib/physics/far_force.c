@@ -89,7 +89,6 @@ static FarPass make_pass(const PhysSystem *system, FarForest *forest, Force *for
         .forest = forest,
         .targets = phys_far_tree(forest, targets),
         .sources = phys_far_tree(forest, sources),
-        .kernels = phys_kernels(system)->far,
         .opening_squared = opening * opening,
         .stop = system->options.division ? NULL : phys_stop(system),
     };

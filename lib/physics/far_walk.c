@@ -97,7 +97,7 @@ static void flush_pairs(const FarPass *pass, FarScratch *scratch) {
             pairs->position[k][pairs->count] = NAN;
         pairs->source[pairs->count] = pairs->radius[pairs->count] = 0;
     }
-    pass->kernels->pairs[pass->term.kind][n](pairs, &pass->term, scratch->targets, scratch->target_count);
+    pass->system->kernels->far->pairs[pass->term.kind][n](pairs, &pass->term, scratch->targets, scratch->target_count);
     pairs->count = 0;
 }
 
@@ -115,7 +115,7 @@ static void flush_cells(const FarPass *pass, FarScratch *scratch) {
         for (size_t m = 0; m < FAR_QUADRUPOLE; m++)
             cells->quadrupole[m][at] = 0;
     }
-    pass->kernels->cells[n][pass->forest->charges](cells, scratch->targets, scratch->target_count);
+    pass->system->kernels->far->cells[n][pass->forest->charges](cells, scratch->targets, scratch->target_count);
     cells->count = 0;
 }
 

@@ -14,7 +14,6 @@ typedef struct FarPass {
     FarForest *forest;
     const FarTree *sources;
     const FarTree *targets;
-    const FarKernels *kernels;
     PairTerm term;
     double opening_squared;  // square of 2 theta / 3
     double bound;            // max_distance, scaled; infinite: none

@@ -10,10 +10,9 @@
 // inside it.
 typedef struct Pass {
     PhysSystem *system;
-    const Kernels *kernels; // NULL: the pass is computed row by row
-    PairKernel *kernel;     // NULL: the pass is computed row by row
-    PairPass pairs;         // argument of the kernel
-    Move *move;             // motion that follows this pass; NULL: particles must not move
+    PairKernel *kernel; // NULL: the pass is computed row by row
+    PairPass pairs;     // argument of the kernel
+    Move *move;         // motion that follows this pass; NULL: particles must not move
 } Pass;
 
 // Fills terms with the forces that the main part of a pass computes. Returns their number.
@@ -37,10 +36,8 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces, bool divided) {
     // With several processes, an abort must not skip rows, because other processes wait for them.
     pass.pairs.stop = system->options.division ? NULL : phys_stop(system);
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MAX_TERMS &&
-        columns->count >= MIN_FOR_LANES && pass.pairs.term_count > 0) {
-        pass.kernels = phys_kernels(system);
-        pass.kernel = pass.kernels->pair(&pass.pairs);
-    }
+        columns->count >= MIN_FOR_LANES && pass.pairs.term_count > 0)
+        pass.kernel = system->kernels->pair(&pass.pairs);
     return pass;
 }
 
@@ -75,7 +72,7 @@ static void compute_region(const Pass *pass, const PairRegion *region) {
 
 // Returns the number of vector operations of a rectangle with these numbers of rows and columns.
 static size_t vector_count(const Pass *pass, size_t rows, size_t columns) {
-    size_t lanes = pass->kernels->lanes;
+    size_t lanes = pass->system->kernels->lanes;
     return (rows + lanes - 1) / lanes * columns;
 }
 
@@ -145,7 +142,7 @@ static void pair_pass(PhysSystem *system, uint32_t group, uint32_t level, Move *
     Pass pass = prepare_pass(system, forces, divided);
     pass.move = divided ? NULL : move;
     if (pass.pairs.term_count &&
-        (!pass.kernels || !phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, group, level, pass.move))) {
+        (!pass.kernel || !phys_neighbour_list_pass(system, &pass.pairs, group, level, pass.move))) {
         restore_order(system);
         for (uint32_t g = group; g != NO_GROUP && more; g = phys_next_enclosing(groups, g, level))
             more = compute_groups(&pass, &groups[group], &groups[g]);

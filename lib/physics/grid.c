@@ -352,7 +352,7 @@ bool phys_grid_layout(const PairPass *pass, NeighbourList *list, double max, Gri
     return true;
 }
 
-bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
+bool phys_grid_build(PhysSystem *system, const PairPass *pass, NeighbourList *list, uint64_t max_entries) {
     Survey survey;
     Grid grid = {.dimensions = pass->dimensions, .cells = {1, 1, 1}};
     Sorting sorting = {.system = system, .pass = pass, .list = list, .grid = &grid};
@@ -375,5 +375,5 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
     sort_by_cell(&sorting, &survey);
     uint32_t dummy = (list->total + PHYS_MAX_LANES - 1) / PHYS_MAX_LANES * PHYS_MAX_LANES;
     pad_arrays(pass, list, dummy);
-    return phys_grid_search(system, kernels, &grid, dummy, list);
+    return phys_grid_search(system, &grid, dummy, list, max_entries);
 }

@@ -63,6 +63,5 @@ bool phys_grid_layout(const PairPass *pass, NeighbourList *list, double max, Gri
 bool phys_find_extremes(const double *numbers, size_t count, double *low, double *high);
 
 // grid_search.c: builds the lists of all regular particles, padded with the sorted index `dummy`. Returns false if out
-// of memory, or if the lists would not pay off.
-bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy,
-                      NeighbourList *list);
+// of memory, or if the lists would have more than `max_entries` entries or a particle too many neighbours.
+bool phys_grid_search(PhysSystem *system, const Grid *grid, uint32_t dummy, NeighbourList *list, uint64_t max_entries);

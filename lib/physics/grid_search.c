@@ -31,11 +31,10 @@ static void search_chunk(void *context, int chunk, int chunks) {
 
 // Runs the search, and repeats it with more memory if necessary. Returns false if out of memory, or if lists would not
 // pay off.
-static bool search_all(PhysSystem *system, SearchJob *job, NeighbourList *list) {
+static bool search_all(PhysSystem *system, SearchJob *job, NeighbourList *list, uint64_t max_entries) {
     uint64_t first = (uint64_t)FIRST_ENTRIES * list->total + ENTRIES_SPARE;
-    uint64_t max_entries = (uint64_t)MAX_ENTRIES * list->total + ENTRIES_SPARE;
-    if (system->options.neighbours == PHYS_NEIGHBOURS_AUTO && max_entries > phys_max_useful_entries(list))
-        max_entries = phys_max_useful_entries(list);
+    uint64_t limit = (uint64_t)MAX_ENTRIES * list->total + ENTRIES_SPARE;
+    max_entries = max_entries < limit ? max_entries : limit;
     uint64_t capacity = list->entries.capacity / sizeof(uint32_t);
     job->capacity = capacity > first ? capacity : first;
     job->capacity = job->capacity < max_entries ? job->capacity : max_entries;
@@ -64,8 +63,7 @@ static bool search_all(PhysSystem *system, SearchJob *job, NeighbourList *list) 
     }
 }
 
-bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy,
-                      NeighbourList *list) {
+bool phys_grid_search(PhysSystem *system, const Grid *grid, uint32_t dummy, NeighbourList *list, uint64_t max_entries) {
     uint64_t own = list->ranges.at[0].count, total = list->total;
     ListSearch search = {
         .list = list, .grid = grid, .remote = system->remote, .own = phys_own_keys(list), .dummy = dummy};
@@ -73,6 +71,6 @@ bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *gr
     search.scan_limit = own * total / 4 + 64 * total;
     if (search.scan_limit > 4000 * total)
         search.scan_limit = 4000 * total;
-    SearchJob job = {.kernels = kernels, .search = &search};
-    return search_all(system, &job, list);
+    SearchJob job = {.kernels = system->kernels, .search = &search};
+    return search_all(system, &job, list, max_entries);
 }

@@ -19,15 +19,6 @@ static uint32_t collect_forces(const PhysSystem *system, uint32_t group, Stage s
     return count;
 }
 
-void phys_integrate_reflect(const IntegratePass *pass, size_t i, const double *before) {
-    const Columns *columns = pass->columns;
-    double *acceleration = phys_acceleration(columns);
-    for (size_t k = 0; k < columns->dimensions; k++)
-        acceleration[k] = (columns->velocity[k * columns->stride + i] - before[k]) / pass->delta;
-    for (uint32_t b = 0; b < pass->barrier_count; b++)
-        phys_reflect(columns, i, phys_barriers(pass)[b], pass->delta, pass->speed_of_light);
-}
-
 static size_t moving_between(const Columns *columns, size_t first, size_t end) {
     size_t count = 0;
     for (size_t i = first; i < end; i++)
@@ -94,8 +85,8 @@ bool phys_integrate_begin(PhysSystem *system, uint32_t number, double delta, dou
         .kernel = integrate_all_one, .lanes = 1, .pass = pass, .group = group, .random = draws_random(&pass)};
     integrator->wide = columns->dimensions <= PHYS_VECTOR_DIMENSIONS && group->count >= MIN_FOR_LANES;
     if (integrator->wide) {
-        integrator->kernel = phys_kernels(system)->integrate;
-        integrator->lanes = phys_kernels(system)->lanes;
+        integrator->kernel = system->kernels->integrate;
+        integrator->lanes = system->kernels->lanes;
     }
     uint64_t numbers = (uint64_t)group->count * columns->dimensions * (1 + pass.force_count);
     return phys_charge(system, numbers / (integrator->random ? DRAWN_A_UNIT : NUMBERS_A_UNIT));

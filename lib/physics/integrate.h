@@ -45,5 +45,5 @@ bool phys_integrate_begin(PhysSystem *system, uint32_t group, double delta, doub
 void phys_integrate_rows(const Integrator *integrator, size_t first, size_t end);
 // Advances the random streams by the items that the group has used.
 void phys_integrate_end(const Integrator *integrator);
-// Reflects particle i, which has just moved, at all barriers. `before` is its velocity before the move.
+// barrier.c: reflects particle i, which has just moved, at all barriers. `before` is its velocity before the move.
 void phys_integrate_reflect(const IntegratePass *pass, size_t i, const double *before);

@@ -13,6 +13,17 @@
 //   - the forces that one group declares for one stage are contiguous.
 //
 // Kernels use columns rather than rows, because each SIMD lane processes a different particle.
+//
+// A file calls only files in later lines of this list:
+//
+//     timestep, explain                       a frame, and the forces in its steps
+//     step, energy, stability, divergence     a step, and properties of a state
+//     system, force_pair                      the description; passes over pairs
+//     neighbour_list                          passes of bounded range
+//     far_force, grid, groups                 passes with `theta`; cells; the order of particles and forces
+//     far_tree, grid_search, integrate, kernel_pair, pair_wavefront, particles, reorder
+//     kernel_integrate, threads
+//     backoff, barrier, buffer, far_moments, far_sort, far_walk, pair_rows, the other kernels
 #pragma once
 
 #include "base/arena.h"
@@ -167,7 +178,8 @@ struct PhysSystem {
     bool any_not_finite;     // some element of `not_finite` is set
     bool any_from_attribute; // some element of `from_attribute` is set
     PhysOptions options;
-    PhysThreads *threads; // options.pool or the system's own pool; NULL: none
+    const struct Kernels *kernels; // for options.cpu
+    PhysThreads *threads;          // options.pool or the system's own pool; NULL: none
     // description
     uint32_t dimensions;
     uint32_t group_count;
@@ -228,9 +240,6 @@ typedef struct ForceRange {
     Force *begin;
     Force *end;
 } ForceRange;
-
-// system.c: returns the kernels for the instruction set in the options.
-const struct Kernels *phys_kernels(const PhysSystem *system);
 
 static inline void phys_note_change(PhysSystem *system, ColumnsChange change) {
     if (change > system->columns_change)
@@ -336,8 +345,6 @@ typedef struct Move {
 // of these groups that declares pair forces has a pass for its forces. `move` is the motion that a pass may carry out;
 // NULL: passes must not move particles.
 void phys_apply_pairs(PhysSystem *system, uint32_t group, Move *move);
-// barrier.c: reflects particle i at one barrier after a move of `delta` (spec physics.md 4.4).
-void phys_reflect(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
 
 static inline double *phys_acceleration(const Columns *columns) {
     return columns->scratch;

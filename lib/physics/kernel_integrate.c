@@ -61,7 +61,7 @@ KERNEL void reflect_lanes(const IntegratePass *pass, size_t n, const Block *bloc
     double lanes[PHYS_VECTOR_DIMENSIONS][LANES];
     for (size_t k = 0; k < n; k++) {
         real_store(lanes[k], before[k]);
-        // phys_reflect moves a particle again with the same force, which it reads from Columns.force.
+        // A reflection moves a particle again with the same force, which it reads from Columns.force.
         real_store_where(block->live, columns->force + k * columns->stride + block->first, block->force[k]);
     }
     for (; bits; bits &= bits - 1) {

@@ -213,10 +213,6 @@ static double all_pairs_cost(const NeighbourList *list) {
     return (own * (own - 1) / 2 + own * (n - own)) * PAIR_COST(list->bound == 0);
 }
 
-uint64_t phys_max_useful_entries(const NeighbourList *list) {
-    return (uint64_t)all_pairs_cost(list) + 1;
-}
-
 // Returns true if a step with lists is cheaper than one with all pairs.
 static bool pays_off(const NeighbourList *list) {
     double lifetime = list->lifetime ? list->lifetime : FIRST_LIFETIME, n = list->total,
@@ -254,12 +250,14 @@ void phys_adapt_skin(NeighbourList *list, uint32_t lifetime) {
 
 // Sorts the particles and builds the list. If this fails, or if there are large particles, forces are summed in the
 // order of columns. So the columns are put back into ascending order of handles.
-static bool sort_particles(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
-    bool sorted = phys_grid_build(system, kernels, pass, list);
+static bool sort_particles(PhysSystem *system, const PairPass *pass, NeighbourList *list) {
+    bool automatic = system->options.neighbours == PHYS_NEIGHBOURS_AUTO;
+    uint64_t max_entries = automatic ? (uint64_t)all_pairs_cost(list) + 1 : UINT64_MAX;
+    bool sorted = phys_grid_build(system, pass, list, max_entries);
     if (system->column_order != ORDER_BY_CELL || (sorted && list->view.listed == list->view.regular))
         return sorted;
     phys_restore_order(system);
-    return sorted && phys_grid_build(system, kernels, pass, list);
+    return sorted && phys_grid_build(system, pass, list, max_entries);
 }
 
 // Lets a pass do without lists, because they do not pay off or there is no memory for them.
@@ -276,8 +274,8 @@ static void pause_list(const PhysSystem *system, NeighbourList *list) {
         list->state = LIST_DUE;
 }
 
-static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
-    bool sorted = sort_particles(system, kernels, pass, list);
+static bool build_list(PhysSystem *system, const PairPass *pass, NeighbourList *list) {
+    bool sorted = sort_particles(system, pass, list);
     list->radius_version = system->radius_version;
     system->failed = false; // running out of memory here is not an error, because a pass can do without a list
     list->age = 0;
@@ -293,8 +291,7 @@ static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPas
 }
 
 // Returns the list for this pass, or NULL if lists cannot be used.
-static NeighbourList *prepare_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
-                                   uint32_t level) {
+static NeighbourList *prepare_list(PhysSystem *system, const PairPass *pass, uint32_t group, uint32_t level) {
     double bound = bound_of(pass);
     PassRanges ranges;
     if (!(bound < INFINITY) || !find_ranges(system, group, level, &ranges))
@@ -308,13 +305,14 @@ static NeighbourList *prepare_list(PhysSystem *system, const Kernels *kernels, c
     if (!list)
         return NULL;
     bool same = list->group == group && list->level == level && list->dimensions == pass->dimensions &&
-                list->lanes == kernels->lanes && list->bound == bound && !memcmp(&list->ranges, &ranges, sizeof ranges);
+                list->lanes == system->kernels->lanes && list->bound == bound &&
+                !memcmp(&list->ranges, &ranges, sizeof ranges);
     list->frame = system->frame;
     if (!same) {
         list->group = group;
         list->level = level;
         list->dimensions = pass->dimensions;
-        list->lanes = kernels->lanes;
+        list->lanes = system->kernels->lanes;
         list->bound = bound;
         list->ranges = ranges;
         list->state = LIST_DUE;
@@ -327,21 +325,14 @@ static NeighbourList *prepare_list(PhysSystem *system, const Kernels *kernels, c
 }
 
 bool phys_lists_valid(PhysSystem *system, uint32_t age) {
-    const Kernels *kernels = phys_kernels(system);
     PairPass pass = phys_columns_pass(&system->columns);
     bool hold = true;
     for (int i = 0; i < PHYS_MAX_LISTS; i++) {
-        ListPass work = {.kernels = kernels, .pass = &pass, .list = &system->lists[i]};
+        ListPass work = {.kernels = system->kernels, .pass = &pass, .list = &system->lists[i]};
         if (phys_list_is_built(work.list))
             hold = refresh_list(system, &work) && hold && work.list->age == age;
     }
     return hold;
-}
-
-void phys_lists_invalidate(PhysSystem *system, const NeighbourList *kept) {
-    for (NeighbourList *list = system->lists; list < system->lists + PHYS_MAX_LISTS; list++)
-        if (list != kept && phys_list_is_built(list))
-            list->state = LIST_DUE;
 }
 
 void phys_lists_drop(PhysSystem *system, double skin) {
@@ -353,9 +344,8 @@ void phys_lists_drop(PhysSystem *system, double skin) {
     }
 }
 
-bool phys_neighbour_list_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
-                              uint32_t level, Move *move) {
-    NeighbourList *list = prepare_list(system, kernels, pass, group, level);
+bool phys_neighbour_list_pass(PhysSystem *system, const PairPass *pass, uint32_t group, uint32_t level, Move *move) {
+    NeighbourList *list = prepare_list(system, pass, group, level);
     if (!list)
         return false;
     if (list->state == LIST_PAUSED) {
@@ -363,14 +353,14 @@ bool phys_neighbour_list_pass(PhysSystem *system, const Kernels *kernels, const 
             list->state = LIST_DUE;
         return false;
     }
-    ListPass work = {.kernels = kernels, .pass = pass, .list = list};
+    ListPass work = {.kernels = system->kernels, .pass = pass, .list = list};
     if (list->state != LIST_DUE && !system->remote && !refresh_list(system, &work)) {
         list->state = LIST_DUE;
         list->lifetime = list->age;
         tune_skin(list);
     }
     if (list->state == LIST_DUE) {
-        if (!build_list(system, kernels, pass, list))
+        if (!build_list(system, pass, list))
             return false;
         refresh_list(system, &work);
     }

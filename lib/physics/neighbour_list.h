@@ -97,14 +97,10 @@ typedef struct NeighbourList {
 
 // neighbour_list.c: computes a pass with neighbour lists. If lists cannot be used, or if computing all pairs is faster,
 // adds no forces and returns false. `move` is as in phys_apply_pairs.
-bool phys_neighbour_list_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
-                              uint32_t level, Move *move);
+bool phys_neighbour_list_pass(PhysSystem *system, const PairPass *pass, uint32_t group, uint32_t level, Move *move);
 void phys_neighbour_list_free(NeighbourList *list);
 // Adapts list->skin after a halo has served `lifetime` steps.
 void phys_adapt_skin(NeighbourList *list, uint32_t lifetime);
-
-// Makes all built lists DUE except `kept`, which may be NULL.
-void phys_lists_invalidate(PhysSystem *system, const NeighbourList *kept);
 
 // The two functions below are for local systems (ranks/domain.h), whose lists are rebuilt when the halo is.
 //
@@ -114,11 +110,8 @@ bool phys_lists_valid(PhysSystem *system, uint32_t age);
 void phys_lists_drop(PhysSystem *system, double skin);
 
 // grid.c: builds the lists of a pass for the current positions and list->skin. Returns false if out of memory, if
-// contact_distance is too small or too large, or if lists would not pay off.
-bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list);
-
-// neighbour_list.c: returns the number of entries above which a pass with lists costs more than computing all pairs.
-uint64_t phys_max_useful_entries(const NeighbourList *list);
+// contact_distance is too small or too large, or if lists would have more than `max_entries` entries.
+bool phys_grid_build(PhysSystem *system, const PairPass *pass, NeighbourList *list, uint64_t max_entries);
 
 // Returns true if a particle has no partners: its position is not finite, or all forces need contact and its radius is
 // 0.
@@ -138,6 +131,13 @@ static inline uint32_t phys_next_remote(const PhysSystem *local, uint32_t from) 
 
 static inline bool phys_list_is_built(const NeighbourList *list) {
     return list->state >= LIST_BUILT;
+}
+
+// Makes all built lists DUE except `kept`, which may be NULL.
+static inline void phys_lists_invalidate(PhysSystem *system, const NeighbourList *kept) {
+    for (NeighbourList *list = system->lists; list < system->lists + PHYS_MAX_LISTS; list++)
+        if (list != kept && phys_list_is_built(list))
+            list->state = LIST_DUE;
 }
 
 // Returns the square of the distance that a particle may move before lists with this skin are invalid. The distance is

@@ -180,7 +180,7 @@ static void write_chunk(void *context, int chunk, int chunks) {
     size_t first = phys_chunk_begin(columns->count, chunk, chunks);
     if (writer->keep_last_finite) {
         // When the kernel stops, the next `lanes` particles are written one at a time. Then the kernel continues.
-        const Kernels *kernels = phys_kernels(system);
+        const Kernels *kernels = system->kernels;
         while (first < end) {
             if (n <= PHYS_VECTOR_DIMENSIONS && !system->any_from_attribute)
                 first = kernels->write_rows(columns, writer->order, system->rows.bytes, first, end);

@@ -73,6 +73,13 @@ void phys_discard_columns(PhysSystem *system) {
 }
 
 void phys_set_options(PhysSystem *system, const PhysOptions *options) {
+    static const Kernels *const levels[CPU_LEVELS] = {
+        [CPU_SCALAR] = &phys_kernels_two,
+#ifdef PETRI_X86
+        [CPU_AVX2] = &phys_kernels_avx2,
+        [CPU_AVX512] = &phys_kernels_avx512,
+#endif
+    };
     CpuLevel best = cpu_detected.level;
     if (options->division != system->options.division)
         free_division(system);
@@ -89,19 +96,9 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
         system->options.threads = PHYS_MAX_THREADS;
     if (options->cpu > best)
         system->options.cpu = best;
+    system->kernels = levels[system->options.cpu];
     bool needs_pool = !options->pool && system->options.threads > 1;
     system->threads = needs_pool ? phys_threads_new(system->options.threads) : options->pool;
-}
-
-const Kernels *phys_kernels(const PhysSystem *system) {
-    static const Kernels *const levels[CPU_LEVELS] = {
-        [CPU_SCALAR] = &phys_kernels_two,
-#ifdef PETRI_X86
-        [CPU_AVX2] = &phys_kernels_avx2,
-        [CPU_AVX512] = &phys_kernels_avx512,
-#endif
-    };
-    return levels[system->options.cpu];
 }
 
 void phys_begin(PhysSystem *system, uint32_t dimensions) {
