@@ -197,7 +197,7 @@ PhysStatus phys_potential_energy(const PhysSystem *system, uint32_t number, doub
     force->strength = force->given.strength * phys_ramp(force->given.ease, clock);
     phys_fill_terms(&source.term, (ForceRange){force, force + 1});
     source.row = phys_force_row(force->given.kind);
-    source.group = ((const ForceRecord *)system->force_records.bytes)[number].group;
+    source.group = phys_force_record(system, number)->group;
     source.group_end = phys_group_end(system, source.group);
     PhysStatus (*add)(Source *) = source.pair ? add_pairs : source.link ? add_link : source.single ? add_singles : NULL;
     PhysStatus status = add ? add(&source) : PHYS_OK;

@@ -8,7 +8,6 @@
 
 #include "physics/far_force.h"
 #include "physics/integrate.h"
-#include "physics/neighbour_list.h"
 #include "physics/pair_wavefront.h"
 #include "physics/single_formulas.h"
 
@@ -59,7 +58,7 @@ static void copy_particles(const PhysSystem *system, const double *rows, PhysSys
 static void copy_forces(const PhysSystem *system, PhysSystem *copy) {
     PhysForce force;
     for (uint32_t i = 0; phys_get_force(system, i, &force) && !copy->failed; i++)
-        phys_add_force(copy, ((const ForceRecord *)system->force_records.bytes)[i].group, &force);
+        phys_add_force(copy, phys_force_record(system, i)->group, &force);
 }
 
 // Returns a copy of the system with the positions and velocities in `rows`, or NULL if out of memory.

@@ -3,7 +3,6 @@
 
 #include "physics/division.h"
 #include "physics/far_walk.h"
-#include "physics/neighbour_list.h"
 #include "physics/threads.h"
 
 enum { EVALUATIONS_A_UNIT = 16 };

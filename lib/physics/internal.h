@@ -251,6 +251,10 @@ static inline double *phys_row(const PhysSystem *system, uint32_t particle) {
     return (double *)system->rows.bytes + (size_t)2 * system->dimensions * particle;
 }
 
+static inline ForceRecord *phys_force_record(const PhysSystem *system, uint32_t number) {
+    return (ForceRecord *)system->force_records.bytes + number;
+}
+
 // Charges work to the system's budget. Returns false if the step must be aborted. Only the main thread may call this.
 static inline bool phys_charge(const PhysSystem *system, uint64_t units) {
     return budget_charge(system->options.budget, units) == BUDGET_OK;

@@ -12,13 +12,9 @@
 
 enum { ITEMS_A_UNIT = 8 }; // particles or springs
 
-static const ForceRecord *record_at(const PhysSystem *system, uint32_t number) {
-    return (const ForceRecord *)system->force_records.bytes + number;
-}
-
 // Stores a force that is unstable, and suggests values. `largest` is an upper bound of λ·δ².
 static bool store(PhysInstability *found, const PhysSystem *system, uint32_t number, double largest, double delta) {
-    double strength = record_at(system, number)->given.strength;
+    double strength = phys_force_record(system, number)->given.strength;
     *found = (PhysInstability){number, strength * SUGGESTED / largest, delta * sqrt(SUGGESTED / largest)};
     return true;
 }
@@ -69,7 +65,7 @@ static bool collect_bodies(const PhysSystem *system, uint32_t group, bool all, B
 // Checks a soft boundary.
 static bool is_barrier_unstable(const PhysSystem *system, uint32_t number, const Bodies *bodies, double delta,
                                 PhysInstability *found) {
-    const PhysForce *barrier = &record_at(system, number)->given;
+    const PhysForce *barrier = &phys_force_record(system, number)->given;
     double square = barrier->strength * delta * delta;
     bool soft = (barrier->has_minimum && barrier->minimum > 0) || barrier->has_maximum;
     return soft && bodies->movers > 0 && square > LIMIT * bodies->heaviest &&
@@ -81,7 +77,7 @@ static bool is_barrier_unstable(const PhysSystem *system, uint32_t number, const
 // as a ball has in the densest packings of the first three dimensions: 2, 6 and 12.
 static bool are_pairs_unstable(const PhysSystem *system, uint32_t number, const Bodies *bodies, double delta,
                                PhysInstability *found) {
-    const PhysForce *force = &record_at(system, number)->given;
+    const PhysForce *force = &phys_force_record(system, number)->given;
     bool adhesion = force->kind == PHYS_ADHESION;
     double square = force->strength * delta * delta * (adhesion ? 2 * force->overlap : 1), n = system->dimensions;
     double softest = square * (adhesion ? bodies->smallest : 1), stiffest = square * (adhesion ? bodies->largest : 1);
@@ -92,7 +88,7 @@ static bool are_pairs_unstable(const PhysSystem *system, uint32_t number, const 
 
 static bool is_group_force_unstable(const PhysSystem *system, uint32_t number, double delta, Bodies *bodies,
                                     PhysInstability *found) {
-    const ForceRecord *record = record_at(system, number);
+    const ForceRecord *record = phys_force_record(system, number);
     const PhysForce *force = &record->given;
     bool barrier = force->kind == PHYS_BARRIER, adhesion = force->kind == PHYS_ADHESION;
     if ((!barrier && !adhesion && force->kind != PHYS_COLLISION) || (!adhesion && force->power != 1) ||
@@ -114,7 +110,7 @@ typedef struct Network {
 } Network;
 
 static const PhysForce *spring_at(const PhysSystem *system, uint32_t number) {
-    const PhysForce *force = &record_at(system, number)->given;
+    const PhysForce *force = &phys_force_record(system, number)->given;
     bool acts = force->kind == PHYS_DISTANCE && force->power == 1 && force->strength > 0 && force->from != force->to &&
                 force->has_maximum; // with a minimum alone, the spring throws its ends apart once
     return acts ? force : NULL;

@@ -325,7 +325,7 @@ void phys_begin_forces(PhysSystem *system) {
 void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key) {
     if (force >= system->force_count)
         return; // `force` comes from a failed call of phys_add_force
-    ForceRecord *record = (ForceRecord *)system->force_records.bytes + force;
+    ForceRecord *record = phys_force_record(system, force);
     record->given.key = key;
     if (system->state >= SYSTEM_SORTED)
         ((Force *)system->forces.bytes)[record->arranged].given.key = key;
@@ -406,7 +406,7 @@ uint32_t phys_force_count(const PhysSystem *system) {
 bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force) {
     if (number >= system->force_count)
         return false;
-    const ForceRecord *record = (const ForceRecord *)system->force_records.bytes + number;
+    const ForceRecord *record = phys_force_record(system, number);
     const double *vectors = system->vectors.bytes;
     *force = record->given;
     force->vector = record->vector ? vectors + record->vector - 1 : NULL;

@@ -6,16 +6,14 @@
 #include <string.h>
 
 bool domain_add_transfer(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column) {
-    uint64_t count = domain->transfer_count;
-    if (!phys_buffer_reserve(system, &domain->transfers, count * sizeof(Transfer), count + 1, sizeof(Transfer)))
+    if (!phys_buffer_grow(system, &domain->transfers, domain->transfer_count, sizeof(Transfer)))
         return false;
     ((Transfer *)domain->transfers.bytes)[domain->transfer_count++] = (Transfer){rank, column};
     return true;
 }
 
 bool domain_list_column(PhysSystem *system, ColumnList *list, uint32_t column) {
-    uint64_t count = list->count;
-    if (!phys_buffer_reserve(system, &list->columns, count * sizeof column, count + 1, sizeof column))
+    if (!phys_buffer_grow(system, &list->columns, list->count, sizeof column))
         return false;
     ((uint32_t *)list->columns.bytes)[list->count++] = column;
     return true;

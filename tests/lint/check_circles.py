@@ -3,8 +3,7 @@
 
 A room is a folder of lib/ or src/. A circle is a set of files of which each reaches each other by calls or by data, as the
 symbols of their object files say. A circle of at most three files may be one algorithm. The depth of a room is the number of
-files on its longest way of calls, in which a circle counts as all of its files. circles.txt lists rooms that are beyond
-these limits, with their size of circle and depth, which may only become smaller.
+files on its longest way of calls, in which a circle counts as all of its files.
 """
 import re
 import subprocess
@@ -85,22 +84,17 @@ def longest_way(calls, components):
 
 
 def main():
-    root, build = sys.argv[1:]
-    rows = [line.split() for line in Path(root, 'tests/lint/circles.txt').read_text(encoding='utf8').splitlines()
-            if line and not line.startswith('#')]
-    known = {room: (int(size), int(depth)) for room, size, depth in rows}
-    calls, wrong = read_calls(build), 0
+    calls, wrong = read_calls(sys.argv[2]), 0
     if len(calls) < 20:
         sys.exit(f'check_circles: found only {len(calls)} rooms')
     for room in sorted(calls):
         components = circles(calls[room])
         largest, way = max(components, key=len), longest_way(calls[room], components)
-        max_files, max_depth = known.get(room, (MAX_FILES, MAX_DEPTH))
-        if len(largest) > max_files:
-            print(f'{room}: {len(largest)} files call each other in a circle, and at most {max_files} may:', *largest)
+        if len(largest) > MAX_FILES:
+            print(f'{room}: {len(largest)} files call each other in a circle, and at most {MAX_FILES} may:', *largest)
             wrong += 1
-        if len(way) > max_depth:
-            print(f'{room}: {len(way)} files are on one way of calls, and at most {max_depth} may be:', *way)
+        if len(way) > MAX_DEPTH:
+            print(f'{room}: {len(way)} files are on one way of calls, and at most {MAX_DEPTH} may be:', *way)
             wrong += 1
     return 1 if wrong else 0
 
