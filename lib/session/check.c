@@ -1,4 +1,5 @@
 // check.c: checks of scripts (petri_check).
+#include "base/heap.h"
 #include "session/session.h"
 
 #include <string.h>
@@ -17,58 +18,41 @@ static PetriStatus lint_windows(PetriSession *session, void *context) {
 // found by the compiler, and the system that it invalidates by the evaluation.
 typedef struct CheckLog {
     PetriSession *scratch;
-    Arena arena;
-    PetriDiagnostic *items;
-    size_t count;
+    PetriDiagnostic **items;
+    uint32_t count;
+    uint32_t capacity;
     bool incomplete; // true if diagnostics are missing because memory ran out
 } CheckLog;
 
-static const char *copy_text(CheckLog *log, const char *text) {
-    return text ? str_to_c(&log->arena, str_from(text)) : NULL;
-}
-
-typedef struct CheckLogEntry {
-    CheckLog *log;
-    const PetriDiagnostic *diagnostic;
-} CheckLogEntry;
-
-static void add_to_log(void *context) {
-    const CheckLogEntry *entry = context;
-    CheckLog *log = entry->log;
-    size_t size = log->count * sizeof *log->items;
-    log->items = arena_grow(&log->arena, log->items, size, size + sizeof *log->items);
-    PetriDiagnostic *item = &log->items[log->count];
-    *item = *entry->diagnostic;
-    item->file = copy_text(log, item->file);
-    item->text = copy_text(log, item->text);
-    item->code = copy_text(log, item->code);
-    item->rendered = copy_text(log, item->rendered);
-    item->hint = copy_text(log, item->hint);
-    log->count++;
-}
-
 static void log_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     CheckLog *log = host;
-    Arena *arena = &log->arena;
-    CheckLogEntry entry = {log, diagnostic};
-    log->incomplete |= arena_protect(&arena, 1, add_to_log, &entry) != ARENA_OK;
+    PetriDiagnostic *copy = diagnostics_copy(diagnostic);
+    if (copy && heap_reserve((void **)&log->items, &log->capacity, log->count, sizeof *log->items)) {
+        log->items[log->count++] = copy;
+    } else {
+        log->incomplete = true;
+        heap_free(copy);
+    }
 }
 
 static bool comes_before(const PetriDiagnostic *a, const PetriDiagnostic *b) {
     return a->file && b->file && strcmp(a->file, b->file) == 0 && a->line < b->line;
 }
 
-// Reports the diagnostics. Those of one file are sorted by line.
+// Reports and frees the diagnostics. Those of one file are sorted by line.
 static void report_in_order(PetriSession *session, CheckLog *log) {
-    for (size_t i = 0; i < log->count; i++) {
-        PetriDiagnostic item = log->items[i];
-        size_t at = i;
-        for (; at > 0 && comes_before(&item, &log->items[at - 1]); at--)
+    for (uint32_t i = 0; i < log->count; i++) {
+        PetriDiagnostic *item = log->items[i];
+        uint32_t at = i;
+        for (; at > 0 && comes_before(item, log->items[at - 1]); at--)
             log->items[at] = log->items[at - 1];
         log->items[at] = item;
     }
-    for (size_t i = 0; i < log->count; i++)
-        diagnostics_forward(session, &log->items[i]);
+    for (uint32_t i = 0; i < log->count; i++) {
+        diagnostics_forward(session, log->items[i]);
+        heap_free(log->items[i]);
+    }
+    heap_free(log->items);
 }
 
 static void open_scratch(PetriSession *session, CheckLog *log) {
@@ -107,14 +91,12 @@ static PetriStatus run_checks(PetriSession *scratch, const char *file, const cha
 static PetriStatus check_script(PetriSession *session, const char *file, const char *text, size_t length) {
     CheckLog log = {0};
     PetriStatus status = PETRI_OUT_OF_MEMORY;
-    arena_init(&log.arena, "check", SIZE_MAX);
     open_scratch(session, &log);
     bool opened = log.scratch;
     if (opened)
         status = run_checks(log.scratch, file, text, length);
     petri_close(&log.scratch);
     report_in_order(session, &log);
-    arena_free(&log.arena);
     return log.incomplete || !opened ? session_report_abort(session, PETRI_OUT_OF_MEMORY, "the check") : status;
 }
 

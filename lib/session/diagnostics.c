@@ -27,13 +27,12 @@ static size_t text_size(const char *text) {
     return text ? strlen(text) + 1 : 0;
 }
 
-// Stores a copy of a diagnostic for petri_diagnostic, unless out of memory.
-static void retain_diagnostic(Diagnostics *diagnostics, const PetriDiagnostic *diagnostic) {
+PetriDiagnostic *diagnostics_copy(const PetriDiagnostic *diagnostic) {
     PetriDiagnostic *copy =
         heap_alloc(sizeof *copy + text_size(diagnostic->file) + text_size(diagnostic->text) +
                    text_size(diagnostic->code) + text_size(diagnostic->rendered) + text_size(diagnostic->hint));
     if (!copy)
-        return;
+        return NULL;
     char *end = (char *)(copy + 1);
     *copy = *diagnostic;
     copy->file = add_text(&end, diagnostic->file);
@@ -41,6 +40,14 @@ static void retain_diagnostic(Diagnostics *diagnostics, const PetriDiagnostic *d
     copy->code = add_text(&end, diagnostic->code);
     copy->rendered = add_text(&end, diagnostic->rendered);
     copy->hint = add_text(&end, diagnostic->hint);
+    return copy;
+}
+
+// Stores a copy of a diagnostic for petri_diagnostic, unless out of memory.
+static void retain_diagnostic(Diagnostics *diagnostics, const PetriDiagnostic *diagnostic) {
+    PetriDiagnostic *copy = diagnostics_copy(diagnostic);
+    if (!copy)
+        return;
     bool full = diagnostics->retained_count == MAX_RETAINED;
     PetriDiagnostic **place =
         &diagnostics->retained[(diagnostics->retained_first + diagnostics->retained_count) % MAX_RETAINED];

@@ -359,53 +359,59 @@ static PetriStatus replay_frames(PetriHistory *history, int64_t frame) {
     return status;
 }
 
-PetriStatus petri_history_goto(PetriHistory *history, int64_t frame) {
+// Starts the timeline if necessary, and stores the configuration of the session for end_move.
+static PetriStatus begin_move(PetriHistory *history, PetriConfig **config) {
     PetriStatus status = ensure_started(history);
+    *config = status == PETRI_OK ? petri_config_get(history->session) : NULL;
+    return *config || status != PETRI_OK ? status : PETRI_OUT_OF_MEMORY;
+}
+
+static void end_move(PetriHistory *history, PetriConfig *config) {
+    petri_config_apply(history->session, config);
+    petri_config_free(config);
+}
+
+PetriStatus petri_history_goto(PetriHistory *history, int64_t frame) {
+    PetriConfig *config;
+    PetriStatus status = begin_move(history, &config);
     if (status != PETRI_OK)
         return status;
-    PetriSession *session = history->session;
-    PetriConfig *config = petri_config_get(session);
-    if (!config)
-        return PETRI_OUT_OF_MEMORY;
+    const Clock *clock = &history->session->clock;
     int64_t target = frame < history->last ? frame : history->last;
-    if (session->clock.number != target)
+    if (clock->number != target)
         status = replay_frames(history, target);
-    petri_config_apply(session, config);
-    petri_config_free(config);
-    while (status == PETRI_OK && session->clock.number < frame)
+    end_move(history, config);
+    while (status == PETRI_OK && clock->number < frame)
         status = petri_history_step(history);
     return status;
 }
 
 PetriStatus petri_history_recompute(PetriHistory *history) {
-    PetriStatus status = ensure_started(history);
+    PetriConfig *config;
+    PetriStatus status = begin_move(history, &config);
     if (status != PETRI_OK)
         return status;
-    PetriSession *session = history->session;
-    int64_t frame = session->clock.number;
-    if (frame <= history->first || frame > history->last)
-        return PETRI_OK;
-    PetriConfig *config = petri_config_get(session);
-    PetriSnapshot *present = petri_snapshot(session);
-    status = config && present ? replay_frames(history, frame) : PETRI_OUT_OF_MEMORY;
-    if (status != PETRI_OK && present)
-        petri_rewind(session, present);
-    petri_snapshot_free(present);
-    petri_config_apply(session, config);
-    petri_config_free(config);
+    int64_t frame = history->session->clock.number;
+    if (frame > history->first && frame <= history->last) {
+        PetriSnapshot *present = petri_snapshot(history->session);
+        status = present ? replay_frames(history, frame) : PETRI_OUT_OF_MEMORY;
+        if (status != PETRI_OK)
+            petri_rewind(history->session, present);
+        petri_snapshot_free(present);
+    }
+    end_move(history, config);
     return status;
 }
 
 PetriStatus petri_history_reset(PetriHistory *history) {
-    PetriStatus status = ensure_started(history);
+    PetriConfig *config;
+    PetriStatus status = begin_move(history, &config);
     if (status != PETRI_OK)
         return status;
-    PetriSession *session = history->session;
-    PetriConfig *config = petri_config_get(session);
-    status = config ? petri_rewind(session, history->origin) : PETRI_OUT_OF_MEMORY;
-    petri_config_apply(session, config);
-    petri_config_free(config);
-    return status == PETRI_OK && session->clock.number < history->first ? petri_history_start(history, NULL) : status;
+    status = petri_rewind(history->session, history->origin);
+    end_move(history, config);
+    bool outside = status == PETRI_OK && history->session->clock.number < history->first;
+    return outside ? petri_history_start(history, NULL) : status;
 }
 
 bool petri_history_info(const PetriHistory *history, PetriHistoryInfo *info, size_t size) {

@@ -333,8 +333,8 @@ static PetriStatus append_statement(PetriSession *session, void *context) {
     return PETRI_OK;
 }
 
-PetriStatus session_restore_statement(PetriSession *session, Str text) {
-    Job job = {.text = text};
+PetriStatus session_restore_statement(PetriSession *session, const char *text) {
+    Job job = {.text = str_from(text)};
     session->loader.pending = NULL;
     PetriStatus status = session_run(session, append_statement, &job, "the input");
     if (status == PETRI_OK) {

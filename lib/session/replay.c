@@ -63,12 +63,12 @@ static PetriStatus parse_lines(PetriSession *session, void *context) {
     return PETRI_OK;
 }
 
-static PetriStatus setup_read(PetriSession *session, Str text, Setup *setup) {
+static PetriStatus setup_read(PetriSession *session, Str text, SessionCall *parse, Setup *setup) {
     *setup = (Setup){.text = text};
     session_arena(session, &setup->arena, "setup", SIZE_MAX);
     if (utf8_find_error(text) < text.len)
         return PETRI_INVALID;
-    return session_protect(session, &setup->arena, parse_lines, setup);
+    return session_protect(session, &setup->arena, parse, setup);
 }
 
 // Returns the next line with a name, starting at *at, or NULL.
@@ -99,25 +99,15 @@ static const char *text_at(Value value, uint32_t index) {
 
 // --- configuration
 
-// Sets the definitions of a recorded configuration, and nothing else.
-static PetriStatus apply_defines(PetriSession *session, const Setup *setup) {
-    session->config.defines = NULL;
-    session->config.define_count = session->reported_defines = 0;
-    PetriStatus status = PETRI_OK;
-    uint32_t at = 0;
-    for (const TextLine *line; status == PETRI_OK && (line = next_line(setup, "define", &at));) {
-        const char *text = text_at(line->value, 0);
-        status = text ? petri_define(session, text) : PETRI_INVALID;
-    }
-    return status;
-}
+typedef PetriStatus ApplyText(PetriSession *session, const char *text);
 
-static PetriStatus apply_prompts(PetriSession *session, const Setup *setup) {
+// Passes the text of each line with a name to a function.
+static PetriStatus apply_texts(PetriSession *session, const Setup *setup, const char *name, ApplyText *apply) {
     PetriStatus status = PETRI_OK;
     uint32_t at = 0;
-    for (const TextLine *line; status == PETRI_OK && (line = next_line(setup, "prompt", &at));) {
+    for (const TextLine *line; status == PETRI_OK && (line = next_line(setup, name, &at));) {
         const char *text = text_at(line->value, 0);
-        status = text ? session_restore_statement(session, str_from(text)) : PETRI_INVALID;
+        status = text ? apply(session, text) : PETRI_INVALID;
     }
     return status;
 }
@@ -167,11 +157,13 @@ static PetriStatus apply_configuration(PetriSession *session, const Setup *setup
     if (!script)
         return PETRI_INVALID;
     petri_prompt_clear(session, true);
-    PetriStatus status = apply_defines(session, setup);
+    session->config.defines = NULL;
+    session->config.define_count = session->reported_defines = 0;
+    PetriStatus status = apply_texts(session, setup, "define", petri_define);
     if (status == PETRI_OK)
         status = load_script(session, setup, script);
     if (status == PETRI_OK)
-        status = apply_prompts(session, setup);
+        status = apply_texts(session, setup, "prompt", session_restore_statement);
     return status == PETRI_OK ? apply_rates(session, setup) : status;
 }
 
@@ -239,7 +231,7 @@ static PetriStatus restore_setup(PetriSession *session, const Setup *setup, Str 
 
 PetriStatus recorder_restore(PetriSession *session, Str setup_text, Str state) {
     Setup setup;
-    PetriStatus status = setup_read(session, setup_text, &setup);
+    PetriStatus status = setup_read(session, setup_text, parse_lines, &setup);
     if (status == PETRI_OK)
         status = restore_setup(session, &setup, state);
     arena_free(&setup.arena);
@@ -269,55 +261,36 @@ static PetriStatus apply_key(PetriSession *session, Value value) {
     return petri_report_key(session, name, pressed != 0);
 }
 
-// An input other than a configuration: one value, or two with " = " between them.
-typedef struct InputValues {
-    Arena arena;
-    Str text;
-    Value first;
-    Value second;
-    bool has_second;
-} InputValues;
-
+// Parses an input other than a configuration, one value, or two with " = " between them, as a line.
 static PetriStatus parse_values(PetriSession *session, void *context) {
-    InputValues *values = context;
-    TextReader reader = {session, &values->arena, values->text};
-    if (!text_reader_value(&reader, &values->first))
-        return PETRI_INVALID;
-    values->has_second = text_reader_skip(&reader, STR(" = "));
-    if (values->has_second && !text_reader_value(&reader, &values->second))
-        return PETRI_INVALID;
-    return reader.rest.len == 0 ? PETRI_OK : PETRI_INVALID;
+    Setup *setup = context;
+    TextReader reader = {session, &setup->arena, setup->text};
+    TextLine *line = setup->lines = arena_alloc(&setup->arena, sizeof *line);
+    *line = (TextLine){.has_key = true};
+    bool good = text_reader_value(&reader, &line->key);
+    line->has_value = text_reader_skip(&reader, STR(" = "));
+    good = good && (!line->has_value || text_reader_value(&reader, &line->value));
+    return good && reader.rest.len == 0 ? PETRI_OK : PETRI_INVALID;
 }
 
-static PetriStatus apply_values(PetriSession *session, Str kind, const InputValues *values) {
-    Value first = values->first, second = values->second;
-    if (str_equal(kind, STR("state")) && values->has_second)
-        return petri_state_set(session, session_export_value(&first), session_export_value(&second));
-    if (str_equal(kind, STR("global")) && values->has_second)
-        return apply_global(session, first, second);
-    if (str_equal(kind, STR("pointer")) && !values->has_second)
-        return apply_pointer(session, first);
-    if (str_equal(kind, STR("key")) && !values->has_second)
-        return apply_key(session, first);
+static PetriStatus apply_values(PetriSession *session, Str kind, const TextLine *line) {
+    if (str_equal(kind, STR("state")) && line->has_value)
+        return petri_state_set(session, session_export_value(&line->key), session_export_value(&line->value));
+    if (str_equal(kind, STR("global")) && line->has_value)
+        return apply_global(session, line->key, line->value);
+    if (str_equal(kind, STR("pointer")) && !line->has_value)
+        return apply_pointer(session, line->key);
+    if (str_equal(kind, STR("key")) && !line->has_value)
+        return apply_key(session, line->key);
     return PETRI_INVALID;
 }
 
 PetriStatus recorder_apply_input(PetriSession *session, Str kind, Str payload) {
-    if (str_equal(kind, STR("configuration"))) {
-        Setup setup;
-        PetriStatus status = setup_read(session, payload, &setup);
-        if (status == PETRI_OK)
-            status = apply_configuration(session, &setup);
-        arena_free(&setup.arena);
-        return status;
-    }
-    if (utf8_find_error(payload) < payload.len)
-        return PETRI_INVALID;
-    InputValues values = {.text = payload};
-    session_arena(session, &values.arena, "input", SIZE_MAX);
-    PetriStatus status = session_protect(session, &values.arena, parse_values, &values);
+    Setup setup;
+    bool is_setup = str_equal(kind, STR("configuration"));
+    PetriStatus status = setup_read(session, payload, is_setup ? parse_lines : parse_values, &setup);
     if (status == PETRI_OK)
-        status = apply_values(session, kind, &values);
-    arena_free(&values.arena);
+        status = is_setup ? apply_configuration(session, &setup) : apply_values(session, kind, setup.lines);
+    arena_free(&setup.arena);
     return status;
 }

@@ -165,7 +165,7 @@ bool session_check_definitions(PetriSession *session, Unit *unit);
 // Records that the configuration has changed. If `frame_valid` is true, the results of the last frame stay valid.
 void session_change_config(PetriSession *session, bool frame_valid);
 // Adds a statement to the prompt without evaluating it. Returns PETRI_INVALID if it is not valid.
-PetriStatus session_restore_statement(PetriSession *session, Str text);
+PetriStatus session_restore_statement(PetriSession *session, const char *text);
 // Replaces the list of prompt statements. Takes over the caller's reference to `list`.
 void session_set_prompts(PetriSession *session, PromptList *list);
 
