@@ -160,7 +160,8 @@ static Value run_program(PetriSession *session, const Program *program) {
     return result;
 }
 
-void session_evaluate(PetriSession *session, const State *state) {
+// Evaluates the script and then the prompt's statements, with `state` as the state dictionary.
+static void evaluate(PetriSession *session, const State *state) {
     SessionFrame *frame = &session->frame;
     const PromptList *list = session->config.prompts;
     session->vm.state = state;
@@ -198,7 +199,7 @@ static PetriStatus preview(PetriSession *session, void *context) {
         if (state_clear_exhausted(*before))
             arena_exhausted(&session->frame.arena);
     }
-    session_evaluate(session, *before ? *before : session->state);
+    evaluate(session, *before ? *before : session->state);
     return PETRI_OK;
 }
 
@@ -258,7 +259,7 @@ static PetriStatus evaluate_script(PetriSession *session, void *context) {
         session->vm.missed = arena_alloc(&frame->arena, sizeof *session->vm.missed);
         *session->vm.missed = (LookupLog){0};
     }
-    session_evaluate(session, session->state);
+    evaluate(session, session->state);
     frame->evaluation_seconds = clock_seconds() - start;
     return PETRI_OK;
 }

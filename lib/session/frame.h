@@ -42,9 +42,6 @@ typedef struct SessionFrame {
 void session_clear_frame(PetriSession *session);
 // Like session_clear_frame, but also frees the blocks of the arenas. Used after an aborted frame.
 void session_drop_frame(PetriSession *session);
-// Evaluates the script and then the prompt's statements, with `state` as the state dictionary. Called within a
-// protected call.
-void session_evaluate(PetriSession *session, const State *state);
 // Evaluates the prompt's bindings again, with the state after the frame. Does nothing if names_current is set. Names
 // that the script binds keep their values.
 PetriStatus session_update_names(PetriSession *session);

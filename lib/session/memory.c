@@ -67,7 +67,7 @@ void session_clear_files(PetriSession *session) {
         unit->retired = true;
 }
 
-void session_free_retired(PetriSession *session) {
+static void free_retired(PetriSession *session) {
     bool any = false;
     for (Unit **link = &session->loader.modules; *link;) {
         Unit *unit = *link;
@@ -147,7 +147,7 @@ void session_clear_frame(PetriSession *session) {
     arena_reset(&session->view_arena);
     phys_explanation_free(&session->explanation);
     scene_forget_origins(session->scene);
-    session_free_retired(session);
+    free_retired(session);
 }
 
 void session_drop_frame(PetriSession *session) {

@@ -1,7 +1,7 @@
 // prompt.c: evaluation of text that a user types at the prompt (petri_prompt, petri_evaluate).
 //
 // Each statement is a separate program whose parameters are the visible names (prompt.h). Names of the script have
-// their values of the last frame, before its systems were updated (session_evaluate). Names bound at the prompt are
+// their values of the last frame, before its systems were updated (frame.c). Names bound at the prompt are
 // evaluated in the state after the frame, as if they were typed again (session_update_names). In both cases, the values
 // do not depend on how the session reached the frame. Expressions are evaluated in a separate arena and retain nothing.
 #include "base/clock.h"

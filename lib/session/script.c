@@ -32,25 +32,12 @@ static Value define_value(PetriSession *session, Str text) {
 
 typedef struct Definition {
     Str name;
-    Str value;
+    Str value; // text as in petri_define; if `bytes` is NULL: the parameter gets its default
 } Definition;
 
-static PetriStatus run_define(PetriSession *session, void *context) {
+static PetriStatus add_define(PetriSession *session, void *context) {
     const Definition *definition = context;
-    return session_define(session, definition->name, definition->value);
-}
-
-PetriStatus petri_define(PetriSession *session, const char *definition) {
-    if (!session || !definition)
-        return PETRI_INVALID;
-    const char *equals = strchr(definition, '=');
-    if (!equals)
-        return PETRI_INVALID;
-    Definition made = {{definition, (size_t)(equals - definition)}, str_from(equals + 1)};
-    return session_protect(session, NULL, run_define, &made);
-}
-
-PetriStatus session_define(PetriSession *session, Str name, Str value) {
+    Str name = definition->name, value = definition->value;
     if (!session_is_name(name) || utf8_find_error(value) != value.len)
         return PETRI_INVALID;
     uint32_t count = session->config.define_count;
@@ -65,6 +52,14 @@ PetriStatus session_define(PetriSession *session, Str name, Str value) {
     session->config.define_count = count + 1;
     session_change_config(session, true);
     return PETRI_OK;
+}
+
+PetriStatus petri_define(PetriSession *session, const char *definition) {
+    const char *equals = session && definition ? strchr(definition, '=') : NULL;
+    if (!equals)
+        return PETRI_INVALID;
+    Definition added = {{definition, (size_t)(equals - definition)}, str_from(equals + 1)};
+    return session_protect(session, NULL, add_define, &added);
 }
 
 typedef enum LoadPurpose { LOAD_RESTART, LOAD_CONTINUE } LoadPurpose;
@@ -179,16 +174,11 @@ PetriStatus petri_reload(PetriSession *session, const char *file) {
 
 // --- parameters
 
-typedef struct Setting {
-    const char *name;
-    const char *value; // NULL: reset to the default
-} Setting;
-
 // Replaces all definitions of a name by one with the new value. If the new value is NULL, only removes them.
 static PetriStatus redefine(PetriSession *session, void *context) {
-    const Setting *setting = context;
+    const Definition *definition = context;
     Config *config = &session->config;
-    const Symbol *symbol = symbol_intern(&session->symbols, str_from(setting->name));
+    const Symbol *symbol = symbol_intern(&session->symbols, definition->name);
     if (!config->program || !program_find_parameter(config->program->program, symbol))
         return PETRI_INVALID;
     Define *defines = arena_alloc_array(&session->arena, config->define_count + 1, sizeof *defines);
@@ -198,17 +188,17 @@ static PetriStatus redefine(PetriSession *session, void *context) {
             defines[count++] = config->defines[i];
     config->defines = defines;
     config->define_count = session->reported_defines = count;
-    return setting->value ? session_define(session, symbol->name, str_from(setting->value)) : PETRI_OK;
+    return definition->value.bytes ? add_define(session, context) : PETRI_OK;
 }
 
 PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value) {
     if (!session || !name)
         return PETRI_INVALID;
-    Setting setting = {name, value};
+    Definition definition = {str_from(name), value ? str_from(value) : (Str){0}};
     const Define *defines = session->config.defines;
     uint32_t count = session->config.define_count, reported = session->reported_defines;
     uint64_t number = session->config_revision;
-    PetriStatus status = session_protect(session, NULL, redefine, &setting);
+    PetriStatus status = session_protect(session, NULL, redefine, &definition);
     if (status == PETRI_OK)
         status = petri_reload(session, NULL);
     if (status != PETRI_OK) {

@@ -156,8 +156,6 @@ void session_copy_host_globals(const PetriSession *session, PetriSession *to);
 // Frees the values of the names that the host set.
 void session_free_host_globals(PetriSession *session);
 
-// Defines a name; `value` is text as in petri_define. Called within a protected call.
-PetriStatus session_define(PetriSession *session, Str name, Str value);
 // Checks whether the definitions fit a script and reports problems, such as unused definitions. Returns false if there
 // is an error that must prevent the script from running.
 bool session_check_definitions(PetriSession *session, Unit *unit);

@@ -94,5 +94,3 @@ void session_clear_files(PetriSession *session);
 void session_add_module(PetriSession *session, Unit *unit);
 // Returns the cached module with a canonical path, or NULL.
 Unit *session_find_module(PetriSession *session, Str path);
-// Frees retired modules.
-void session_free_retired(PetriSession *session);
