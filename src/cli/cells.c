@@ -33,8 +33,3 @@ bool cell_next(Str *cells, Cell *cell) {
     *cells = (Str){contents + length, rest - length};
     return true;
 }
-
-bool cell_equal(const Cell *a, const Cell *b) {
-    return a->kind == b->kind &&
-           (a->kind == CELL_TEXT ? strcmp(a->as.text, b->as.text) == 0 : a->as.integer == b->as.integer);
-}

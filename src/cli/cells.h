@@ -23,5 +23,3 @@ void cell_add(Text *cells, Cell cell);
 // Reads the first cell of *cells and removes it. The text of a cell is valid as long as the bytes. Returns false at the
 // end, or if the bytes are not a cell.
 bool cell_next(Str *cells, Cell *cell);
-// Returns true if two cells have the same kind and the same bits or text.
-bool cell_equal(const Cell *a, const Cell *b);

@@ -15,47 +15,63 @@
 typedef struct Column {
     const char *name;
     CellKind kind;
-    size_t bytes; // size of a cell in a record
+    size_t bytes;  // size of a cell
+    size_t offset; // of a cell in a record
     hid_t type;
 } Column;
 
 typedef struct Table {
-    Cell *cells; // by row
+    char *records;
+    size_t bytes; // size of a record
     size_t rows;
-    size_t width;      // number of cells in a row
-    size_t parameters; // the columns after the first
-    Column *columns;
-    TextList texts; // of numbers in columns of strings
+    size_t width; // number of columns
+    size_t parameters;
+    Column *columns; // run, the parameters, and others
 } Table;
 
-static Cell *cell_at(const Table *table, size_t row, size_t column) {
-    return &table->cells[row * table->width + column];
+static char *cell_at(const Table *table, size_t row, size_t column) {
+    return &table->records[row * table->bytes + table->columns[column].offset];
 }
 
-// Chooses the type of a column, whose name and kind are set. In a column of strings, makes all cells texts.
-static void choose_type(Table *table, size_t number) {
-    Column *column = &table->columns[number];
-    size_t max_length = 0;
-    for (size_t row = 0; row < table->rows; row++)
-        if (cell_at(table, row, number)->kind == CELL_TEXT)
-            column->kind = CELL_TEXT;
-    for (size_t row = 0; row < table->rows && column->kind == CELL_TEXT; row++) {
-        Cell *cell = cell_at(table, row, number);
-        if (cell->kind == CELL_NUMBER) {
-            char digits[NUMBER_TEXT];
-            number_format(cell->as.number, digits);
-            texts_add(&table->texts, digits);
-        }
-        if (cell->kind != CELL_TEXT)
-            *cell = (Cell){CELL_TEXT,
-                           {.text = cell->kind == CELL_NUMBER ? table->texts.items[table->texts.count - 1] : ""}};
-        size_t length = strlen(cell->as.text);
-        max_length = length > max_length ? length : max_length;
+// Returns the text of a cell in a column of strings. `digits` has space for it.
+static const char *text_of(Cell cell, char digits[NUMBER_TEXT]) {
+    digits[0] = '\0';
+    if (cell.kind == CELL_NUMBER)
+        number_format(cell.as.number, digits);
+    return cell.kind == CELL_TEXT ? cell.as.text : digits;
+}
+
+static void write_cell(const Column *column, Cell cell, char *out) {
+    char digits[NUMBER_TEXT];
+    const char *text = text_of(cell, digits);
+    if (cell.kind == CELL_NONE)
+        cell.as.number = NAN;
+    if (column->kind == CELL_TEXT)
+        memcpy(out, text, strlen(text) + 1);
+    else
+        memcpy(out, &cell.as, column->bytes);
+}
+
+// Chooses the types of columns. `rows` are the cells of all rows.
+static void choose_types(Table *table, Str rows) {
+    Cell cell;
+    size_t count = 0;
+    for (; cell_next(&rows, &cell); count++) {
+        Column *column = &table->columns[count % table->width];
+        char digits[NUMBER_TEXT];
+        size_t bytes = strlen(text_of(cell, digits)) + 1;
+        column->kind = cell.kind > column->kind ? cell.kind : column->kind;
+        column->bytes = bytes > column->bytes ? bytes : column->bytes;
     }
-    column->type = column->kind == CELL_INTEGER  ? H5Tcopy(H5T_NATIVE_INT64)
-                   : column->kind == CELL_NUMBER ? H5Tcopy(H5T_NATIVE_DOUBLE)
-                                                 : store_text_type(max_length);
-    column->bytes = H5Tget_size(column->type);
+    table->rows = count / table->width;
+    for (Column *column = table->columns; column < table->columns + table->width; column++) {
+        column->type = column->kind == CELL_INTEGER  ? H5Tcopy(H5T_NATIVE_INT64)
+                       : column->kind == CELL_NUMBER ? H5Tcopy(H5T_NATIVE_DOUBLE)
+                                                     : store_text_type(column->bytes - 1);
+        column->bytes = H5Tget_size(column->type);
+        column->offset = table->bytes;
+        table->bytes += column->bytes;
+    }
 }
 
 // Reads the data of hdf5_table.
@@ -69,29 +85,15 @@ static Table read_table(Str data) {
     table.columns = memory_calloc(table.width * sizeof *table.columns);
     for (size_t i = 0; i < table.width; i++) {
         cell_next(&data, &cell);
-        table.columns[i].name = cell.as.text;
+        table.columns[i] = (Column){.name = cell.as.text, .bytes = 1};
         cell_next(&data, &cell);
         table.columns[i].kind = (CellKind)cell.as.integer;
     }
-    size_t count = 0;
-    for (Str rest = data; cell_next(&rest, &cell);)
-        count++;
-    table.cells = memory_calloc(count * sizeof cell);
-    for (size_t i = 0; i < count; i++)
-        cell_next(&data, &table.cells[i]);
-    table.rows = count / table.width;
-    for (size_t i = 0; i < table.width; i++)
-        choose_type(&table, i);
+    choose_types(&table, data);
+    table.records = memory_calloc(table.rows * table.bytes);
+    for (size_t i = 0; i < table.rows * table.width && cell_next(&data, &cell); i++)
+        write_cell(&table.columns[i % table.width], cell, cell_at(&table, i / table.width, i % table.width));
     return table;
-}
-
-static void write_cell(const Column *column, Cell cell, char *out) {
-    if (cell.kind == CELL_NONE)
-        cell.as.number = NAN;
-    if (column->kind == CELL_TEXT)
-        memcpy(out, cell.as.text, strlen(cell.as.text) + 1);
-    else
-        memcpy(out, &cell.as, column->bytes);
 }
 
 // The dimensions of a table with one row for each combination of values, in the order of petri sweep.
@@ -101,11 +103,15 @@ typedef struct Grid {
     size_t strides[H5S_MAX_RANK]; // number of rows with the same value of a parameter, one after the other
 } Grid;
 
+static bool cells_equal(const Table *table, size_t column, size_t a, size_t b) {
+    return memcmp(cell_at(table, a, column), cell_at(table, b, column), table->columns[column].bytes) == 0;
+}
+
 static bool is_grid(const Table *table, const Grid *grid) {
     for (size_t row = 0; row < table->rows; row++)
         for (int k = 0; k < grid->rank; k++) {
             size_t value = row / grid->strides[k] % grid->sizes[k] * grid->strides[k];
-            if (!cell_equal(cell_at(table, row, (size_t)k + 1), cell_at(table, value, (size_t)k + 1)))
+            if (!cells_equal(table, (size_t)k + 1, row, value))
                 return false;
         }
     return true;
@@ -119,7 +125,7 @@ static bool find_grid(const Table *table, Grid *grid) {
         return false;
     for (size_t k = table->parameters; k > 0; k--) {
         size_t count = 1;
-        while (count * stride < table->rows && !cell_equal(cell_at(table, count * stride, k), cell_at(table, 0, k)))
+        while (count * stride < table->rows && !cells_equal(table, k, count * stride, 0))
             count++;
         grid->sizes[k - 1] = count;
         grid->strides[k - 1] = stride;
@@ -143,16 +149,14 @@ static hid_t store_cells(Store *store, const Table *table, size_t number, int ra
     for (int k = 0; k < rank; k++)
         count *= sizes[k];
     Column column = table->columns[number];
-    if (column.kind == CELL_TEXT)
-        column =
-            (Column){.name = column.name, .kind = CELL_TEXT, .bytes = sizeof(const char *), .type = any_text_type()};
+    bool texts = column.kind == CELL_TEXT;
+    if (texts)
+        column.type = any_text_type();
+    column.bytes = H5Tget_size(column.type);
     char *cells = memory_calloc(count * column.bytes);
     for (size_t i = 0; i < count; i++) {
-        const Cell *cell = cell_at(table, i * stride, number);
-        if (column.kind == CELL_TEXT)
-            memcpy(cells + i * column.bytes, &cell->as.text, column.bytes);
-        else
-            write_cell(&column, *cell, cells + i * column.bytes);
+        const char *cell = cell_at(table, i * stride, number);
+        memcpy(cells + i * column.bytes, texts ? (const void *)&cell : cell, column.bytes);
     }
     hid_t set = store_array(store, store->file, column.name, column.type, rank, sizes, cells);
     free(cells);
@@ -186,22 +190,13 @@ static bool are_names(const Table *table) {
 
 void table_store(Store *store, const char *data, size_t length) {
     Table table = read_table((Str){data, length});
-    size_t bytes = 0, offset = 0;
+    hid_t record = H5Tcreate(H5T_COMPOUND, table.bytes);
     for (size_t i = 0; i < table.width; i++)
-        bytes += table.columns[i].bytes;
-    char *records = memory_calloc(table.rows * bytes), *at = records;
-    hid_t record = H5Tcreate(H5T_COMPOUND, bytes);
-    for (size_t i = 0; i < table.width; offset += table.columns[i++].bytes)
-        store_check(store, H5Tinsert(record, table.columns[i].name, offset, table.columns[i].type));
-    for (size_t row = 0; row < table.rows; row++)
-        for (size_t i = 0; i < table.width; at += table.columns[i++].bytes)
-            write_cell(&table.columns[i], *cell_at(&table, row, i), at);
-    store_list(store, store->file, "table", record, table.rows, records);
-    free(records);
+        store_check(store, H5Tinsert(record, table.columns[i].name, table.columns[i].offset, table.columns[i].type));
+    store_list(store, store->file, "table", record, table.rows, table.records);
     Grid grid;
     if (are_names(&table) && find_grid(&table, &grid))
         store_grid(store, &table, &grid);
     free(table.columns);
-    free(table.cells);
-    texts_free(&table.texts);
+    free(table.records);
 }

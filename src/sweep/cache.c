@@ -174,29 +174,33 @@ bool cache_should_verify(const Sweep *sweep, const char *key) {
     return number < sweep->options->verify_cache / 100 * 0x1p32;
 }
 
-// Appends the first metric that differs in two rows, of which the frames were read. Returns false if none differs.
+// Appends the first metric that differs in two rows, of which the frames were read. Returns false if none differs; the
+// rows were then read.
 static bool add_metric(const Sweep *sweep, int64_t frame, Str rows[2], Text *report) {
     static const char *const no_positions[2];
-    for (size_t i = 0; i <= sweep->metric_count; i++) {
-        Cell cells[2];
-        bool read = cell_next(&rows[0], &cells[0]) && cell_next(&rows[1], &cells[1]);
-        if (!read || i == sweep->metric_count || cell_equal(&cells[0], &cells[1]))
-            continue;
+    Cell cell;
+    for (size_t i = 0; i < sweep->metric_count; i++) {
         SCOPED_TEXT stored = {0}, computed = {0};
-        row_add_text(sweep, i, cells[0], &stored);
-        row_add_text(sweep, i, cells[1], &computed);
-        text_add_format(report, "frame %" PRId64 ": metric %s\n", frame, sweep->metrics[i].name);
-        state_add_values(report, (Str[]){text_str(&stored), text_str(&computed)}, no_positions);
-        return true;
+        if (cell_next(&rows[0], &cell))
+            row_add_text(sweep, i, cell, &stored);
+        if (cell_next(&rows[1], &cell))
+            row_add_text(sweep, i, cell, &computed);
+        Str values[] = {text_str(&stored), text_str(&computed)};
+        if (!str_equal(values[0], values[1])) {
+            text_add_format(report, "frame %" PRId64 ": metric %s\n", frame, sweep->metrics[i].name);
+            state_add_values(report, values, no_positions);
+            return true;
+        }
     }
-    return false;
+    return !cell_next(&rows[0], &cell) || !cell_next(&rows[1], &cell); // the errors
 }
 
 // Appends the first row that differs.
 static void add_row(const Sweep *sweep, const CacheEntry *stored, const CacheEntry *computed, Text *report) {
     Str rows[2] = {text_str(&stored->rows), text_str(&computed->rows)};
     Cell frames[2];
-    while (cell_next(&rows[0], &frames[0]) && cell_next(&rows[1], &frames[1]) && cell_equal(&frames[0], &frames[1]))
+    while (cell_next(&rows[0], &frames[0]) && cell_next(&rows[1], &frames[1]) &&
+           frames[0].as.integer == frames[1].as.integer)
         if (add_metric(sweep, frames[0].as.integer, rows, report))
             return;
     if (stored->frames != computed->frames)
