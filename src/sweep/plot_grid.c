@@ -98,8 +98,8 @@ static void add_text(Text *out, const char *text, double x, double y, double rot
 }
 
 static void add_ticks(Text *out, const Scale *scale, bool across) {
+    char label[32];
     if (!(scale->max > scale->min)) {
-        char label[32];
         snprintf(label, sizeof label, "%.4g", scale->min);
         add_text(out, label, across ? WIDTH / 2.0 : -26, across ? HEIGHT + 12 : HEIGHT / 2.0, 0);
         return;
@@ -107,17 +107,11 @@ static void add_ticks(Text *out, const Scale *scale, bool across) {
     double step = tick_step(scale);
     for (double k = ceil(scale->min / step - 1e-9); k * step <= scale->max + 1e-9 * step; k++) {
         double at = scale_position(scale, k * step, across ? WIDTH : HEIGHT);
-        char label[32];
+        double x = across ? at : -4, y = across ? HEIGHT : HEIGHT - at;
+        text_add_format(out, "                    !line points=%.1f;%.1f;%.1f;%.1f stroke=true\n", x, y,
+                        across ? at : 0, across ? HEIGHT + 4 : y);
         snprintf(label, sizeof label, "%.6g", k * step + 0.0); // adding 0 changes -0 to 0
-        if (across) {
-            text_add_format(out, "                    !line points=%.1f;%d;%.1f;%d stroke=true\n", at, HEIGHT, at,
-                            HEIGHT + 4);
-            add_text(out, label, at, HEIGHT + 12, 0);
-        } else {
-            text_add_format(out, "                    !line points=-4;%.1f;0;%.1f stroke=true\n", HEIGHT - at,
-                            HEIGHT - at);
-            add_text(out, label, -26, HEIGHT - at, 0);
-        }
+        add_text(out, label, across ? at : -26, across ? HEIGHT + 12 : y, 0);
     }
 }
 
