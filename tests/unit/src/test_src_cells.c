@@ -134,7 +134,7 @@ static void test_rows_have_the_numbers_of_metrics(void **state) {
 }
 
 // An expression is written like the language writes it, a quantity with 17 digits.
-static void test_texts_of_cells(void **state) {
+static void test_cells_are_written_as_in_csv(void **state) {
     (void)state;
     static const struct {
         size_t metric;
@@ -159,11 +159,9 @@ static void test_texts_of_cells(void **state) {
 
 TEST_GROUP(src_cells) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers_keep_all_bits),
-        cmocka_unit_test(test_texts_are_one_line),
-        cmocka_unit_test(test_only_whole_rows_are_valid),
-        cmocka_unit_test(test_rows_have_the_numbers_of_metrics),
-        cmocka_unit_test(test_texts_of_cells),
+        cmocka_unit_test(test_numbers_keep_all_bits),       cmocka_unit_test(test_texts_are_one_line),
+        cmocka_unit_test(test_only_whole_rows_are_valid),   cmocka_unit_test(test_rows_have_the_numbers_of_metrics),
+        cmocka_unit_test(test_cells_are_written_as_in_csv),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,7 @@ static void test_axis_literals(void **state) {
 }
 
 // The kind of an axis follows from the notation of its values, and all cells have it.
-static void test_axes_have_kinds(void **state) {
+static void test_kinds_follow_from_the_notation(void **state) {
     (void)state;
     static const struct {
         const char *text;
@@ -266,7 +266,7 @@ TEST_GROUP(src_design) {
         cmocka_unit_test(test_axis_lists_and_ranges),
         cmocka_unit_test(test_axis_reports_invalid_values),
         cmocka_unit_test(test_axis_literals),
-        cmocka_unit_test(test_axes_have_kinds),
+        cmocka_unit_test(test_kinds_follow_from_the_notation),
         cmocka_unit_test(test_grid_changes_the_last_name_fastest),
         cmocka_unit_test(test_seeds_are_the_last_axis),
         cmocka_unit_test(test_latin_sample_uses_each_interval_once),
