@@ -75,6 +75,6 @@ const Command CITE_COMMAND = {
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",
     .second_operand_error = "too many arguments: '%s'; petri archive cite takes one archive",
-    .options = FOR_INFO,
+    .options = &ARCHIVE_OPTIONS,
     .run = cite_run,
 };

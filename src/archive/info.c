@@ -79,6 +79,6 @@ const Command INFO_COMMAND = {
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",
     .second_operand_error = "too many arguments: '%s'; petri archive info takes one archive",
-    .options = FOR_INFO,
+    .options = &ARCHIVE_OPTIONS,
     .run = info_run,
 };

@@ -2,6 +2,7 @@
 #include "archive/open.h"
 
 #include "cli/archive.h"
+#include "cli/option_groups.h"
 
 PetriArchive *archive_open(const Options *options, const char *file) {
     PetriArchive *archive = replay_archive(options, file);
@@ -9,3 +10,11 @@ PetriArchive *archive_open(const Options *options, const char *file) {
         petri_archive_close(&archive);
     return archive;
 }
+
+// clang-format off
+static const OptionSpec ROWS[] = {
+    MEMORY_OPTION
+    NO_MORE_OPTIONS
+};
+// clang-format on
+const OptionTable ARCHIVE_OPTIONS = {.rows = ROWS};

@@ -7,5 +7,8 @@
 
 enum { STATUS_DAMAGED = 2 }; // exit status for a damaged archive, or one that a newer version has made
 
+// The options of actions that only read an archive.
+extern const OptionTable ARCHIVE_OPTIONS;
+
 // Opens an archive. Returns NULL after a message.
 PetriArchive *archive_open(const Options *options, const char *file);

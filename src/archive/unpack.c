@@ -153,7 +153,7 @@ const Command UNPACK_COMMAND = {
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",
     .second_operand_error = "too many arguments: '%s'; petri archive unpack takes one archive and one folder",
-    .options = FOR_INFO,
+    .options = &ARCHIVE_OPTIONS,
     .accepts_two = true,
     .run = unpack_run,
 };

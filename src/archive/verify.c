@@ -2,11 +2,21 @@
 #include "archive/open.h"
 #include "archive/ranks.h"
 #include "archive/segments.h"
+#include "cli/option_groups.h"
 #include "cli/output.h"
 #include "cli/script.h"
 
 #include <inttypes.h>
 #include <unistd.h>
+
+// Options that no other command has.
+typedef struct Own {
+    int64_t sample_segments; // 0: all
+} Own;
+
+static const Own *own_options(const Options *options) {
+    return options->own;
+}
 
 static void print_difference(const Verification *verification, Output *output) {
     const SegmentResult *found = &verification->result;
@@ -47,7 +57,7 @@ static int verify_archive(const CommandContext *context, const Options *options,
     CommandContext alone = *context; // each rank computes its segments itself
     alone.ranks = NULL;
     Verification verification = {.context = &alone, .options = options, .file = options->script, .stride = 1};
-    segments_choose(&verification, archive, options->sample_segments);
+    segments_choose(&verification, archive, own_options(options)->sample_segments);
     ranks_divide(&verification);
     segments_verify(&verification);
     ranks_combine(&verification);
@@ -74,6 +84,17 @@ static int verify_run(const CommandContext *context, Options *options) {
     return output_finish(&output, status);
 }
 
+// clang-format off
+static const OptionSpec ROWS[] = {
+    LIMIT_OPTIONS
+    OWN("sample", 0, "K", WHOLE(1, INT64_MAX), sample_segments, "verify only K segments, chosen at random")
+    SHARED("threads", 0, "N", WHOLE(1, 1024), threads, "verify N segments at a time (default: number of CPUs)")
+    QUIET_OPTION
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable VERIFY_OPTIONS = {ROWS, sizeof(Own), NULL};
+
 const Command VERIFY_COMMAND = {
     .name = "archive verify",
     .operands = "RUN.petri",
@@ -90,6 +111,6 @@ const Command VERIFY_COMMAND = {
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",
     .second_operand_error = "too many arguments: '%s'; petri archive verify takes one archive",
-    .options = FOR_VERIFY,
+    .options = &VERIFY_OPTIONS,
     .run = verify_run,
 };

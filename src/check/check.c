@@ -2,6 +2,7 @@
 #include "check/meshes.h"
 #include "check/report.h"
 #include "cli/archive.h"
+#include "cli/option_groups.h"
 #include "cli/options.h"
 #include "cli/script.h"
 #include "cli/words.h"
@@ -10,6 +11,17 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+// Options that no other command has.
+typedef struct Own {
+    bool stats;
+    int report; // ReportForm
+    bool werror;
+} Own;
+
+static const Own *own_options(const Options *options) {
+    return options->own;
+}
 
 typedef struct Check {
     Options *options;
@@ -48,7 +60,7 @@ static int check_scripts(Check *check, const CommandContext *host, const Options
             counts->rejected += replay_check(options, session) != PETRI_OK;
         else if (!petri_archive_is(path)) // check_archives checks archives
             counts->rejected += script_check(session, path) != PETRI_OK;
-        if (options->stats && (options->replayed || !petri_archive_is(path)))
+        if (own_options(options)->stats && (options->replayed || !petri_archive_is(path)))
             check_print_meshes(host, options, path);
     }
     check->report.script = NULL;
@@ -106,8 +118,8 @@ static int check_all(Check *check, const CommandContext *host) {
                 options->scripts.count == 1 ? "" : "s", errors, errors == 1 ? "" : "s", warnings,
                 warnings == 1 ? "" : "s");
     report_unreadable(check);
-    bool clean =
-        counts.rejected == 0 && errors == 0 && options->unreadable.count == 0 && !(options->werror && warnings > 0);
+    bool clean = counts.rejected == 0 && errors == 0 && options->unreadable.count == 0 &&
+                 !(own_options(options)->werror && warnings > 0);
     int result = clean ? STATUS_DONE : STATUS_FAILED;
     return check->report.form == REPORT_TEXT ? result : report_end(&check->report, result);
 }
@@ -116,7 +128,7 @@ static int check_run(const CommandContext *host, Options *options) {
     if (options->scripts.count > 0 || options->unreadable.count > 0)
         return check_all(&(Check){.options = options,
                                   .shown_last = options->verbosity != LOG_QUIET,
-                                  .report = {.form = (ReportForm)options->report}},
+                                  .report = {.form = (ReportForm)own_options(options)->report}},
                          host);
     message("no script found: no file is named *.fl");
     return STATUS_FAILED;
@@ -125,6 +137,21 @@ static int check_run(const CommandContext *host, Options *options) {
 static bool check_needs_pictures(char *const *words) {
     return words_have_option(words, "stats") || words_name_archive(words);
 }
+
+// clang-format off
+static const OptionSpec ROWS[] = {
+    DEFINE_NAME_OPTION
+    FILE_OPTIONS
+    LIMIT_OPTIONS
+    OWN("stats", 0, NULL, option_flag, stats, "print how many triangles the solids, distance fields and models of the first frame have")
+    QUIET_OPTION
+    COLOUR_OPTION
+    OWN("format", 0, "F", ONE_OF(option_choice, "text", "gcc", "json", "sarif"), report, "output format: text (stderr); gcc, json, sarif (stdout)")
+    OWN("werror", 0, NULL, option_flag, werror, "treat warnings as errors")
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable CHECK_OPTIONS = {ROWS, sizeof(Own), NULL};
 
 const Command CHECK_COMMAND = {
     .name = "check",
@@ -138,7 +165,7 @@ const Command CHECK_COMMAND = {
                 "  petri check --stats solids.fl                   also count the triangles of solids\n"
                 "  petri check --format=sarif . >petri.sarif       a report for code hosting sites\n",
     .missing_operand = "nothing to check",
-    .options = FOR_CHECK,
+    .options = &CHECK_OPTIONS,
     .needs_pictures = check_needs_pictures,
     .accepts_many = true,
     .run = check_run,

@@ -6,29 +6,32 @@
 #include <stdint.h>
 #include <string.h>
 
-static const OptionSpec *find_option(unsigned commands, const char *name, char letter) {
-    for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
-        if (spec->commands & commands && (letter != '\0' ? spec->letter == letter : strcmp(spec->name, name) == 0))
+static const OptionSpec NO_OPTIONS[] = {{.name = NULL}};
+
+const OptionSpec *command_options(const Command *command) {
+    return command->options ? command->options->rows : NO_OPTIONS;
+}
+
+static const OptionSpec *find_option(const OptionSpec *rows, const char *name, char letter) {
+    for (const OptionSpec *spec = rows; spec->name; spec++)
+        if (letter != '\0' ? spec->letter == letter : strcmp(spec->name, name) == 0)
             return spec;
     return NULL;
 }
 
-// Returns the name of another command that has the option, or NULL. Users often confuse run, render and view.
+// Returns the name of another command that has the option, or NULL.
 static const char *find_other_command(const Args *args, const char *name) {
     char letter = strlen(name) == 1 ? name[0] : '\0';
-    static const char *const names[] = {"run", "render", "view"};
-    static const unsigned options[] = {FOR_RUN, FOR_RENDER, FOR_VIEW};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (!(options[i] & args->command->options) && find_option(options[i], name, letter))
-            return names[i];
+    for (const SimilarCommand *other = args->similar; other && other->name; other++)
+        if (other->options != args->command->options && find_option(other->options->rows, name, letter))
+            return other->name;
     return NULL;
 }
 
 static int unknown_option(const Args *args, const char *word, const char *name) {
     StrNearest nearest = str_nearest(str_from(name));
-    for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
-        if (spec->commands & args->command->options)
-            nearest_offer(&nearest, spec->name);
+    for (const OptionSpec *spec = command_options(args->command); spec->name; spec++)
+        nearest_offer(&nearest, spec->name);
     nearest_offer(&nearest, "help");
     nearest_offer(&nearest, "version");
     const char *meant = strcmp(name, "v") == 0 ? "version" : nearest.found.bytes;
@@ -69,7 +72,7 @@ static int long_option(Args *args, const char *word) {
     args->version = strcmp(name, "version") == 0;
     if ((strcmp(name, "help") == 0 || args->version) && !equals)
         return ARG_HELP;
-    const OptionSpec *spec = find_option(args->command->options, name, '\0');
+    const OptionSpec *spec = find_option(command_options(args->command), name, '\0');
     return !spec ? unknown_option(args, word, name) : accept_option(args, spec, word, !equals ? NULL : equals + 1);
 }
 
@@ -78,7 +81,7 @@ static int short_option(Args *args, const char *word) {
     if ((word[1] == 'h' || args->version) && word[2] == '\0')
         return ARG_HELP;
     // Flags have no short form, so a letter is always followed by a value.
-    const OptionSpec *spec = find_option(args->command->options, "", word[1]);
+    const OptionSpec *spec = find_option(command_options(args->command), "", word[1]);
     return !spec ? unknown_option(args, word, word + 1)
                  : accept_option(args, spec, word, word[2] == '\0' ? NULL : word + 2);
 }

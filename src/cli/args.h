@@ -10,7 +10,8 @@ enum { ARG_END = 0, ARG_OPTION = 1, ARG_OPERAND = -1, ARG_HELP = -2, ARG_INVALID
 
 typedef struct Args {
     const Command *command;
-    struct Options *options; // values read so far
+    const SimilarCommand *similar; // CommandContext.similar
+    struct Options *options;       // values read so far
     int argc;
     char **argv;
     int next;
@@ -19,6 +20,9 @@ typedef struct Args {
     const OptionSpec *option; // the option that args_next returned
     const char *value;        // the option's value, or the operand
 } Args;
+
+// Returns the options of a command, then one without a name.
+const OptionSpec *command_options(const Command *command);
 
 // Reads the next argument and returns its kind (ARG_...). Prints a message before it returns ARG_INVALID.
 int args_next(Args *args);

@@ -19,21 +19,14 @@ enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128
 // `petri test` compares the output of such a run.
 #define BROKEN_MODULE_MESSAGE "a module has syntax errors; its names are null"
 
-// Bits of OptionSpec.commands: one for each command that accepts the option. FOR_GOLDEN: the option is also allowed in
-// a golden file of petri test.
-// clang-format off
-enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64,
-       FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512, FOR_LINK = 1024, FOR_OPEN = 2048, FOR_DIFF = 4096, FOR_VERIFY = 8192,
-       FOR_INFO = 16384, FOR_SEND = 32768 };
-// clang-format on
-
+// An option in the list of a command (option_groups.h).
 typedef struct OptionSpec {
-    unsigned commands; // FOR_... bits
     const char *name;  // without the dashes
     char letter;       // letter of the short form, such as o for -o; 0: none
     const char *value; // name of the value in help; NULL: the option takes no value
     const char *help;
-    size_t field; // offset of the option's field in Options
+    bool own;     // true if the field is in Options.own, false if it is in Options
+    size_t field; // offset of the field
     // Parses args->value and stores it in `field`. Returns false after a message.
     bool (*read)(const struct Args *args, void *field);
     int64_t min; // smallest value of an integer; for --quiet, --verbose, --debug and --trace: the level
@@ -41,10 +34,23 @@ typedef struct OptionSpec {
     // Allowed values, then a null pointer; NULL: any value. If `value` is "LIST", the argument is a list of these
     // words, separated by commas.
     const char *const *words;
+    bool is_list;        // true if the field is a TextList in Options.own, which options_free frees
+    bool not_in_goldens; // run: true if a golden must not contain the option, because tests write no files
+    bool ends_show;      // run: true if the option requests text or files, so that --show has no effect
 } OptionSpec;
 
-// All options, then an entry without a name.
-extern const OptionSpec OPTIONS[];
+// The options of a command.
+typedef struct OptionTable {
+    const OptionSpec *rows;   // in the order of help, then one without a name
+    size_t own_size;          // size of the struct Options.own, in bytes; 0: none
+    const void *own_defaults; // initial value of this struct; NULL: zeros
+} OptionTable;
+
+// A command that users confuse with others, and its options.
+typedef struct SimilarCommand {
+    const char *name;
+    const OptionTable *options;
+} SimilarCommand;
 
 // The environment of a command, set up by main.
 typedef struct CommandContext {
@@ -52,6 +58,7 @@ typedef struct CommandContext {
     const char *program;              // path of this program, valid in any working directory
     const char *invoked_as;           // argv[0], for hints that show commands
     const char *cpu;                  // PetriOptions.cpu
+    const SimilarCommand *similar;    // for hints about unknown options, then one without a name; NULL: no hints
     const struct PetriRanks *ranks;   // the processes (ranks) that mpirun has started; NULL: a single process
     const struct MpiChannel *channel; // messages between the ranks; NULL: a single process
     void (*leave_ranks)(void);        // stops waiting for the other ranks; can be called by a signal handler
@@ -64,11 +71,12 @@ struct Command {
     const char *summary;              // one line, for the list of commands
     const char *details;              // a few sentences, for the command's help
     const char *examples;             // example command lines for the help; NULL: none
-    unsigned options;                 // FOR_... bit of the command; 0: no options
+    const OptionTable *options;       // NULL: no options
     const char *missing_operand;      // message if no operand is given; NULL: not checked before `run`
     const char *no_stdin;             // message if the operand is `-`; NULL: `-` means standard input
     const char *second_operand_error; // message format for a second operand; NULL: it is reported as a second script
     bool accepts_many;                // true if the command accepts several scripts and folders
+    bool accepts_goldens;             // true if scripts in folders are those that have a golden
     bool accepts_two;                 // true if the command accepts a second operand (Options.second)
     bool live;             // true if the command, by default, follows the wall clock and runs until it is stopped
     bool parses_arguments; // true if `run` parses argv itself

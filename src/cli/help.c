@@ -1,7 +1,7 @@
 // help.c: help on commands and their options, and the version.
 #include "cli/help.h"
 
-#include "cli/cli.h"
+#include "cli/args.h"
 #include "cli/memory.h"
 #include "cli/progress.h"
 #include "petri.h"
@@ -126,13 +126,12 @@ static void help_parts(Text *text, const Command *command) {
 
 int help_for(const Command *command) {
     SCOPED_TEXT text = {0};
-    text_add_format(&text, "usage: petri %s%s%s%s\n\n", command->name, command->options == 0 ? "" : " [options]",
+    text_add_format(&text, "usage: petri %s%s%s%s\n\n", command->name, !command->options ? "" : " [options]",
                     command->operands[0] == '\0' ? "" : " ", command->operands);
     help_prose(&text, command->details);
-    text_add_c(&text, command->options == 0 ? "" : "\n");
-    for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
-        if (spec->commands & command->options)
-            help_option(&text, spec);
+    text_add_c(&text, !command->options ? "" : "\n");
+    for (const OptionSpec *spec = command_options(command); spec->name; spec++)
+        help_option(&text, spec);
     help_parts(&text, command);
     if (command->examples)
         text_add_format(&text, "\nExamples:\n%s", command->examples);

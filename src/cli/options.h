@@ -1,4 +1,4 @@
-// options.h: the options of all commands.
+// options.h: the values of options that several commands share, and of operands.
 #pragma once
 
 #include "cli/cli.h"
@@ -17,15 +17,39 @@ typedef struct Size {
 
 // Values from a command line. Strings point into argv.
 typedef struct Options {
-#define FIELD(type, name, at_first) type name;
-#define OPTION(commands, name, letter, value, reader, field, help)
-#include "cli/option_list.h"
-#undef FIELD
-#undef OPTION
-    const char *script;  // the last operand; NULL: none
-    const char *second;  // the operand after `script`, for commands that accept two; NULL: none
-    ScriptList scripts;  // scripts in the operands, for commands that accept several; sorted
-    TextList unreadable; // paths that could not be read
+    int64_t frame;       // render: frame number; -1: not given
+    const char *archive; // file; NULL: none
+    int64_t from;        // first frame of an archive's replay; -1: not given
+    int64_t keyframe_every;
+    int64_t digest_every;
+    int64_t frames;       // -1: not given; INT64_MAX: unlimited
+    double run_time;      // seconds; NaN: unlimited
+    TextList definitions; // each "NAME=VALUE"
+    double fps;
+    bool fps_given;
+    bool realtime;
+    TextList read_folders; // folders that scripts may read
+    TextList write_folders;
+    bool no_files;
+    const char *state_file; // NULL: none
+    int64_t save_every;     // frames between saves; 0: every few seconds
+    int64_t threads;        // 0: number of CPUs
+    uint64_t memory;        // bytes; 0: default of the library
+    uint64_t work;          // units per frame; 0: default of the library
+    int neighbours;         // PetriNeighbours
+    bool unsimplified;
+    bool no_batches;
+    bool keep_modules; // modules are not read again during the run
+    bool profile;
+    Verbosity verbosity;
+    bool colour;
+    bool monochrome;          // no colours even in terminal pictures
+    const OptionTable *table; // the options of the command
+    void *own;                // values of the options that only this command has; NULL: none
+    const char *script;       // the last operand; NULL: none
+    const char *second;       // the operand after `script`, for commands that accept two; NULL: none
+    ScriptList scripts;       // scripts in the operands, for commands that accept several; sorted
+    TextList unreadable;      // paths that could not be read
     const char *(*read)(void *host, const char *path, size_t *length);    // PetriOptions.read_file; NULL: none
     const char *(*unsaved)(void *host, const char *path, size_t *length); // PetriOptions.read_unsaved; NULL: none
     void *unsaved_host;                                                   // first argument of both functions
@@ -45,7 +69,7 @@ enum { OPTIONS_READ = -1 }; // success, from functions that otherwise return an 
 
 // Parses the arguments that follow a command's name. Returns OPTIONS_READ or an exit status. The caller frees the
 // options with options_free in both cases.
-int options_parse(Options *options, const Command *command, int argc, char **argv);
+int options_parse(Options *options, const Command *command, const CommandContext *context, int argc, char **argv);
 void options_free(Options *options);
 
 // Loads the script, or the archive from which a run is replayed. A missing script causes a suggestion.

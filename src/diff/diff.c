@@ -2,20 +2,34 @@
 #include "diff/diff.h"
 
 #include "cli/json.h"
+#include "cli/option_groups.h"
 #include "cli/output.h"
 #include "cli/script.h"
 #include "cli/words.h"
 #include "golden/golden.h"
 #include "petri-inspect.h"
+#include "run/options.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+// Options that no other command has.
+typedef struct Own {
+    bool against;     // options of the second run follow
+    const char *with; // program of the second run; NULL: this one
+    bool json;
+} Own;
+
+static const Own *own_options(const Options *options) {
+    return options->own;
+}
+
 enum { STATUS_SAME = 0, STATUS_DIFFERS = 1, STATUS_TROUBLE = 2 };
 
 typedef struct Diff {
+    const CommandContext *host;
     Options *options;      // of the whole command line
     Options first_options; // of the first run: those before --against
     Options golden;        // options of a golden's run
@@ -45,9 +59,9 @@ static bool apply_golden(Diff *diff, const char *golden, Side *script) {
     }
     TextList *words = &diff->recorded.options;
     texts_add(words, script->source);
-    if (options_parse(&diff->golden, &RUN_COMMAND, (int)words->count, words->items) != OPTIONS_READ)
+    if (options_parse(&diff->golden, &RUN_COMMAND, diff->host, (int)words->count, words->items) != OPTIONS_READ)
         return false;
-    if (!(diff->golden.sections & PETRI_PRINT_STATE)) {
+    if (!(run_options(&diff->golden)->sections & PETRI_PRINT_STATE)) {
         message("%s has no state to compare: its first line needs '--print state'", golden);
         return false;
     }
@@ -73,8 +87,9 @@ static void set_label(Side *side, bool settings) {
 // Sets the sources and options of both sides. Returns false after a message.
 static bool read_sides(Diff *diff, const CommandContext *host) {
     Options *options = diff->options;
+    const Own *own = own_options(options);
     Side *sides = diff->sides;
-    if (!options->second && !options->against && !options->with && !side_is_golden(options->script)) {
+    if (!options->second && !own->against && !own->with && !side_is_golden(options->script)) {
         message("nothing to compare with %s: give a second run, --against or --with", options->script);
         return false;
     }
@@ -82,9 +97,9 @@ static bool read_sides(Diff *diff, const CommandContext *host) {
         diff->script = script_of_golden(options->script);
     sides[0].source = options->script;
     sides[1].source = options->second ? options->second : diff->script ? diff->script : options->script;
-    sides[0].options = options->against ? &diff->first_options : options;
+    sides[0].options = own->against ? &diff->first_options : options;
     sides[1].options = options;
-    sides[1].with = options->with;
+    sides[1].with = own->with;
     for (int i = 0; i < 2; i++) {
         sides[i].host = host;
         sides[i].frames = options->frames;
@@ -183,9 +198,10 @@ static int arguments_before(const Options *options) {
 // Reads the options of the first run. After --against, -D sets parameters of the second run only.
 static bool read_first_options(Diff *diff) {
     Options *options = diff->options;
-    if (!options->against)
+    if (!own_options(options)->against)
         return true;
-    if (options_parse(&diff->first_options, &DIFF_COMMAND, arguments_before(options), options->argv) != OPTIONS_READ)
+    if (options_parse(&diff->first_options, &DIFF_COMMAND, diff->host, arguments_before(options), options->argv) !=
+        OPTIONS_READ)
         return false;
     diff->first_options.keep_forces = true;
     for (size_t i = diff->first_options.definitions.count; i < options->definitions.count; i++)
@@ -204,7 +220,7 @@ static int diff_runs(Diff *diff, const CommandContext *host, Output *output) {
 }
 
 static int diff_run(const CommandContext *host, Options *options) {
-    Diff diff = {.options = options, .json = options->json};
+    Diff diff = {.host = host, .options = options, .json = own_options(options)->json};
     Output output;
     output_start(&output, STDOUT_FILENO);
     options->keep_forces = true;
@@ -219,6 +235,26 @@ static int diff_run(const CommandContext *host, Options *options) {
     texts_free(&diff.reported);
     return output_finish(&output, status);
 }
+
+// clang-format off
+static const OptionSpec ROWS[] = {
+    SHARED("frames", 0, "N", WHOLE(0, INT64_MAX), frames, "compare N frames (default: 600)")
+    OWN("against", 0, NULL, option_flag, against, "begin the operand and options of the second run")
+    OWN("with", 0, "PROGRAM", option_text, with, "compute the second run with PROGRAM, another build of petri")
+    OWN("json", 0, NULL, option_flag, json, "print the result as JSON")
+    FPS_OPTION
+    DEFINE_OPTION
+    READ_OPTIONS
+    THREADS_OPTION
+    LIMIT_OPTIONS
+    METHOD_OPTIONS
+    NO_BATCHES_OPTION
+    QUIET_OPTION
+    COLOUR_OPTION
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable DIFF_OPTIONS = {ROWS, sizeof(Own), NULL};
 
 const Command DIFF_COMMAND = {
     .name = "diff",
@@ -240,7 +276,7 @@ const Command DIFF_COMMAND = {
     .missing_operand = "no script given",
     .no_stdin = "cannot read a run from standard input; give files",
     .second_operand_error = "too many arguments: '%s'; petri diff compares two runs",
-    .options = FOR_DIFF,
+    .options = &DIFF_OPTIONS,
     .needs_pictures = words_name_archive,
     .accepts_two = true,
     .run = diff_run,

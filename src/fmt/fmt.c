@@ -1,5 +1,6 @@
 // fmt.c: the command `petri fmt`, which formats scripts.
 #include "base/file.h"
+#include "cli/option_groups.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/script.h"
@@ -10,6 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+// Options that no other command has.
+typedef struct Own {
+    bool only_checks; // write nothing
+} Own;
+
+static const Own *own_options(const Options *options) {
+    return options->own;
+}
 
 typedef struct Formatting {
     PetriSession *session;
@@ -70,7 +80,7 @@ static void format_script(Formatting *formatting, const char *name) {
 }
 
 static int fmt_run(const CommandContext *host, Options *options) {
-    Formatting formatting = {.only_checks = options->only_checks};
+    Formatting formatting = {.only_checks = own_options(options)->only_checks};
     if (options->scripts.count == 0) {
         if (options->unreadable.count == 0)
             message("no script found: no file is named *.fl");
@@ -99,6 +109,14 @@ static int fmt_run(const CommandContext *host, Options *options) {
     return good ? STATUS_DONE : STATUS_FAILED;
 }
 
+// clang-format off
+static const OptionSpec ROWS[] = {
+    OWN("check", 0, NULL, option_flag, only_checks, "list unformatted scripts without changing them; exit with 1 if there are any")
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable FMT_OPTIONS = {ROWS, sizeof(Own), NULL};
+
 const Command FMT_COMMAND = {
     .name = "fmt",
     .operands = "PATH...",
@@ -110,7 +128,7 @@ const Command FMT_COMMAND = {
     .examples = "  petri fmt dish.fl\n"
                 "  petri fmt --check .                             exit with 1 if any script is unformatted, for CI\n",
     .missing_operand = "no script or folder given",
-    .options = FOR_FMT,
+    .options = &FMT_OPTIONS,
     .accepts_many = true,
     .run = fmt_run,
 };

@@ -3,7 +3,7 @@
 
 #include "base/file.h"
 #include "base/source.h"
-#include "cli/cli.h"
+#include "run/options.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -79,10 +79,10 @@ static bool read_remark(Golden *golden, const char *line, size_t length, Text *e
 // Returns the option of `petri run` that `word` names, such as `--frames`. Returns NULL if there is no such
 // option; `petri run` then reports the error.
 static const OptionSpec *find_option(const char *word, size_t length) {
-    for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
+    for (const OptionSpec *spec = RUN_OPTIONS.rows; spec->name; spec++) {
         bool same = word[1] == '-' ? strlen(spec->name) == length - 2 && memcmp(spec->name, word + 2, length - 2) == 0
                                    : spec->letter == word[1];
-        if (spec->commands & FOR_RUN && same)
+        if (same)
             return spec;
     }
     return NULL;
@@ -94,7 +94,7 @@ static bool check_options(const Golden *golden, Text *error_text) {
         const char *word = golden->options.items[i];
         size_t length = strcspn(word, "=");
         const OptionSpec *spec = word[0] == '-' && length > 1 ? find_option(word, length) : NULL;
-        if (spec && !(spec->commands & FOR_GOLDEN)) {
+        if (spec && spec->not_in_goldens) {
             text_add_format(error_text, "line 1: option '--%s' is not allowed in goldens: tests write no files",
                             spec->name);
             return false;

@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "base/source.h"
 #include "cli/memory.h"
+#include "cli/option_groups.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/subprocess.h"
@@ -12,6 +13,20 @@
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+// Options that no other command has.
+typedef struct Own {
+    bool update;
+    const char *filter;
+    const char *junit;
+    int64_t jobs;              // 0: not given
+    const char *as_threads;    // overrides --threads of goldens; NULL: no override
+    const char *as_neighbours; // overrides --neighbours of goldens; NULL: no override
+} Own;
+
+static Own *own_options(const Options *options) {
+    return options->own;
+}
 
 enum { MAX_CPUS = 256 };
 
@@ -63,7 +78,8 @@ static void add_lost_golden(Suite *suite, const Script *golden) {
 }
 
 static void add_case(Suite *suite, const Script *script) {
-    if (suite->options->filter && !strstr(script->path + script->relative_start, suite->options->filter))
+    const Own *own = own_options(suite->options);
+    if (own->filter && !strstr(script->path + script->relative_start, own->filter))
         return;
     if (suite->options->scripts.goldens && str_ends_with(str_from(script->path), STR(".golden"))) {
         add_lost_golden(suite, script);
@@ -92,6 +108,7 @@ static void add_override(char **argv, int *argc, Text *text, const char *name, c
 }
 
 static void start_child(Suite *suite, Case *item) {
+    const Own *own = own_options(suite->options);
     SCOPED_STRING folder = memory_folder(item->script);
     const Golden *golden = &item->golden;
     char **argv = memory_calloc((golden->options.count + 11) * sizeof *argv);
@@ -107,8 +124,8 @@ static void start_child(Suite *suite, Case *item) {
         argv[argc++] = "--frames=1";
     for (size_t i = 0; i < golden->options.count; i++)
         argv[argc++] = golden->options.items[i];
-    add_override(argv, &argc, &threads, "threads", suite->options->as_threads);
-    add_override(argv, &argc, &neighbours, "neighbours", suite->options->as_neighbours);
+    add_override(argv, &argc, &threads, "threads", own->as_threads);
+    add_override(argv, &argc, &neighbours, "neighbours", own->as_neighbours);
     if (suite->options->unsimplified)
         argv[argc++] = "--nosimplify";
     if (suite->options->no_batches)
@@ -158,7 +175,7 @@ static void check_case(const Suite *suite, Case *item, int status, const Text *o
         subprocess_describe(status, errors, &result->error_text);
     else if (has_diverged(errors, &result->error_text))
         result->passed = false;
-    else if (suite->options->update)
+    else if (own_options(suite->options)->update)
         result->passed = golden_update(&item->golden, item->recorded, output, &result->updated, &result->error_text);
     else
         result->passed = golden_compare(&item->golden, output, &result->error_text);
@@ -193,14 +210,14 @@ static void report_done(Suite *suite, size_t started) {
 
 // Returns false if no one reads the results: standard output is closed and there is no --junit.
 static bool is_wanted(const Suite *suite) {
-    return suite->output.error == 0 || suite->options->junit;
+    return suite->output.error == 0 || own_options(suite->options)->junit;
 }
 
 static void run_cases(Suite *suite) {
     size_t started = 0;
     int64_t running = 0;
     while ((started < suite->count && is_wanted(suite)) || running > 0) {
-        if (started < suite->count && running < suite->options->jobs && is_wanted(suite)) {
+        if (started < suite->count && running < own_options(suite->options)->jobs && is_wanted(suite)) {
             Case *item = &suite->cases[started++];
             if (!item->done)
                 start_case(suite, item);
@@ -226,12 +243,13 @@ static bool write_junit(const Suite *suite) {
     Result **results = memory_calloc(suite->count * sizeof *results);
     for (size_t i = 0; i < suite->count; i++)
         results[i] = &suite->cases[i].result;
-    bool done = report_junit(suite->options->junit, results, suite->count);
+    bool done = report_junit(own_options(suite->options)->junit, results, suite->count);
     free(results);
     return done;
 }
 
 static int run_suite(Suite *suite) {
+    const Own *own = own_options(suite->options);
     if (suite->options->scripts.count == 0 && suite->options->unreadable.count > 0)
         return STATUS_FAILED;
     suite->cases = memory_calloc(suite->options->scripts.count * sizeof *suite->cases);
@@ -239,7 +257,7 @@ static int run_suite(Suite *suite) {
         add_case(suite, &suite->options->scripts.items[i]);
     if (suite->count == 0) {
         message("no script found with a .golden or .err file%s",
-                !suite->options->filter ? "; see 'petri help test' for how to create one" : " that matches --filter");
+                !own->filter ? "; see 'petri help test' for how to create one" : " that matches --filter");
         return STATUS_FAILED;
     }
     run_cases(suite);
@@ -247,7 +265,7 @@ static int run_suite(Suite *suite) {
     for (size_t i = 0; i < suite->count; i++)
         passed += suite->cases[i].result.passed ? 1 : 0;
     output_format(&suite->output, "%zu passed, %zu failed\n", passed, suite->count - passed);
-    bool reported = !suite->options->junit || write_junit(suite);
+    bool reported = !own->junit || write_junit(suite);
     return passed == suite->count && reported && suite->options->unreadable.count == 0 ? STATUS_DONE : STATUS_FAILED;
 }
 
@@ -260,15 +278,31 @@ static void free_suite(Suite *suite) {
 }
 
 static int test_run(const CommandContext *context, Options *options) {
+    Own *own = own_options(options);
     Suite suite = {.host = context, .options = options, .output.fd = STDOUT_FILENO};
-    if (options->jobs == 0) {
+    if (own->jobs == 0) {
         int jobs = subprocess_default_jobs();
-        options->jobs = jobs > MAX_CPUS ? MAX_CPUS : jobs;
+        own->jobs = jobs > MAX_CPUS ? MAX_CPUS : jobs;
     }
     int status = output_finish(&suite.output, run_suite(&suite));
     free_suite(&suite);
     return status;
 }
+
+// clang-format off
+static const OptionSpec ROWS[] = {
+    OWN("update", 0, NULL, option_flag, update, "update goldens to the current output")
+    OWN("filter", 0, "TEXT", option_text, filter, "run only scripts whose path relative to PATH contains TEXT")
+    OWN("junit", 0, "FILE", option_text, junit, "also write the results to FILE as JUnit XML, for CI")
+    OWN("jobs", 0, "N", WHOLE(1, 256), jobs, "run N scripts at a time (default: number of CPUs)")
+    OWN("threads", 0, "N", option_text, as_threads, "run all scripts with --threads N")
+    OWN("neighbours", 0, "WHEN", option_text, as_neighbours, "run all scripts with --neighbours WHEN")
+    NOSIMPLIFY_OPTION
+    NO_BATCHES_OPTION
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable TEST_OPTIONS = {ROWS, sizeof(Own), NULL};
 
 const Command TEST_COMMAND = {
     .name = "test",
@@ -286,7 +320,8 @@ const Command TEST_COMMAND = {
                 "  petri test --update dish.fl                     write the current output to its golden\n",
     .missing_operand = "no script or folder given",
     .no_stdin = "cannot test standard input: it has no golden; give files or folders",
-    .options = FOR_TEST,
+    .options = &TEST_OPTIONS,
     .accepts_many = true,
+    .accepts_goldens = true,
     .run = test_run,
 };

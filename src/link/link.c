@@ -1,5 +1,6 @@
 // link.c: the command `petri link`, which prints a link that contains a script.
 #include "base/source.h"
+#include "cli/option_groups.h"
 #include "cli/output.h"
 #include "cli/script.h"
 #include "link/html.h"
@@ -7,6 +8,17 @@
 
 #include <string.h>
 #include <unistd.h>
+
+// Options that no other command has.
+typedef struct Own {
+    int64_t frame;    // frame number; -1: not given
+    const char *html; // file; NULL: not given
+    const char *page; // URL of the page; NULL: not given
+} Own;
+
+static const Own *own_options(const Options *options) {
+    return options->own;
+}
 
 // Adds a change for each `NAME=VALUE` of -D. read_definition has already rejected definitions without `=`.
 static void read_definitions(Linked *linked, const TextList *definitions) {
@@ -40,29 +52,28 @@ static int print_link(const Linked *linked, const char *page) {
 }
 
 static int make_link(const CommandContext *context, Options *options, LinkSession *link_session) {
+    const Own *own = own_options(options);
     Linked *linked = &link_session->linked;
     if (!link_possible() || !read_script(&linked->text, options->script))
         return STATUS_FAILED;
     const char *name = options->script;
     linked->name = memory_strdup(script_is_stdin(name) ? "script.fl" : name + path_directory(str_from(name)).len);
     read_definitions(linked, &options->definitions);
-    if (options->html)
+    if (own->html)
         link_session->folder = memory_folder(name);
     // Without --frame, computes one frame, so that errors are found before the link is sent.
-    linked->frame = options->frame < 0 ? 0 : options->frame;
+    linked->frame = own->frame < 0 ? 0 : own->frame;
     texts_free(&options->definitions);
     int status = link_session_run(link_session, context, options);
-    if (link_session_print_files(link_session,
-                                 options->html ? "cannot add files outside the script's folder: "
-                                               : "cannot link a script that reads files: ",
-                                 options->html ? "; move them into the folder"
-                                               : "; move their contents into the script, or use --html"))
+    if (link_session_print_files(
+            link_session,
+            own->html ? "cannot add files outside the script's folder: " : "cannot link a script that reads files: ",
+            own->html ? "; move them into the folder" : "; move their contents into the script, or use --html"))
         return STATUS_FAILED;
     if (status != OPTIONS_READ)
         return status;
-    linked->digest =
-        options->frame < 0 && !options->html ? NULL : link_session_digest(link_session, PETRI_PRINT_DIGEST);
-    return options->html ? html_write(link_session, options->page, options->html) : print_link(linked, options->page);
+    linked->digest = own->frame < 0 && !own->html ? NULL : link_session_digest(link_session, PETRI_PRINT_DIGEST);
+    return own->html ? html_write(link_session, own->page, own->html) : print_link(linked, own->page);
 }
 
 static int link_run(const CommandContext *context, Options *options) {
@@ -71,6 +82,21 @@ static int link_run(const CommandContext *context, Options *options) {
     link_session_close(&link_session);
     return status;
 }
+
+// clang-format off
+static const OptionSpec ROWS[] = {
+    OWN("frame", 0, "N", WHOLE(0, 1000000), frame, "also store the frame number N and the digest of that frame's state")
+    OWN("html", 0, "FILE", option_text, html, "write a page to FILE that contains the script, its files and the engine, and runs without a network")
+    OWN("page", 0, "ADDRESS", option_text, page, "print a whole URL, with the playground at ADDRESS (default: print only the part from '#')")
+    DEFINE_OPTION
+    THREADS_OPTION
+    LIMIT_OPTIONS
+    QUIET_OPTION
+    COLOUR_OPTION
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable LINK_OPTIONS = {ROWS, sizeof(Own), &(const Own){.frame = -1}};
 
 const Command LINK_COMMAND = {
     .name = "link",
@@ -90,7 +116,7 @@ const Command LINK_COMMAND = {
                 "  petri link dish.fl --page http://127.0.0.1/     a link to a playground\n"
                 "  petri link dish.fl --html dish.html             a page that runs without a network\n",
     .missing_operand = "no script given",
-    .options = FOR_LINK,
+    .options = &LINK_OPTIONS,
     .parts = (const Command *const[]){&RUN_LINK_COMMAND, &VIEW_LINK_COMMAND, NULL},
     .run = link_run,
 };

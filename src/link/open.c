@@ -1,11 +1,13 @@
 // open.c: `petri run LINK` and `petri render LINK`, which run the script of a link and verify its frame, and `petri
 // view LINK`, which shows it.
 #include "base/file.h"
+#include "cli/option_groups.h"
 #include "cli/output.h"
 #include "cli/script.h"
 #include "link/link_session.h"
 #include "petri-draw.h"
 #include "petri-inspect.h"
+#include "view/options.h"
 #include "view/still.h"
 #include "view/terminal_picture.h"
 
@@ -13,6 +15,15 @@
 #include <inttypes.h>
 #include <string.h>
 #include <unistd.h>
+
+// Options that no other command has.
+typedef struct Own {
+    const char *output; // output file
+} Own;
+
+static const Own *own_options(const Options *options) {
+    return options->own;
+}
 
 static bool read_link(Linked *linked, const char *operand) {
     static const size_t max_bytes = (size_t)1 << 20;
@@ -44,7 +55,7 @@ static int save_picture(LinkSession *link_session, const char *file) {
 
 // Shows the picture if standard output is a terminal.
 static int show_picture(PetriSession *session, PetriPainter *painter, const Options *options) {
-    bool wanted = !options->output && options->verbosity > LOG_QUIET && isatty(STDOUT_FILENO) &&
+    bool wanted = !own_options(options)->output && options->verbosity > LOG_QUIET && isatty(STDOUT_FILENO) &&
                   terminal_picture_possible() && progress_possible() && petri_has_picture(session);
     if (!wanted)
         return STATUS_DONE;
@@ -93,7 +104,7 @@ static int compare_state(const LinkSession *link_session, const Options *options
     const char *expected = linked->digest ? linked->digest : linked->hash;
     unsigned section = linked->hash && !linked->digest ? PETRI_PRINT_HASH : PETRI_PRINT_DIGEST;
     petri_print(link_session->frames.session, section, text_collect, &text);
-    int status = !options->output ? output_text(text.bytes, text.len, STATUS_DONE) : STATUS_DONE;
+    int status = !own_options(options)->output ? output_text(text.bytes, text.len, STATUS_DONE) : STATUS_DONE;
     SCOPED_STRING digest = link_session_digest(link_session, section);
     if (!expected) {
         message("%s: no state to compare: the link has no digest; 'petri link --frame N' adds one", linked->name);
@@ -108,12 +119,13 @@ static int compare_state(const LinkSession *link_session, const Options *options
 }
 
 static int open_link(const CommandContext *context, Options *options, LinkSession *link_session) {
+    const Own *own = own_options(options);
     Linked *linked = &link_session->linked;
-    if (!check_output(options->output))
+    if (!check_output(own->output))
         return STATUS_USAGE;
     if (!link_possible() || !read_link(linked, options->script))
         return STATUS_FAILED;
-    const char *file = options->output;
+    const char *file = own->output;
     int wrote = file && is_script(file) ? write_script(context, linked, file) : STATUS_DONE;
     int status = link_session_run(link_session, context, options);
     link_session_print_files(link_session, "the script reads ", ", but links contain no files");
@@ -136,6 +148,18 @@ static int run_link(const CommandContext *context, Options *options) {
     return status;
 }
 
+// clang-format off
+static const OptionSpec ROWS[] = {
+    OWN("output", 'o', "FILE", option_text, output, "write the script (FILE.fl, - for standard output) or the picture of the frame (.png, .svg, .pdf)")
+    THREADS_OPTION
+    LIMIT_OPTIONS
+    QUIET_OPTION
+    COLOUR_OPTION
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable RUN_LINK_OPTIONS = {ROWS, sizeof(Own), NULL};
+
 const Command RUN_LINK_COMMAND = {
     .name = "run LINK",
     .operands = "",
@@ -156,7 +180,7 @@ const Command RUN_LINK_COMMAND = {
                 "  petri run \"$(petri link dish.fl --frame 99)\"   make a link and run it\n",
     .missing_operand = "no link given (put it in quotes)",
     .second_operand_error = "too many arguments: '%s'; petri run takes one link, in quotes",
-    .options = FOR_OPEN,
+    .options = &RUN_LINK_OPTIONS,
     .run = run_link,
 };
 
@@ -196,6 +220,6 @@ const Command VIEW_LINK_COMMAND = {
     .details =
         "Like petri view, but shows the script in a link, with the same changes of parameters. The script cannot read\n"
         "files.",
-    .options = FOR_VIEW,
+    .options = &VIEW_OPTIONS,
     .run = view_link,
 };

@@ -1,10 +1,16 @@
 // lsp.c: `petri lsp`, a server of the Language Server Protocol 3.17.
 //
 // The server has one thread. It reads and answers messages, and checks changed documents when no message is waiting.
+#include "cli/option_groups.h"
 #include "lsp/server.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+// Options that no other command has.
+typedef struct Own {
+    bool stdio;
+} Own;
 
 // --- documents
 
@@ -278,6 +284,17 @@ static int lsp_run(const CommandContext *host, Options *options) {
     return status;
 }
 
+// clang-format off
+static const OptionSpec ROWS[] = {
+    OWN("stdio", 0, NULL, option_flag, stdio, "use standard input and output (default; there is no other transport)")
+    DEFINE_NAME_OPTION
+    FILE_OPTIONS
+    LIMIT_OPTIONS
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable LSP_OPTIONS = {ROWS, sizeof(Own), NULL};
+
 const Command LSP_COMMAND = {
     .name = "lsp",
     .operands = "",
@@ -288,7 +305,7 @@ const Command LSP_COMMAND = {
         "of constants, goes to definitions, renames, formats, and offers quick fixes. Evaluates the first frame, as\n"
         "petri check does, without drawing, printing or storing anything.",
     .examples = "  vim.lsp.start({ name = 'petri', cmd = { 'petri', 'lsp' } })    -- for Neovim\n",
-    .options = FOR_LSP,
+    .options = &LSP_OPTIONS,
     .second_operand_error = "too many arguments: '%s'; the editor opens the scripts",
     .run = lsp_run,
 };

@@ -61,9 +61,7 @@ static void offer_topics(const Completion *completion) {
 
 static void offer_options(const Completion *completion) {
     char name[64];
-    for (const OptionSpec *option = OPTIONS; option->name; option++) {
-        if (!(option->commands & completion->command->options))
-            continue;
+    for (const OptionSpec *option = command_options(completion->command); option->name; option++) {
         snprintf(name, sizeof name, "--%s", option->name);
         offer(completion, name, option->help);
         snprintf(name, sizeof name, "-%c", option->letter);

@@ -2,7 +2,7 @@
 //
 // Only petri-pictures has this file, because it needs the commands of the prompt. Help on single commands is in
 // cli/help.c, which every program has.
-#include "cli/cli.h"
+#include "cli/args.h"
 #include "cli/help.h"
 #include "cli/options.h"
 #include "main/commands.h"
@@ -71,9 +71,7 @@ static int help_nodes(void) {
 // it.
 static bool print_option(Text *text, const char *word, const Command *command) {
     bool found = false, is_long = word[1] == '-';
-    for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
-        if (!(spec->commands & command->options))
-            continue;
+    for (const OptionSpec *spec = command_options(command); spec->name; spec++) {
         if (is_long ? strcmp(spec->name, word + 2) == 0 : spec->letter != '\0' && spec->letter == word[1]) {
             text_add_format(text, "petri %s\n", command->name);
             help_option(text, spec);

@@ -7,6 +7,9 @@
 #include "main/commands.h"
 #include "main/large_stack.h"
 #include "mpi/ranks.h"
+#include "render/options.h"
+#include "run/options.h"
+#include "view/options.h"
 
 #include <fcntl.h>
 #include <limits.h>
@@ -98,6 +101,10 @@ static void open_standard_descriptors(void) {
     }
 }
 
+// Users often confuse these commands.
+static const SimilarCommand SIMILAR[] = {
+    {"run", &RUN_OPTIONS}, {"render", &RENDER_OPTIONS}, {"view", &VIEW_OPTIONS}, {.name = NULL}};
+
 typedef struct Job {
     CommandContext host;
     int argc;
@@ -125,6 +132,7 @@ int main(int argc, char **argv) {
     signal(SIGXFSZ, SIG_IGN);
     char resolved[PATH_MAX];
     Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
+               .host.similar = SIMILAR,
                .host.invoked_as = argc > 0 ? argv[0] : "petri",
                .argc = argc,
                .argv = argv,

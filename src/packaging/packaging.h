@@ -4,9 +4,6 @@
 #include "cli/output.h"
 #include "main/commands.h"
 
-// Returns the next option of the command after `after` (NULL: the first option). Returns NULL after the last.
-const OptionSpec *option_after(const Command *command, const OptionSpec *after);
-
 // A row of the tables in petri(1): environment variables and exit statuses. Each table ends with a row without a name.
 typedef struct PageRow {
     const char *name;

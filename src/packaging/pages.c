@@ -1,4 +1,5 @@
 // pages.c: petri(1) and the pages of the commands, generated from the tables of `petri help`.
+#include "cli/args.h"
 #include "cli/help.h"
 #include "packaging/packaging.h"
 #include "packaging/roff.h"
@@ -7,13 +8,6 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-
-const OptionSpec *option_after(const Command *command, const OptionSpec *after) {
-    const OptionSpec *option = !after ? OPTIONS : after + 1;
-    while (option->name && !(option->commands & command->options))
-        option++;
-    return !option->name ? NULL : option;
-}
 
 const PageRow PAGE_VARIABLES[] = {
     {"NO_COLOR", "if not empty, messages and terminal pictures have no colours"},
@@ -107,13 +101,13 @@ static void write_prompt_commands(Output *output) {
 }
 
 static void write_synopsis(Output *output, const Command *command) {
-    output_format(output, ".B petri %s\n%s", command->name, command->options == 0 ? "" : "[options]\n");
+    output_format(output, ".B petri %s\n%s", command->name, !command->options ? "" : "[options]\n");
     roff_text(output, command->operands);
     output_format(output, "\n");
 }
 
 static void write_options(Output *output, const Command *command) {
-    for (const OptionSpec *option = NULL; (option = option_after(command, option));)
+    for (const OptionSpec *option = command_options(command); option->name; option++)
         write_option(output, option);
 }
 
@@ -141,7 +135,7 @@ void page_of_command(Output *output, const Command *command) {
     }
     roff_heading(output, "DESCRIPTION");
     roff_paragraphs(output, command->details);
-    if (command->options != 0)
+    if (command->options)
         roff_heading(output, "OPTIONS");
     write_options(output, command);
     if (command == &REPL_COMMAND) {

@@ -1,4 +1,5 @@
 // tables.c: petri's tables of commands, functions, nodes and words as JSON, for the manual on the web (src/web/site).
+#include "cli/args.h"
 #include "cli/help.h"
 #include "cli/json.h"
 #include "cli/memory.h"
@@ -23,7 +24,7 @@ static void add_command(JsonWriter *json, const Command *command) {
     OPEN_ROW(json, "name", command->name, "operands", command->operands, "summary", command->summary, "details",
              command->details, "examples", or_none(command->examples));
     json_open(json, "options", "[");
-    for (const OptionSpec *option = NULL; (option = option_after(command, option));) {
+    for (const OptionSpec *option = command_options(command); option->name; option++) {
         ROW(json, "letter", (char[]){option->letter, '\0'}, "name", option->name, "value", or_none(option->value),
             "help", option->help);
     }

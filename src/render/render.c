@@ -4,6 +4,7 @@
 #include "cli/shader_test.h"
 #include "cli/stdout_file.h"
 #include "render/frame_writer.h"
+#include "render/options.h"
 #include "render/output_names.h"
 #include "render/video.h"
 #include "render/window_option.h"
@@ -40,28 +41,28 @@ typedef struct Render {
 // Determines the kind of output. Returns false after a message.
 static bool read_output(Render *render) {
     Options *options = render->frames.options;
-    if (!options->output) {
+    RenderOptions *own = render_options(options);
+    if (!own->output) {
         message("option '--output' is missing; try: petri render %s -o OUT.png", options->script);
         return false;
     }
-    if (options->format && !stdout_file_is_requested(options->output)) {
-        message("option '--format' is only for '-o -'; the format of '%s' follows from its suffix", options->output);
+    if (own->format && !stdout_file_is_requested(own->output)) {
+        message("option '--format' is only for '-o -'; the format of '%s' follows from its suffix", own->output);
         return false;
     }
-    if (stdout_file_is_requested(options->output)) {
-        if (!stdout_file_check(options->format) || !stdout_file_open(&render->stdout_file, options->format))
+    if (stdout_file_is_requested(own->output)) {
+        if (!stdout_file_check(own->format) || !stdout_file_open(&render->stdout_file, own->format))
             return false;
-        options->output = render->stdout_file.file;
+        own->output = render->stdout_file.file;
     }
-    render->display_name = render->stdout_file.file ? "-" : options->output;
-    if (video_has_suffix(options->output)) {
+    render->display_name = render->stdout_file.file ? "-" : own->output;
+    if (video_has_suffix(own->output)) {
         render->kind = OUTPUT_FILM;
-    } else if (!petri_picture_can_save(options->output)) {
-        message("unknown suffix: '%s'; use .png, .svg, .pdf, .mp4, .m4v, .mov, .mkv, .webm, .ogg or .gif",
-                options->output);
+    } else if (!petri_picture_can_save(own->output)) {
+        message("unknown suffix: '%s'; use .png, .svg, .pdf, .mp4, .m4v, .mov, .mkv, .webm, .ogg or .gif", own->output);
         return false;
     } else {
-        render->kind = output_has_number(options->output) ? OUTPUT_SERIES : OUTPUT_PICTURE;
+        render->kind = output_has_number(own->output) ? OUTPUT_SERIES : OUTPUT_PICTURE;
     }
     if (options->frame >= 0 && render->kind == OUTPUT_FILM) {
         message("option '--frame' is for images; '%s' is a video", render->display_name);
@@ -90,7 +91,7 @@ typedef struct OutputList {
 
 // Adds an output for a window. Returns false after a message.
 static bool add_output(const Render *render, const PetriPicture *picture, int window, OutputList *list) {
-    const char *pattern = render->frames.options->output;
+    const char *pattern = render_options(render->frames.options)->output;
     if (list->count == MAX_WINDOWS) {
         message("cannot write '%s': a frame has more than %d windows", pattern, MAX_WINDOWS);
         return false;
@@ -170,8 +171,9 @@ static void output_frame(Render *render) {
     PetriSession *session = render->frames.session;
     int64_t number = petri_frame_number(session);
     bool single = render->kind == OUTPUT_PICTURE;
-    bool wanted = options->frame >= 0 ? number == options->frame
-                                      : (number - render->frames.before_first_picture) % options->every == 0;
+    bool wanted = options->frame >= 0
+                      ? number == options->frame
+                      : (number - render->frames.before_first_picture) % render_options(options)->every == 0;
     bool must = petri_must_render(session);
     release_held(render, must);
     if (render->failed)
@@ -264,8 +266,9 @@ static int end_render(Render *render, bool going) {
 static int render_frames(Render *render) {
     Frames *frames = &render->frames;
     const Options *options = frames->options;
+    const RenderOptions *own = render_options(options);
     double fps = frames_fps(frames);
-    render->writer = frame_writer_start(render->kind == OUTPUT_FILM, fps / (double)options->every, fps);
+    render->writer = frame_writer_start(render->kind == OUTPUT_FILM, fps / (double)own->every, fps);
     if (!render->writer)
         return STATUS_FAILED;
     frames_begin(frames);
@@ -274,9 +277,8 @@ static int render_frames(Render *render) {
         going = frames_step(frames) || frames->abandoned;
         if (frames->abandoned)
             break;
-        render->picture.window =
-            window_option(frames->session, options->window,
-                          output_has_window(options->output) ? PETRI_ALL_WINDOWS : PETRI_FIRST_WINDOW);
+        render->picture.window = window_option(frames->session, own->window,
+                                               output_has_window(own->output) ? PETRI_ALL_WINDOWS : PETRI_FIRST_WINDOW);
         petri_picture_follow(frames->session, &render->picture);
         if (going && is_before_first_picture(render))
             frames->before_first_picture++;
@@ -297,17 +299,18 @@ static int render_frames(Render *render) {
 
 static int render_script(Render *render) {
     const Options *options = render->frames.options;
+    const RenderOptions *own = render_options(options);
     if (!read_output(render))
         return STATUS_USAGE;
     render->picture = petri_default_picture_options();
-    render->picture.width = options->size.width;
-    render->picture.height = options->size.height;
-    render->picture.scale = options->scale;
-    render->picture.automatic = options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    render->picture.width = own->size.width;
+    render->picture.height = own->size.height;
+    render->picture.scale = own->scale;
+    render->picture.automatic = own->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     render->tester.pending_signal = frames_signal;
     render->sampler = painter_open_tested(&render->tester);
     petri_painter_serve(render->sampler, render->frames.session);
-    if (!check_folder(options->output) || !frames_load(&render->frames))
+    if (!check_folder(own->output) || !frames_load(&render->frames))
         return render->frames.invalid_definition ? STATUS_USAGE : STATUS_FAILED;
     return render_frames(render);
 }
@@ -349,6 +352,6 @@ const Command RENDER_COMMAND = {
                 "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a video\n"
                 "  petri render two.fl -o two-{window}.png         an image of each window\n",
     .missing_operand = "no script given",
-    .options = FOR_RENDER,
+    .options = &RENDER_OPTIONS,
     .run = render_run,
 };

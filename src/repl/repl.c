@@ -5,6 +5,7 @@
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "repl/line.h"
+#include "repl/options.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -198,6 +199,6 @@ const Command REPL_COMMAND = {
     .examples = "  petri repl dish.fl                              then: .step 60, .particles 5, .help\n"
                 "  petri repl                                      start without a script\n",
     .no_stdin = "cannot read the script from standard input: the prompt uses it",
-    .options = FOR_REPL,
+    .options = &REPL_OPTIONS,
     .run = repl_run,
 };

@@ -12,6 +12,7 @@
 #include "petri-inspect.h"
 #include "petri-ranks.h"
 #include "run/frames.h"
+#include "run/options.h"
 #include "run/stats.h"
 #include "run/trajectory.h"
 
@@ -70,7 +71,7 @@ static void print_if_any(Run *run, unsigned sections) {
 // Prints the frame and adds it to the trajectory.
 static void output_frame(Run *run) {
     double start = clock_seconds();
-    unsigned sections = run->frames.options->sections;
+    unsigned sections = run_options(run->frames.options)->sections;
     if (sections != 0 && (sections & ~(unsigned)(PETRI_PRINT_LOG | PETRI_PRINT_ERROR)) == 0)
         print_if_any(run, sections);
     else if (sections != 0)
@@ -90,7 +91,7 @@ static bool run_frame(Run *run) {
     PetriFrame frame;
     petri_frame(run->frames.session, &frame, sizeof frame);
     stats_count(&run->stats, run->frames.session);
-    bool printed = frame.number % run->frames.options->every == 0;
+    bool printed = frame.number % run_options(run->frames.options)->every == 0;
     if (printed)
         output_frame(run);
     report_frame(run, &frame, printed);
@@ -112,7 +113,7 @@ static void report_profile(Run *run) {
 
 // Returns true if a person is likely to read the messages: on a terminal, or if --show could not show the picture.
 static bool is_interactive(const Options *options) {
-    return isatty(STDERR_FILENO) || options->show;
+    return isatty(STDERR_FILENO) || run_options(options)->show;
 }
 
 // Suggests commands that show the picture.
@@ -129,7 +130,7 @@ static void report_pictures(const Run *run) {
 static void report_result(const Run *run) {
     enum { MAX_SYSTEMS = 4, DIGEST_BYTES = 16 };
     const Options *options = run->frames.options;
-    if (options->verbosity != LOG_NORMAL || !options->show || isatty(STDERR_FILENO))
+    if (options->verbosity != LOG_NORMAL || !run_options(options)->show || isatty(STDERR_FILENO))
         return;
     PetriSystem system;
     size_t count = 0;
@@ -166,17 +167,18 @@ static void report_summary(Run *run) {
 static bool open_trajectory(Run *run) {
     Frames *frames = &run->frames;
     const Options *options = frames->options;
+    const RunOptions *own = run_options(options);
     int64_t after = petri_frame_number(frames->session);
-    Resume resume = {options->state_file, after, after < 0 ? -1 : after - after % options->every};
-    if (!options->trajectory)
+    Resume resume = {options->state_file, after, after < 0 ? -1 : after - after % own->every};
+    if (!own->trajectory)
         return true;
-    if (frames->state.unreadable && access(options->trajectory, F_OK) == 0) {
-        message("'%s' is not changed either, and no trajectory is written", options->trajectory);
+    if (frames->state.unreadable && access(own->trajectory, F_OK) == 0) {
+        message("'%s' is not changed either, and no trajectory is written", own->trajectory);
         return true;
     }
     frames->state.before = trajectory_sync;
     frames->state.context = &run->trajectory;
-    return trajectory_open(&run->trajectory, options->trajectory, options->energies, &resume);
+    return trajectory_open(&run->trajectory, own->trajectory, own->energies, &resume);
 }
 
 static int run_frames(Run *run) {
@@ -195,7 +197,7 @@ static int run_frames(Run *run) {
     bool recorded = trajectory_close(&run->trajectory, going);
     report_profile(run);
     report_summary(run);
-    if (frames->options->stats)
+    if (run_options(frames->options)->stats)
         stats_print(&run->stats, frames->session, clock_seconds() - frames->start, going ? frames->ranks : NULL);
     if (frames_signal() != 0 && !frames->state.outdated && recorded)
         return STATUS_SIGNAL + frames_signal();
@@ -220,14 +222,15 @@ static int list_parameters(Run *run) {
 
 static int run_session(Run *run) {
     const Options *options = run->frames.options;
+    const RunOptions *own = run_options(options);
     if (!archiving_begin(&run->archiving, options, "run", run->frames.session))
         return STATUS_FAILED;
     if (!frames_load(&run->frames))
         return run->frames.invalid_definition ? STATUS_USAGE : STATUS_FAILED;
-    if (options->parameters)
+    if (own->parameters)
         return list_parameters(run);
-    if (options->dump >= 0) {
-        PetriStatus status = petri_dump(run->frames.session, (PetriDump)options->dump, output_write, &run->output);
+    if (own->dump >= 0) {
+        PetriStatus status = petri_dump(run->frames.session, (PetriDump)own->dump, output_write, &run->output);
         return status == PETRI_OK || run->output.error != 0 ? STATUS_DONE : STATUS_FAILED;
     }
     return run_frames(run);
@@ -236,10 +239,10 @@ static int run_session(Run *run) {
 // Returns true for an option that `petri view` accepts, for --show, and for a word that is not an option. All other
 // options request text or files.
 static bool is_view_option(const char *word) {
-    for (const OptionSpec *spec = OPTIONS; spec->name; spec++)
-        if (spec->commands & FOR_VIEW && word_is_option(word, spec->name))
-            return true;
-    return strncmp(word, "--", 2) != 0 || word_is_option(word, "show");
+    for (const OptionSpec *spec = RUN_OPTIONS.rows; spec->name; spec++)
+        if (spec->ends_show && word_is_option(word, spec->name))
+            return false;
+    return true;
 }
 
 // Returns true if the picture must be shown. This is the case if --show was given, input and output are terminals, and
@@ -253,7 +256,7 @@ static bool should_show(const Options *options) {
     for (int i = 0; i < options->argc; i++)
         if (!is_view_option(options->argv[i]))
             return false;
-    return options->show && at_terminal && !script_is_stdin(options->script) &&
+    return run_options(options)->show && at_terminal && !script_is_stdin(options->script) &&
            (options->verbosity == LOG_NORMAL || options->verbosity == LOG_VERBOSE);
 }
 
@@ -296,6 +299,7 @@ static void exec_view(const Options *options, const CommandContext *host) {
 
 // Checks the options of a run under MPI. Returns false after a message.
 static bool check_rank_options(const PetriRanks *ranks, Options *options) {
+    RunOptions *own = run_options(options);
     if (!ranks)
         return true;
     if (options->realtime || script_is_stdin(options->script)) {
@@ -304,9 +308,9 @@ static bool check_rank_options(const PetriRanks *ranks, Options *options) {
         return false;
     }
     if (ranks->rank > 0) { // only rank 0 writes output
-        options->trajectory = options->archive = NULL;
-        options->sections = 0;
-        options->show = false;
+        own->trajectory = options->archive = NULL;
+        own->sections = 0;
+        own->show = false;
     }
     return true;
 }
@@ -348,7 +352,7 @@ const Command RUN_COMMAND = {
                 "  petri run dish.fl -D DROPS=50 --frames 100      set a parameter\n"
                 "  petri run dish.fl --trajectory dish.csv         write all positions as a table\n",
     .missing_operand = "no script given",
-    .options = FOR_RUN,
+    .options = &RUN_OPTIONS,
     .needs_pictures = words_name_archive,
     .run = run_run,
 };

@@ -5,6 +5,7 @@
 #include "base/replace.h"
 #include "base/source.h"
 #include "cli/state_text.h"
+#include "sweep/options.h"
 #include "sweep/table.h"
 
 #include <errno.h>
@@ -23,7 +24,7 @@ static bool make_folder(const char *path) {
 }
 
 bool cache_open(const Sweep *sweep) {
-    const char *folder = sweep->options->cache;
+    const char *folder = sweep->own->cache;
     struct stat info;
     bool good = !folder || (make_folder(folder) && stat(folder, &info) == 0 && S_ISDIR(info.st_mode));
     if (!good)
@@ -50,7 +51,7 @@ void cache_key(const Sweep *sweep, size_t run, char key[SHA256_DIGITS + 1]) {
 static int open_folder(const Sweep *sweep, const char *key, bool create) {
     char name[KEY_PREFIX + 1] = "";
     memcpy(name, key, KEY_PREFIX);
-    int cache = file_open_at(AT_FDCWD, sweep->options->cache, O_RDONLY | O_DIRECTORY, 0), folder = -1;
+    int cache = file_open_at(AT_FDCWD, sweep->own->cache, O_RDONLY | O_DIRECTORY, 0), folder = -1;
     if (cache < 0)
         return -1;
     if (!create || mkdirat(cache, name, 0777) == 0 || errno == EEXIST)
@@ -171,7 +172,7 @@ void cache_entry_free(CacheEntry *entry) {
 bool cache_should_verify(const Sweep *sweep, const char *key) {
     uint32_t number = 0;
     sscanf(key, "%8" SCNx32, &number);
-    return number < sweep->options->verify_cache / 100 * 0x1p32;
+    return number < sweep->own->verify_cache / 100 * 0x1p32;
 }
 
 // Appends the first metric that differs in two rows, of which the frames were read. Returns false if none differs; the

@@ -1,6 +1,7 @@
 // design.c: the runs of a sweep: all combinations of values, or a sample of them, each repeated for all seeds.
 #include "base/hash_index.h"
 #include "petri-edit.h"
+#include "sweep/options.h"
 #include "sweep/sweep.h"
 
 #include <inttypes.h>
@@ -48,18 +49,19 @@ static bool read_axis(Design *design, const char *text) {
 }
 
 static bool read_axes(Design *design, const Options *options) {
-    design->axes = memory_calloc((options->axes.count + 1) * sizeof *design->axes);
-    for (size_t i = 0; i < options->axes.count; i++)
-        if (!read_axis(design, options->axes.items[i]))
+    const SweepOptions *own = sweep_options(options);
+    design->axes = memory_calloc((own->axes.count + 1) * sizeof *design->axes);
+    for (size_t i = 0; i < own->axes.count; i++)
+        if (!read_axis(design, own->axes.items[i]))
             return false;
-    if (options->seeds == 0)
+    if (own->seeds == 0)
         return true;
     if (find_axis(design, "SEED")) {
         message("cannot use both --seeds and -D SEED: --seeds N means -D SEED=1..N");
         return false;
     }
     char seeds[48];
-    snprintf(seeds, sizeof seeds, "SEED=1..%" PRId64, options->seeds);
+    snprintf(seeds, sizeof seeds, "SEED=1..%" PRId64, own->seeds);
     design->seeded = true;
     return read_axis(design, seeds);
 }
@@ -228,8 +230,8 @@ static bool filter_runs(Design *design, const char *where, const CommandContext 
 }
 
 bool design_make(Design *design, const Options *options, const CommandContext *host) {
+    const SweepOptions *own = sweep_options(options);
     *design = (Design){0};
-    return read_axes(design, options) &&
-           (!options->sample ? make_grid(design) : make_sample(design, options->sample)) &&
-           (!options->where || filter_runs(design, options->where, host));
+    return read_axes(design, options) && (!own->sample ? make_grid(design) : make_sample(design, own->sample)) &&
+           (!own->where || filter_runs(design, own->where, host));
 }

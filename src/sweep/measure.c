@@ -6,6 +6,7 @@
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "petri-inspect.h"
+#include "sweep/options.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -63,7 +64,7 @@ bool measure_open(Measure *measure, const Sweep *sweep,
                   void (*report)(void *context, PetriLevel level, const char *rendered), void *context) {
     *measure = (Measure){.sweep = sweep, .on_diagnostic = report, .context = context, .silent = true};
     Options options = *sweep->options;
-    options.on_file_read = sweep->options->cache ? on_file_read : NULL;
+    options.on_file_read = sweep->own->cache ? on_file_read : NULL;
     if (petri_archive_is(options.script) && !open_archive(measure, &options))
         return false;
     if (options_open(&options, sweep->host, on_diagnostic, measure, &measure->session) != OPTIONS_READ)
@@ -159,17 +160,16 @@ static void add_failure(Measure *measure, PetriStatus status) {
 }
 
 static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
-    const Options *options = measure->sweep->options;
+    const SweepOptions *own = measure->sweep->own;
     PetriEvaluation until = {0};
     PetriStatus status = petri_step(measure->session);
     if (status != PETRI_OK || measure->diverged)
         return status != PETRI_OK ? status : PETRI_INVALID;
-    *measured = options->row_every > 0 && measure->result.frames % options->row_every == 0;
+    *measured = own->row_every > 0 && measure->result.frames % own->row_every == 0;
     measure->result.frames++;
-    if (options->until)
-        status =
-            petri_evaluate(measure->session, options->until, PETRI_NUL_TERMINATED, &until, sizeof until, NULL, NULL);
-    *ends = until.is_true || measure->result.frames == options->frames;
+    if (own->until)
+        status = petri_evaluate(measure->session, own->until, PETRI_NUL_TERMINATED, &until, sizeof until, NULL, NULL);
+    *ends = until.is_true || measure->result.frames == measure->sweep->options->frames;
     *measured = *measured || *ends;
     return status == PETRI_OK && *measured ? add_row(measure) : status;
 }
@@ -216,7 +216,7 @@ static void execute_and_store(Measure *measure, size_t run, const char *key, con
         measure->origin = !stored ? RESULT_COMPUTED : report.len > 0 ? RESULT_DIFFERS : RESULT_VERIFIED;
         const char *problem = stored ? NULL : cache_store(sweep, key, &measure->files, &measure->result);
         if (problem)
-            text_add_format(&report, "petri: cannot write to the cache '%s': %s\n", sweep->options->cache, problem);
+            text_add_format(&report, "petri: cannot write to the cache '%s': %s\n", sweep->own->cache, problem);
     }
     if (report.len > 0)
         report_warning(measure, report.bytes);
@@ -227,7 +227,7 @@ void measure_run(Measure *measure, size_t run) {
     char key[SHA256_DIGITS + 1];
     CacheEntry stored;
     measure->origin = RESULT_COMPUTED;
-    if (!sweep->options->cache) {
+    if (!sweep->own->cache) {
         execute_run(measure, run);
         return;
     }
@@ -265,7 +265,7 @@ int measure_dry_run(Measure *measure) {
         return measure->invalid_definition || measure->false_definition ? STATUS_USAGE : STATUS_FAILED;
     if (petri_step(measure->session) != PETRI_OK)
         return STATUS_DONE; // a failed run becomes a row of the table
-    bool good = !sweep->options->until || try_expression(measure, "until", sweep->options->until);
+    bool good = !sweep->own->until || try_expression(measure, "until", sweep->own->until);
     for (size_t i = 0; i < sweep->metric_count; i++)
         good =
             (!sweep->metrics[i].expression || try_expression(measure, "metric", sweep->metrics[i].expression)) && good;

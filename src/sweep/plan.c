@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "base/source.h"
 #include "cli/script.h"
+#include "sweep/options.h"
 #include "sweep/plots.h"
 
 #include <stdio.h>
@@ -93,8 +94,8 @@ static bool add_entry(const Plan *plan, const yaml_node_t *key, const yaml_node_
         add_script(plan, text_of(value));
         return true;
     }
-    for (const OptionSpec *spec = OPTIONS; spec->name; spec++) {
-        if (spec->commands & FOR_SWEEP && strcmp(spec->name, "plan") != 0) {
+    for (const OptionSpec *spec = SWEEP_OPTIONS.rows; spec->name; spec++) {
+        if (strcmp(spec->name, "plan") != 0) {
             if (strcmp(spec->name, name) == 0)
                 return add_option(plan, spec, value);
             nearest_offer(&nearest, spec->name);

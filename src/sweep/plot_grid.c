@@ -2,6 +2,7 @@
 // per name with several values and, with --every, one for the frame.
 #include "petri-draw.h"
 #include "petri-edit.h"
+#include "sweep/options.h"
 #include "sweep/plots.h"
 #include "sweep/table.h"
 
@@ -163,7 +164,7 @@ static size_t find_columns(const Sweep *sweep, size_t *columns) {
     for (size_t i = 0; i < sweep->design.axis_count - sweep->design.seeded; i++)
         if (sweep->design.axes[i].values.count > 1)
             columns[count++] = i;
-    if (sweep->options->row_every > 0 || count == 0)
+    if (sweep->own->row_every > 0 || count == 0)
         columns[count++] = FRAMES;
     return count;
 }

@@ -3,6 +3,7 @@
 #include "cli/mpirun.h"
 #include "cli/script.h"
 #include "petri-archive.h"
+#include "sweep/options.h"
 #include "sweep/plots.h"
 
 #include <stdio.h>
@@ -18,7 +19,7 @@ static bool is_column(const Sweep *sweep, const char *name, size_t metrics) {
 }
 
 static bool read_metrics(Sweep *sweep) {
-    const TextList *texts = &sweep->options->metrics;
+    const TextList *texts = &sweep->own->metrics;
     sweep->metrics = memory_calloc((texts->count + 1) * sizeof *sweep->metrics);
     for (; sweep->metric_count < texts->count; sweep->metric_count++) {
         const char *text = texts->items[sweep->metric_count];
@@ -33,7 +34,7 @@ static bool read_metrics(Sweep *sweep) {
             return false;
         }
     }
-    if (sweep->metric_count == 0 && !sweep->options->until) {
+    if (sweep->metric_count == 0 && !sweep->own->until) {
         message("nothing to measure; add --metric NAME='EXPR', such as --metric speed='hypot($(:cells;0;:velocity))'");
         return false;
     }
@@ -43,7 +44,7 @@ static bool read_metrics(Sweep *sweep) {
 // Parses --shard, such as `2/4`. Without --shard, each process of mpirun executes one shard if petri was built
 // without MPI.
 static bool read_shard(Sweep *sweep) {
-    const char *text = sweep->options->shard;
+    const char *text = sweep->own->shard;
     int shard = 1, shards = 1, rank = 0, count = 0;
     char trailing = '\0';
     if (text) {
@@ -58,7 +59,7 @@ static bool read_shard(Sweep *sweep) {
     }
     sweep->shard = (size_t)shard - 1;
     sweep->shards = (size_t)shards;
-    if (shards > 1 && !sweep->options->output) {
+    if (shards > 1 && !sweep->own->output) {
         message("option '--shard' needs a file for the table; add -o FILE.csv");
         return false;
     }
@@ -67,11 +68,11 @@ static bool read_shard(Sweep *sweep) {
 
 // Collects the options that apply to individual runs and can change their results.
 static void read_shared_options(Sweep *sweep, const Command *command) {
-    static const char *const free_ones[] = {"color", "quiet", "threads", "neighbours", NULL};
+    static const char *const free_ones[] = {"color", "quiet", "threads", "neighbours", "frames", NULL};
     Options again = *sweep->options;
     Args args = {.command = command, .options = &again, .argc = again.argc, .argv = again.argv};
     for (int id = args_next(&args); id != ARG_END; id = args_next(&args)) {
-        if (id != ARG_OPTION || !(args.option->commands & FOR_RUN))
+        if (id != ARG_OPTION || args.option->own)
             continue;
         bool counts = true;
         for (size_t i = 0; free_ones[i]; i++)
@@ -87,7 +88,7 @@ static void read_shared_options(Sweep *sweep, const Command *command) {
 }
 
 static bool check_plot(const Sweep *sweep) {
-    const char *plot = sweep->options->plot;
+    const char *plot = sweep->own->plot;
     if (!plot || plot_grid_fits(plot))
         return true;
     message("option '--plot' expects a file name that ends in .svg, .png or .pdf, not '%s'", plot);
@@ -95,11 +96,11 @@ static bool check_plot(const Sweep *sweep) {
 }
 
 static bool check_cache(const Sweep *sweep) {
-    if (sweep->options->verify_cache > 0 && !sweep->options->cache) {
+    if (sweep->own->verify_cache > 0 && !sweep->own->cache) {
         message("option '--verify-cache' needs a cache; add --cache DIR");
         return false;
     }
-    if (sweep->options->cache && petri_archive_is(sweep->options->script)) {
+    if (sweep->own->cache && petri_archive_is(sweep->options->script)) {
         message("cannot use '--cache' with an archive; write its files to a folder with 'petri archive unpack'");
         return false;
     }
@@ -107,7 +108,7 @@ static bool check_cache(const Sweep *sweep) {
 }
 
 static bool check_output(const Sweep *sweep) {
-    const char *output = sweep->options->output;
+    const char *output = sweep->own->output;
     if (!output || script_suffix(output, ".nc .nc4 .cdf") < 0)
         return true;
     message("option '--output' expects a file name that ends in .csv or .h5, which tools for NetCDF can read, not '%s'",

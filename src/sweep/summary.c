@@ -1,5 +1,6 @@
 // summary.c: mean, standard deviation and quantiles of each metric over runs that differ only in SEED.
 #include "cli/particles.h"
+#include "sweep/options.h"
 #include "sweep/table.h"
 
 #include <inttypes.h>
@@ -49,7 +50,7 @@ static void add_name(Text *out, const char *name) {
 static void add_metric(const Sweep *sweep, size_t first, size_t end, size_t metric, Text *out) {
     SCOPED_TEXT list = {0};
     const Design *design = &sweep->design;
-    bool each_frame = sweep->options->row_every > 0;
+    bool each_frame = sweep->own->row_every > 0;
     Row row;
     for (size_t run = first; run < end; run++) {
         for (Str rows = sweep->results[run].rows; row_next(sweep, &rows, metric, &row);) {
@@ -78,8 +79,7 @@ void summary_make(const Sweep *sweep, Text *out) {
     const Design *design = &sweep->design;
     for (size_t i = 0; i < design->axis_count - design->seeded; i++)
         add_name(out, design->axes[i].name);
-    text_add_format(out, "%smetric,runs,mean,std,min,q1,median,q3,max\n",
-                    sweep->options->row_every > 0 ? "frame," : "");
+    text_add_format(out, "%smetric,runs,mean,std,min,q1,median,q3,max\n", sweep->own->row_every > 0 ? "frame," : "");
     for (size_t run = 0, end = 0; run < design->run_count; run = end) {
         while (end < design->run_count && differ_in_seed_alone(design, run, end))
             end++;

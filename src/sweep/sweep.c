@@ -10,6 +10,7 @@
 #include "petri.h"
 #include "sweep/cache.h"
 #include "sweep/measure.h"
+#include "sweep/options.h"
 #include "sweep/plots.h"
 #include "sweep/table.h"
 #include "sweep/workers.h"
@@ -30,11 +31,11 @@ static void compute_settings(Sweep *sweep, Measure *measure) {
     add_text(&hash, petri_version());
     measure_hash_sources(measure, &hash);
     add_text(&hash, sweep->shared.bytes);
-    add_text(&hash, sweep->options->until);
-    int64_t numbers[] = {sweep->options->frames, sweep->options->row_every};
+    add_text(&hash, sweep->own->until);
+    int64_t numbers[] = {sweep->options->frames, sweep->own->row_every};
     sha256_add(&hash, (const char *)numbers, sizeof numbers);
     for (size_t i = 0; i < sweep->metric_count; i++)
-        add_text(&hash, sweep->options->metrics.items[i]);
+        add_text(&hash, sweep->own->metrics.items[i]);
     for (size_t i = 0; i < design->axis_count; i++)
         add_text(&hash, design->axes[i].name);
     sha256_end(&hash, sweep->settings);
@@ -69,7 +70,7 @@ static void print_cache_report(const Sweep *sweep) {
     size_t verified = sweep->origins[RESULT_VERIFIED], differs = sweep->origins[RESULT_DIFFERS];
     if (differs > 0)
         message("%zu of %zu verified runs differ from their results in the cache", differs, verified + differs);
-    if (sweep->options->cache && sweep->options->verbosity > LOG_QUIET)
+    if (sweep->own->cache && sweep->options->verbosity > LOG_QUIET)
         message("%zu runs computed, %zu from the cache, %zu verified", sweep->origins[RESULT_COMPUTED],
                 sweep->origins[RESULT_CACHED], verified + differs);
 }
@@ -78,16 +79,16 @@ static void print_report(const Sweep *sweep, double seconds, size_t executed) {
     size_t failed = sweep_count_runs(sweep, sweep_is_failed), runs = sweep->design.run_count;
     if (failed > 0)
         message("%zu of %zu runs failed; see the column 'error'", failed, runs);
-    if (sweep->options->verbosity > LOG_QUIET && sweep->options->output) {
+    if (sweep->options->verbosity > LOG_QUIET && sweep->own->output) {
         message("%zu run%s in %s, %zu of them done now in %.1f s (%.1f runs/s)", runs, runs == 1 ? "" : "s",
-                sweep->options->output, executed, seconds, seconds > 0 ? (double)executed / seconds : 0);
+                sweep->own->output, executed, seconds, seconds > 0 ? (double)executed / seconds : 0);
     }
 }
 
 // Checks early that petri-hdf5 can write the table. Nothing is written, because petri-hdf5 discards a table without
 // data. Returns false after a message.
 static bool can_write(const Sweep *sweep) {
-    const char *output = sweep->options->output;
+    const char *output = sweep->own->output;
     Hdf5 writer;
     return !output || !hdf5_has_suffix(output) ||
            (hdf5_start(&writer, "table", output, NULL, NULL) && hdf5_end(&writer));
@@ -95,7 +96,7 @@ static bool can_write(const Sweep *sweep) {
 
 static bool write_table(const Sweep *sweep) {
     SCOPED_TEXT table = {0}, commands = {0}, path = {0};
-    const char *output = sweep->options->output;
+    const char *output = sweep->own->output;
     bool csv = !output || !hdf5_has_suffix(output);
     table_make(sweep, csv, &table);
     if (!output)
@@ -110,11 +111,11 @@ static bool write_table(const Sweep *sweep) {
 static bool write_all(const Sweep *sweep) {
     SCOPED_TEXT summary = {0};
     bool good = true;
-    if (sweep->options->summary) {
+    if (sweep->own->summary) {
         summary_make(sweep, &summary);
-        good = output_file(sweep->options->summary, text_str(&summary));
+        good = output_file(sweep->own->summary, text_str(&summary));
     }
-    good = (!sweep->options->plot || plot_grid_draw(sweep, sweep->options->plot)) && good;
+    good = (!sweep->own->plot || plot_grid_draw(sweep, sweep->own->plot)) && good;
     return write_table(sweep) && good;
 }
 
@@ -127,7 +128,7 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t exe
     }
     if (done < sweep->design.run_count) {
         message("%zu of %zu runs are done; the last shard to finish writes %s", done, sweep->design.run_count,
-                sweep->options->output);
+                sweep->own->output);
         return STATUS_DONE;
     }
     if (!write_all(sweep))
@@ -141,8 +142,8 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t exe
 
 static int64_t jobs_of(const Sweep *sweep) {
     // Under mpirun, which starts one process per processor, each process executes one run at a time.
-    bool alone = !sweep->host->channel && (sweep->shards == 1 || sweep->options->shard);
-    return sweep->options->jobs > 0 ? sweep->options->jobs : alone ? subprocess_default_jobs() : 1;
+    bool alone = !sweep->host->channel && (sweep->shards == 1 || sweep->own->shard);
+    return sweep->own->jobs > 0 ? sweep->own->jobs : alone ? subprocess_default_jobs() : 1;
 }
 
 static int make_runs(Sweep *sweep, Journal *journal) {
@@ -171,8 +172,8 @@ static int run_sweep(Sweep *sweep) {
         return worker_pool_run(sweep, &journal, jobs_of(sweep));
     if (!can_write(sweep))
         return STATUS_FAILED;
-    if (sweep->options->output)
-        status = journal_open(&journal, sweep, sweep->options->output);
+    if (sweep->own->output)
+        status = journal_open(&journal, sweep, sweep->own->output);
     status = status == STATUS_DONE ? make_runs(sweep, &journal) : status;
     journal_close(&journal);
     return status;
@@ -194,7 +195,7 @@ static void free_sweep(Sweep *sweep) {
 static int run_plan(const CommandContext *host, const Options *options) {
     TextList words = {0};
     int status = STATUS_USAGE;
-    if (plan_read(options->plan, &words)) {
+    if (plan_read(sweep_options(options)->plan, &words)) {
         for (int i = 0; i < options->argc; i++) {
             bool is_plan = strcmp(options->argv[i], "--plan") == 0;
             if (!is_plan && strncmp(options->argv[i], "--plan=", 7) != 0)
@@ -212,15 +213,16 @@ static bool sweep_needs_pictures(char *const *words) {
 }
 
 static int sweep_run(const CommandContext *host, Options *options) {
-    if (options->plan)
+    if (sweep_options(options)->plan)
         return run_plan(host, options);
     if (!options->script) {
         message("no script given; usage: petri sweep [options] SCRIPT.fl");
         return STATUS_USAGE;
     }
     options->threads = options->threads > 0 ? options->threads : 1;
-    options->output = options->output && strcmp(options->output, "-") == 0 ? NULL : options->output;
-    Sweep sweep = {.host = host, .options = options};
+    SweepOptions *own = sweep_options(options);
+    own->output = own->output && strcmp(own->output, "-") == 0 ? NULL : own->output;
+    Sweep sweep = {.host = host, .options = options, .own = own};
     int status = sweep_read_options(&sweep, &SWEEP_COMMAND) ? run_sweep(&sweep) : STATUS_USAGE;
     free_sweep(&sweep);
     return status;
@@ -261,7 +263,7 @@ const Command SWEEP_COMMAND = {
         "  sbatch --array=1-8 --wrap 'petri sweep --plan dish.yaml -o dish.csv --shard $SLURM_ARRAY_TASK_ID/8'\n"
         "  parallel petri sweep --plan dish.yaml -o dish.csv --jobs 1 --shard {}/4 ::: 1 2 3 4\n",
     .no_stdin = "cannot read the script from standard input: each process loads it; use a file",
-    .options = FOR_SWEEP,
+    .options = &SWEEP_OPTIONS,
     .needs_pictures = sweep_needs_pictures,
     .run = sweep_run,
 };

@@ -61,6 +61,7 @@ typedef enum ResultOrigin {
 typedef struct Sweep {
     const CommandContext *host;
     const Options *options;
+    const struct SweepOptions *own; // sweep/options.h
     Design design;
     Metric *metrics;
     size_t metric_count;

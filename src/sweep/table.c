@@ -4,11 +4,12 @@
 #include "cli/particles.h"
 #include "cli/script.h"
 #include "petri-archive.h"
+#include "sweep/options.h"
 
 #include <inttypes.h>
 
 size_t row_numbers(const Sweep *sweep) {
-    return sweep->metric_count + (sweep->options->until && sweep->options->row_every == 0);
+    return sweep->metric_count + (sweep->own->until && sweep->own->row_every == 0);
 }
 
 const char *row_number_name(const Sweep *sweep, size_t number) {
@@ -103,9 +104,9 @@ void table_commands(const Sweep *sweep, Text *out) {
     text_add_format(&head, archived ? " sweep " : " run ");
     shell_add_word(&head, sweep->options->script);
     text_add(&head, text_str(&sweep->shared));
-    for (size_t i = 0; archived && i < sweep->options->metrics.count; i++) {
+    for (size_t i = 0; archived && i < sweep->own->metrics.count; i++) {
         text_add_c(&head, " --metric ");
-        shell_add_word(&head, sweep->options->metrics.items[i]);
+        shell_add_word(&head, sweep->own->metrics.items[i]);
     }
     for (size_t run = 0; run < design->run_count; run++) {
         text_add(out, text_str(&head));

@@ -9,6 +9,7 @@
 #include "petri-inspect.h"
 #include "petri-live.h"
 #include "render/window_option.h"
+#include "view/options.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -162,10 +163,11 @@ static void record_frame(LiveScript *live) {
 }
 
 static PetriPictureOptions picture_options(const LiveScript *live) {
+    const ViewOptions *own = view_options(live->options);
     PetriPictureOptions options = petri_default_picture_options();
-    options.automatic = live->options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    options.automatic = own->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     options.window =
-        window_option(live->session, live->options->window, live->all_windows ? PETRI_ALL_WINDOWS : PETRI_FIRST_WINDOW);
+        window_option(live->session, own->window, live->all_windows ? PETRI_ALL_WINDOWS : PETRI_FIRST_WINDOW);
     return options;
 }
 
@@ -224,7 +226,8 @@ void live_script_begin(LiveScript *live) {
 
 bool live_script_step(LiveScript *live) {
     size_t before = live->error_text.len;
-    PetriStatus status = live->options->listen ? petri_history_step(live->history) : petri_step(live->session);
+    PetriStatus status =
+        view_options(live->options)->listen ? petri_history_step(live->history) : petri_step(live->session);
     PetriFrame frame;
     petri_frame(live->session, &frame, sizeof frame);
     if (status != PETRI_OK) {

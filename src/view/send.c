@@ -1,6 +1,7 @@
 // send.c: `petri view --send`, which evaluates code in a running view.
 #include "base/file.h"
 #include "cli/json.h"
+#include "cli/option_groups.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/script.h"
@@ -10,6 +11,15 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
+
+// Options that no other command has.
+typedef struct Own {
+    const char *send; // path of the socket
+} Own;
+
+static const Own *own_options(const Options *options) {
+    return options->own;
+}
 
 static const size_t MAX_BYTES = (size_t)1 << 20;
 
@@ -69,8 +79,16 @@ static int send_code(const char *socket, const char *code) {
 
 static int send_run(const CommandContext *context, Options *options) {
     (void)context;
-    return send_code(options->send, options->script);
+    return send_code(own_options(options)->send, options->script);
 }
+
+// clang-format off
+static const OptionSpec ROWS[] = {
+    OWN("send", 0, "SOCKET", option_text, send, "send code, the operand, to the view that listens on SOCKET, and print its answer")
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable SEND_OPTIONS = {ROWS, sizeof(Own), NULL};
 
 const Command SEND_COMMAND = {
     .name = "view --send",
@@ -88,7 +106,7 @@ const Command SEND_COMMAND = {
                 "  petri view --send /tmp/dish '.set SPEED 0.5'\n",
     .missing_operand = "no code given",
     .second_operand_error = "too many arguments: '%s'; put the code in quotes",
-    .options = FOR_SEND,
+    .options = &SEND_OPTIONS,
     .run = send_run,
 };
 

@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "cli/script.h"
 #include "petri-live.h"
+#include "view/options.h"
 #include "view/still.h"
 
 #include <inttypes.h>
@@ -319,8 +320,8 @@ static void handle_changes(View *view) {
 // Returns true if the run has an effect even without a display.
 static bool has_purpose(const View *view) {
     const Options *options = view->live.options;
-    return options->frames < INT64_MAX || !isnan(options->run_time) || options->state_file || options->listen ||
-           (view->live.picture && petri_picture_needs_history(view->live.picture));
+    return options->frames < INT64_MAX || !isnan(options->run_time) || options->state_file ||
+           view_options(options)->listen || (view->live.picture && petri_picture_needs_history(view->live.picture));
 }
 
 // If the screen was lost, replaces the display: its resources can no longer be used or even closed.
@@ -368,13 +369,14 @@ static void run_loop(View *view) {
 // closes the display and returns false.
 static bool place_display(View *view) {
     const Options *options = view->live.options;
-    if (options->screen >= 0 && view->kind->move_to_screen &&
-        !view->kind->move_to_screen(view->display, (int)options->screen)) {
+    const ViewOptions *own = view_options(options);
+    if (own->screen >= 0 && view->kind->move_to_screen &&
+        !view->kind->move_to_screen(view->display, (int)own->screen)) {
         view->kind->close(view->display);
         view->display = NULL;
         return false;
     }
-    if (options->full_screen && view->kind->toggle_full_screen)
+    if (own->full_screen && view->kind->toggle_full_screen)
         view->kind->toggle_full_screen(view->display);
     return true;
 }
@@ -382,9 +384,10 @@ static bool place_display(View *view) {
 // Opens a window if there is a screen, else the terminal display. Returns false after a message.
 static bool open_display(View *view) {
     const Options *options = view->live.options;
-    bool window = !options->terminal && window_display() && window_has_screen();
+    const ViewOptions *own = view_options(options);
+    bool window = !own->terminal && window_display() && window_has_screen();
     if (!window && !terminal_display()) {
-        message(options->terminal || window_display()
+        message(own->terminal || window_display()
                     ? "cannot show pictures in a terminal: petri was built without libchafa; on Debian, install "
                       "libchafa-dev and build petri again"
                     : "cannot show pictures: petri was built without SDL and libchafa; './dev build' adds both");
@@ -406,7 +409,7 @@ static bool open_display(View *view) {
 
 // Returns true for `petri run --show`, which passes these options.
 static bool is_show(const View *view) {
-    return view->live.options->terminal && view->live.options->verbosity == LOG_VERBOSE;
+    return view_options(view->live.options)->terminal && view->live.options->verbosity == LOG_VERBOSE;
 }
 
 // Writes the last picture of `petri run --show` to the normal screen, above the output of report_summary.
@@ -475,10 +478,11 @@ static int run_view(View *view) {
 }
 
 static int view_run(const CommandContext *context, Options *options) {
+    const ViewOptions *own = view_options(options);
     View view = {.host = context, .live.tester.pending_signal = pending_signal};
     int status = live_script_open(&view.live, context, options);
-    if (status == OPTIONS_READ && options->listen &&
-        (!live_script_enable_history(&view.live) || !listener_open(&view.listener, options->listen)))
+    if (status == OPTIONS_READ && own->listen &&
+        (!live_script_enable_history(&view.live) || !listener_open(&view.listener, own->listen)))
         status = STATUS_FAILED;
     if (status == OPTIONS_READ)
         status = run_view(&view);
@@ -515,7 +519,7 @@ const Command VIEW_COMMAND = {
     .missing_operand = "no script given",
     .no_stdin = "'petri view' watches the script file and cannot read the script from standard input; "
                 "'petri render -' can",
-    .options = FOR_VIEW,
+    .options = &VIEW_OPTIONS,
     .parts = (const Command *const[]){&SEND_COMMAND, NULL},
     .run = view_run,
 };

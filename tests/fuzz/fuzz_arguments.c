@@ -3,11 +3,13 @@
 #include "cli/options.h"
 #include "fuzz.h"
 #include "petri-inspect.h"
+#include "run/options.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 static Command commands[4]; // copies of the real commands that only open a session and step one frame
+
 static int run_command(const CommandContext *host, Options *options) {
     PetriSession *session = NULL;
     int status = options_open(options, host, fuzz_options().on_diagnostic, NULL, &session);
@@ -17,7 +19,7 @@ static int run_command(const CommandContext *host, Options *options) {
     if (petri_load_text(session, "x.fl", "!a x=A y=B z=COUNT\n", PETRI_NUL_TERMINATED) == PETRI_OK &&
         !options->realtime)
         petri_step(session);
-    petri_print(session, options->sections, fuzz_sink, NULL);
+    petri_print(session, options->table == &RUN_OPTIONS ? run_options(options)->sections : 0, fuzz_sink, NULL);
     fuzz_close(&session);
     return STATUS_DONE;
 }

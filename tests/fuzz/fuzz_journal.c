@@ -4,6 +4,7 @@
 #include "base/hash_index.h"
 #include "fuzz.h"
 #include "sweep/journal.h"
+#include "sweep/options.h"
 #include "sweep/table.h"
 
 #include <inttypes.h>
@@ -54,11 +55,12 @@ static void print_results(Sweep *sweep) {
 
 FUZZ_HARNESS(journal) {
     static const CommandContext context = {.program = "petri", .invoked_as = "petri"};
-    static Options options = {.script = "s.fl"};
+    static SweepOptions own = {.seeds = RUNS};
+    static Options options = {.script = "s.fl", .own = &own};
     static Metric metrics[] = {{.name = "speed", .expression = "1"}, {.name = "size", .expression = "2"}};
-    Sweep sweep = {.host = &context, .options = &options, .metrics = metrics, .metric_count = 2, .shards = 1};
+    Sweep sweep = {
+        .host = &context, .options = &options, .own = &own, .metrics = metrics, .metric_count = 2, .shards = 1};
     Journal journal = {.file = -1};
-    options.seeds = RUNS;
     text_add_c(&sweep.shared, "");
     memset(sweep.identity, 'a', SHA256_DIGITS);
     if (!design_make(&sweep.design, &options, &context))

@@ -4,6 +4,7 @@
 #include "fuzz.h"
 #include "petri-edit.h"
 #include "view/listen.h"
+#include "view/options.h"
 
 #include <string.h>
 #include <sys/socket.h>
@@ -21,12 +22,15 @@ static LiveScript live;
 // Opens the live script. Its session stays open for many inputs, because opening it takes long.
 static int open_live(const CommandContext *context, Options *options) {
     static Options copy;
+    static ViewOptions own;
     options->work = 1 << 22;
     options->memory = 64 << 20;
     copy = *options;
     copy.script = "fuzz.fl";
     copy.realtime = false;
-    copy.listen = "listener";
+    own = *view_options(options);
+    own.listen = "listener";
+    copy.own = &own;
     live = (LiveScript){.awaits_display = true};
     if (live_script_open(&live, context, &copy) != OPTIONS_READ)
         fuzz_fail("cannot open the script");

@@ -2,6 +2,7 @@
 // sweep`. The runs are planned but not executed.
 #include "cli/options.h"
 #include "fuzz.h"
+#include "sweep/options.h"
 #include "sweep/plots.h"
 
 #include <string.h>
@@ -9,7 +10,8 @@
 static int plan_runs(const CommandContext *context, Options *options) {
     Design design = {0};
     // More runs are valid, but would only take more time here.
-    bool small = options->seeds < 1000 && (!options->sample || strlen(options->sample) < 10);
+    const SweepOptions *own = sweep_options(options);
+    bool small = own->seeds < 1000 && (!own->sample || strlen(own->sample) < 10);
     if (small && design_make(&design, options, context))
         for (size_t run = 0; run < design.run_count; run++)
             for (size_t i = 0; i < design.axis_count; i++)

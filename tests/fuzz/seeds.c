@@ -5,7 +5,11 @@
 #include "cli/hdf5.h"
 #include "petri-draw.h"
 #include "petri-edit.h"
+#include "render/options.h"
+#include "repl/options.h"
 #include "repl/repl.h"
+#include "run/options.h"
+#include "view/options.h"
 
 #include <errno.h>
 #include <math.h>
@@ -14,6 +18,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+
+// The options of the commands of the harness `arguments`.
+static const OptionTable *const TABLES[] = {&RUN_OPTIONS, &RENDER_OPTIONS, &VIEW_OPTIONS, &REPL_OPTIONS};
 
 static const char *const TOPICS[] = {
 #define TOPIC(word, usage, help) word,
@@ -89,8 +96,9 @@ static void write_dictionary(void) {
         add_word(file, SIGNS[i]);
     for (size_t i = 0; repl_command_at(i); i++)
         fprintf(file, "\"%s \"\n", repl_command_at(i)->name);
-    for (const OptionSpec *option = OPTIONS; option->name; option++)
-        fprintf(file, "\"--%s\"\n", option->name);
+    for (size_t i = 0; i < sizeof TABLES / sizeof TABLES[0]; i++)
+        for (const OptionSpec *option = TABLES[i]->rows; option->name; option++)
+            fprintf(file, "\"--%s\"\n", option->name);
     fclose(file);
 }
 
@@ -148,10 +156,12 @@ static void write_commands(void) {
             seed("repl", name + 1, ".step 3\n%s\n%s 2\n%s :cells\n%s SIZE 3\n.step\n%s x.out\n", name, name, name, name,
                  name);
     }
-    for (const OptionSpec *option = OPTIONS; option->name; option++) {
-        FILE *file = open_seed("arguments", option->name);
-        fprintf(file, "--%s%c%s%c%s%c--frames%c2", option->name, 0, option->value ? "3" : "x.fl", 0, "x.fl", 0, 0);
-        fclose(file);
+    for (size_t i = 0; i < sizeof TABLES / sizeof TABLES[0]; i++) {
+        for (const OptionSpec *option = TABLES[i]->rows; option->name; option++) {
+            FILE *file = open_seed("arguments", option->name);
+            fprintf(file, "--%s%c%s%c%s%c--frames%c2", option->name, 0, option->value ? "3" : "x.fl", 0, "x.fl", 0, 0);
+            fclose(file);
+        }
     }
 }
 

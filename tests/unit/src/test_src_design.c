@@ -1,5 +1,6 @@
 // test_src_design.c: tests of the values and runs of a sweep: src/sweep/axis.c and src/sweep/design.c.
 #include "captured.h"
+#include "sweep/options.h"
 #include "sweep/sweep.h"
 
 #include <math.h>
@@ -108,7 +109,7 @@ static void test_kinds_follow_from_the_notation(void **state) {
 }
 
 typedef struct Study {
-    Options options;
+    SweepOptions own;
     Design design;
     bool good;
     const char *message;
@@ -118,9 +119,9 @@ typedef struct Study {
 static void make(Study *study, const char *const definitions[]) {
     const CommandContext host = {.stack_bytes = (size_t)1 << 20};
     for (size_t i = 0; definitions[i]; i++)
-        texts_add(&study->options.axes, definitions[i]);
+        texts_add(&study->own.axes, definitions[i]);
     captured_begin(&captured, STDERR_FILENO);
-    study->good = design_make(&study->design, &study->options, &host);
+    study->good = design_make(&study->design, &(const Options){.own = &study->own}, &host);
     study->message = captured_end(&captured);
 }
 
@@ -128,7 +129,7 @@ static void make(Study *study, const char *const definitions[]) {
 
 static void finish(Study *study) {
     design_free(&study->design);
-    texts_free(&study->options.axes);
+    texts_free(&study->own.axes);
 }
 
 // Checks the runs: values separated by commas, runs by blanks.
@@ -165,12 +166,12 @@ static void test_grid_changes_the_last_name_fastest(void **state) {
 
 static void test_seeds_are_the_last_axis(void **state) {
     (void)state;
-    Study study = {.options.seeds = 3};
+    Study study = {.own.seeds = 3};
     MAKE(&study, "A=1;2");
     assert_true(study.design.seeded);
     assert_runs(&study, "1,1 1,2 1,3 2,1 2,2 2,3");
     finish(&study);
-    study = (Study){.options.seeds = 3};
+    study = (Study){.own.seeds = 3};
     MAKE(&study, "SEED=1;2");
     assert_false(study.good);
     assert_string_equal(study.message, "petri: cannot use both --seeds and -D SEED: --seeds N means -D SEED=1..N\n");
@@ -180,7 +181,7 @@ static void test_seeds_are_the_last_axis(void **state) {
 // Samples a continuous axis, a list and seeds.
 static void test_latin_sample_uses_each_interval_once(void **state) {
     (void)state;
-    Study study = {.options = {.sample = "latin:8:5", .seeds = 2}};
+    Study study = {.own = {.sample = "latin:8:5", .seeds = 2}};
     MAKE(&study, "X=0..4", "L=a;b");
     assert_true(study.good);
     assert_int_equal(study.design.run_count, 16);
@@ -200,8 +201,7 @@ static void test_latin_sample_uses_each_interval_once(void **state) {
     assert_int_equal(study.design.axes[0].kind, CELL_NUMBER); // although the values of 0..4 are integers
     assert_int_equal(study.design.axes[2].kind, CELL_INTEGER);
 
-    Study again = {.options = {.sample = "latin:8:5", .seeds = 2}},
-          other = {.options = {.sample = "latin:8", .seeds = 2}};
+    Study again = {.own = {.sample = "latin:8:5", .seeds = 2}}, other = {.own = {.sample = "latin:8", .seeds = 2}};
     MAKE(&again, "X=0..4", "L=a;b");
     MAKE(&other, "X=0..4", "L=a;b");
     bool differs = false;
@@ -220,7 +220,7 @@ static void test_sample_reports_invalid_text(void **state) {
     static const char *const invalid[] = {
         "latin", "latin:", "latin:0", "latin:3:", "latin:3:x", "latin:3x", "random:3"};
     for (size_t i = 0; i < sizeof invalid / sizeof invalid[0]; i++) {
-        Study study = {.options.sample = invalid[i]};
+        Study study = {.own.sample = invalid[i]};
         MAKE(&study, "X=0..4");
         assert_false(study.good);
         assert_non_null(strstr(study.message, "option '--sample' expects latin:COUNT or latin:COUNT:SEED"));
@@ -240,20 +240,20 @@ static void test_too_many_runs_are_an_error(void **state) {
 
 static void test_where_keeps_matching_runs(void **state) {
     (void)state;
-    Study study = {.options.where = "A < B"};
+    Study study = {.own.where = "A < B"};
     MAKE(&study, "A=1;2;3", "B=2;3");
     assert_runs(&study, "1,2 1,3 2,3");
     finish(&study);
-    study = (Study){.options.where = "KIND == 'soft' or A == 1"};
+    study = (Study){.own.where = "KIND == 'soft' or A == 1"};
     MAKE(&study, "A=1;2", "KIND=soft;hard");
     assert_runs(&study, "1,soft 1,hard 2,soft");
     finish(&study);
-    study = (Study){.options.where = "A > 9"};
+    study = (Study){.own.where = "A > 9"};
     MAKE(&study, "A=1;2");
     assert_false(study.good);
     assert_string_equal(study.message, "petri: no runs: 'A > 9' is never true\n");
     finish(&study);
-    study = (Study){.options.where = "A <"};
+    study = (Study){.own.where = "A <"};
     MAKE(&study, "A=1;2");
     assert_false(study.good);
     assert_non_null(strstr(study.message, "--where")); // the diagnostic shows the user's text

@@ -2,29 +2,44 @@
 #include "captured.h"
 #include "cli/options.h"
 #include "petri-inspect.h"
+#include "render/options.h"
+#include "repl/options.h"
+#include "run/options.h"
+#include "sweep/options.h"
+#include "view/options.h"
 
 #include <math.h>
 
 static Captured captured;
 static Options given; // options that the command received
+static RunOptions run_given;
+static RenderOptions render_given;
 static int runs;
 
 static int store_options(const CommandContext *context, Options *options) {
     (void)context;
     given = *options;
+    if (options->table == &RUN_OPTIONS)
+        run_given = *run_options(options);
+    if (options->table == &RENDER_OPTIONS)
+        render_given = *render_options(options);
     runs++;
     return 42;
 }
 
 static const Command PLAIN = {.name = "run",
-                              .options = FOR_RUN | FOR_RENDER,
+                              .options = &RUN_OPTIONS,
                               .operands = "SCRIPT.fl",
                               .run = store_options,
                               .missing_operand = "no script given"};
+static const Command PICTURE = {
+    .name = "render", .options = &RENDER_OPTIONS, .operands = "SCRIPT.fl", .run = store_options};
 
 // Runs the command with words that end with NULL. Returns the messages.
 static const char *run_words(const Command *command, int status, const char *const words[]) {
-    const CommandContext host = {0};
+    static const SimilarCommand similar[] = {
+        {"run", &RUN_OPTIONS}, {"render", &RENDER_OPTIONS}, {"view", &VIEW_OPTIONS}, {.name = NULL}};
+    const CommandContext host = {.similar = similar};
     int count = 0;
     runs = 0;
     while (words[count])
@@ -38,8 +53,10 @@ static const char *run_words(const Command *command, int status, const char *con
 }
 
 #define RUN(...) assert_string_equal(run_words(&PLAIN, 42, (const char *const[]){__VA_ARGS__, NULL}), "")
-#define REJECT(text, ...)                                                                                              \
-    assert_string_equal(run_words(&PLAIN, STATUS_USAGE, (const char *const[]){__VA_ARGS__, NULL}), "petri: " text "\n")
+#define RENDER(...) assert_string_equal(run_words(&PICTURE, 42, (const char *const[]){__VA_ARGS__, NULL}), "")
+#define REJECT(text, ...) REJECT_OF(&PLAIN, text, __VA_ARGS__)
+#define REJECT_OF(command, text, ...)                                                                                  \
+    assert_string_equal(run_words(command, STATUS_USAGE, (const char *const[]){__VA_ARGS__, NULL}), "petri: " text "\n")
 
 static void test_values_can_be_attached(void **state) {
     (void)state;
@@ -48,10 +65,10 @@ static void test_values_can_be_attached(void **state) {
     assert_string_equal(given.script, "a.fl");
     RUN("--frames=8", "a.fl");
     assert_int_equal(given.frames, 8);
-    RUN("-oout.png", "a.fl");
-    assert_string_equal(given.output, "out.png");
-    RUN("-o", "-", "a.fl");
-    assert_string_equal(given.output, "-");
+    RENDER("-oout.png", "a.fl");
+    assert_string_equal(render_given.output, "out.png");
+    RENDER("-o", "-", "a.fl");
+    assert_string_equal(render_given.output, "-");
     RUN("--", "--frames");
     assert_string_equal(given.script, "--frames");
     RUN("-"); // standard input
@@ -63,7 +80,7 @@ static void test_omitted_options_have_their_defaults(void **state) {
     RUN("a.fl");
     assert_int_equal(given.frames, 600);
     assert_true(isnan(given.run_time));
-    assert_int_equal(given.every, 1);
+    assert_int_equal(run_given.every, 1);
     assert_int_equal(given.verbosity, LOG_NORMAL);
     assert_false(given.fps_given);
     RUN("a.fl", "--runtime", "1:30");
@@ -76,12 +93,12 @@ static void test_each_kind_of_value_is_read(void **state) {
     RUN("a.fl", "--memory=1.5k", "--work", "2G");
     assert_true(given.memory == 1536);
     assert_true(given.work == (uint64_t)2 << 30);
-    RUN("a.fl", "--size", "640X480", "--scale=0.5", "--fps", "24");
-    assert_int_equal(given.size.width, 640);
-    assert_int_equal(given.size.height, 480);
-    assert_true(given.scale == 0.5 && given.fps == 24 && given.fps_given);
+    RENDER("a.fl", "--size", "640X480", "--scale=0.5", "--fps", "24");
+    assert_int_equal(render_given.size.width, 640);
+    assert_int_equal(render_given.size.height, 480);
+    assert_true(render_given.scale == 0.5 && given.fps == 24 && given.fps_given);
     RUN("a.fl", "--print", "hash,tree", "--neighbours=always", "--trace", "--realtime");
-    assert_int_equal(given.sections, PETRI_PRINT_HASH | PETRI_PRINT_TREE);
+    assert_int_equal(run_given.sections, PETRI_PRINT_HASH | PETRI_PRINT_TREE);
     assert_int_equal(given.neighbours, PETRI_NEIGHBOURS_ALWAYS);
     assert_int_equal(given.verbosity, LOG_TRACE);
     assert_true(given.realtime);
@@ -106,8 +123,9 @@ static void test_invalid_values_are_reported(void **state) {
     REJECT("option '--memory' expects a number >= 1, such as 500M or 2G, not '2X'", "--memory=2X");
     REJECT("option '--memory' expects a number >= 1, such as 500M or 2G, not '1e30'", "--memory=1e30");
     REJECT("option '--runtime' expects seconds or a time code such as 1:30, not '-1'", "--runtime=-1");
-    REJECT("option '--size' expects WIDTHxHEIGHT, each from 1 to 16384, not '10x'", "--size=10x");
-    REJECT("option '--size' expects WIDTHxHEIGHT, each from 1 to 16384, not '20000x10'", "--size=20000x10");
+    REJECT_OF(&PICTURE, "option '--size' expects WIDTHxHEIGHT, each from 1 to 16384, not '10x'", "--size=10x");
+    REJECT_OF(&PICTURE, "option '--size' expects WIDTHxHEIGHT, each from 1 to 16384, not '20000x10'",
+              "--size=20000x10");
     REJECT("option '--print' expects one or more of tree, state, log, error, hash and digest, separated by commas, not "
            "'tree,'",
            "--print=tree,");
@@ -127,6 +145,10 @@ static void test_mistakes_are_reported(void **state) {
     REJECT("unknown option '--colour'; did you mean '--color'?", "--colour");
     REJECT("unknown option '-v'; did you mean '--version'?", "-v");
     REJECT("'petri run' has no option '--listen', but 'petri view' has; see 'petri help run'", "--listen", "x");
+    REJECT("'petri run' has no option '--size', but 'petri render' has; see 'petri help run'", "--size", "1x1");
+    REJECT("'petri run' has no option '-o', but 'petri render' has; see 'petri help run'", "-o", "x");
+    REJECT_OF(&PICTURE, "'petri render' has no option '--trajectory', but 'petri run' has; see 'petri help render'",
+              "--trajectory", "x");
     REJECT("no script given; usage: petri run [options] SCRIPT.fl", "--quiet");
     REJECT("the script name is empty", "");
 }
@@ -151,6 +173,36 @@ static void test_operands_of_other_commands(void **state) {
     assert_true(given.realtime && given.frames == INT64_MAX);
 }
 
+static void test_options_stay_in_their_struct(void **state) {
+    (void)state;
+    static const OptionTable *const tables[] = {&RUN_OPTIONS, &RENDER_OPTIONS, &VIEW_OPTIONS, &SWEEP_OPTIONS,
+                                                &REPL_OPTIONS};
+    for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
+        for (const OptionSpec *spec = tables[i]->rows; spec->name; spec++) {
+            assert_true(spec->field < (spec->own ? tables[i]->own_size : sizeof(Options)));
+            for (const OptionSpec *other = tables[i]->rows; other != spec; other++)
+                if (strcmp(other->name, spec->name) == 0)
+                    fail_msg("option --%s is listed twice", spec->name);
+        }
+    }
+}
+
+static void test_lists_of_a_command_are_freed(void **state) {
+    (void)state;
+    Command command = {.name = "sweep", .options = &SWEEP_OPTIONS, .run = store_options};
+    assert_string_equal(
+        run_words(&command, 42,
+                  (const char *const[]){"-DA=1", "-D", "B=2", "--metric=energy", "--metric", "n=1", NULL}),
+        "");
+    Options options;
+    assert_int_equal(options_parse(&options, &command, &(const CommandContext){0}, 3,
+                                   (char *[]){(char *)"-DA=1", (char *)"-D", (char *)"B=2", NULL}),
+                     OPTIONS_READ);
+    assert_int_equal(sweep_options(&options)->axes.count, 2);
+    assert_int_equal(options.definitions.count, 0);
+    options_free(&options);
+}
+
 static void test_due_frames(void **state) {
     (void)state;
     Options options = {.frames = 10, .run_time = NAN};
@@ -169,6 +221,8 @@ TEST_GROUP(src_options) {
         cmocka_unit_test(test_invalid_values_are_reported),
         cmocka_unit_test(test_mistakes_are_reported),
         cmocka_unit_test(test_operands_of_other_commands),
+        cmocka_unit_test(test_options_stay_in_their_struct),
+        cmocka_unit_test(test_lists_of_a_command_are_freed),
         cmocka_unit_test(test_due_frames),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
