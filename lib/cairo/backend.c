@@ -81,7 +81,7 @@ static void draw_protected(void *context) {
 
 // Draws a page on a surface of width x height.
 static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surface_t *surface, bool vector, double width,
-                           double height, DiagSink *faults) {
+                           double height, DiagSink *diags) {
     cairo_t *cr = cairo_create(surface);
     PetriStatus result = result_of(cairo_status(cr));
     if (result == PETRI_OK) {
@@ -89,7 +89,7 @@ static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surfac
                                       .pool.budget = &painter->budget,
                                       .picture = page->picture,
                                       .cr = cr,
-                                      .faults = faults,
+                                      .diags = diags,
                                       .vector = vector,
                                       .columns = width,
                                       .rows = height,
@@ -97,11 +97,11 @@ static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surfac
                            .page = page,
                            .width = width,
                            .height = height};
-        Arena *arenas[] = {&painter->arena, faults->arena};
+        Arena *arenas[] = {&painter->arena, diags->arena};
         ArenaMark mark = arena_mark(&painter->arena);
         ArenaOutcome end = arena_protect(arenas, 2, draw_protected, &drawing);
         if (end == ARENA_MEMORY_LIMIT)
-            result = painter_report_limit(faults);
+            result = painter_report_limit(diags);
         else if (end != ARENA_OK)
             result = PETRI_OUT_OF_MEMORY;
         else if (!drawing.done)
@@ -119,7 +119,7 @@ static cairo_surface_t *surface_of(uint32_t *pixels, int width, int height, size
 }
 
 static PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, int width,
-                               int height, Texture *texture, DiagSink *faults) {
+                               int height, Texture *texture, DiagSink *diags) {
     Page page = {.picture = picture,
                  .canvas = node,
                  .hdr_target = {.width = texture->width, .height = texture->height, .pixels = texture->linear},
@@ -130,7 +130,7 @@ static PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *pictu
         texture->bytes
             ? surface_of(texture->bytes, texture->width, texture->height, (size_t)texture->width * sizeof(uint32_t))
             : cairo_image_surface_create(CAIRO_FORMAT_A8, texture->width, texture->height);
-    PetriStatus result = draw_on(painter, &page, surface, false, texture->width, texture->height, faults);
+    PetriStatus result = draw_on(painter, &page, surface, false, texture->width, texture->height, diags);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
     return result;
@@ -167,12 +167,12 @@ static Page page_of(const CanvasPicture *picture, const Texture *shown, bool vec
 }
 
 static PetriStatus draw_whole(PetriPainter *painter, const CanvasPicture *picture, const Texture *shown,
-                              uint32_t *pixels, int width, int height, size_t stride, DiagSink *faults) {
+                              uint32_t *pixels, int width, int height, size_t stride, DiagSink *diags) {
     cairo_surface_t *surface = surface_of(pixels, width, height, stride);
     Page page = page_of(picture, shown, false);
     painter_limit(painter, picture);
-    PetriStatus result = draw_on(painter, &page, surface, false, width, height, faults);
-    painter_report_needed(painter, picture, faults);
+    PetriStatus result = draw_on(painter, &page, surface, false, width, height, diags);
+    painter_report_needed(painter, picture, diags);
     cairo_surface_destroy(page.pixels);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
@@ -188,12 +188,12 @@ static cairo_status_t append_bytes(void *closure, const unsigned char *bytes, un
 }
 
 static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *picture, int width, int height, Encoded *out,
-                              DiagSink *faults) {
+                              DiagSink *diags) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
     PetriStatus result = result_of(cairo_surface_status(surface));
     if (result == PETRI_OK)
         result = painter_draw_pixels(painter, picture, (uint32_t *)(void *)cairo_image_surface_get_data(surface), width,
-                                     height, (size_t)cairo_image_surface_get_stride(surface), faults);
+                                     height, (size_t)cairo_image_surface_get_stride(surface), diags);
     const uint32_t *pixels = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface);
     if (result == PETRI_OK && picture->opaque) { // rows of 32-bit pixels are contiguous
         result = encode_png_pixels(out, pixels, width, height, false) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
@@ -206,7 +206,7 @@ static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *pictur
 }
 
 static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool pdf, int width, int height, Encoded *out,
-                                 DiagSink *faults) {
+                                 DiagSink *diags) {
     cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(append_bytes, out, width, height)
                                    : cairo_svg_surface_create_for_stream(append_bytes, out, width, height);
     if (pdf) // a fixed date makes the bytes reproducible
@@ -214,8 +214,8 @@ static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool p
     else
         cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
     painter_limit(painter, page->picture);
-    PetriStatus result = draw_on(painter, page, surface, true, width, height, faults);
-    painter_report_needed(painter, page->picture, faults);
+    PetriStatus result = draw_on(painter, page, surface, true, width, height, diags);
+    painter_report_needed(painter, page->picture, diags);
     cairo_surface_finish(surface);
     if (result == PETRI_OK)
         result = result_of(cairo_surface_status(surface));
@@ -224,17 +224,17 @@ static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool p
 }
 
 static PetriStatus encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width,
-                          int height, Encoded *out, DiagSink *faults) {
+                          int height, Encoded *out, DiagSink *diags) {
     if (format == CANVAS_PNG)
-        return encode_png(painter, picture, width, height, out, faults);
+        return encode_png(painter, picture, width, height, out, diags);
     Page page = page_of(picture, painter_rendered(painter, picture), true);
-    PetriStatus result = encode_vector(painter, &page, format == CANVAS_PDF, width, height, out, faults);
+    PetriStatus result = encode_vector(painter, &page, format == CANVAS_PDF, width, height, out, diags);
     cairo_surface_destroy(page.pixels);
     return result;
 }
 
 static PetriStatus encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
-                                 CanvasFormat format, Encoded *out, DiagSink *faults) {
+                                 CanvasFormat format, Encoded *out, DiagSink *diags) {
     const DrawNode *node = record->node;
     const Texture *texture = record->texture;
     bool alpha = draw_flag(node, ATTR_KEEP_ALPHA), good = true;
@@ -251,7 +251,7 @@ static PetriStatus encode_record(PetriPainter *painter, const CanvasPicture *pic
                      .width = texture->width,
                      .height = texture->height,
                      .black = !alpha};
-        result = encode_vector(painter, &page, format == CANVAS_PDF, texture->width, texture->height, out, faults);
+        result = encode_vector(painter, &page, format == CANVAS_PDF, texture->width, texture->height, out, diags);
         cairo_surface_destroy(page.pixels);
     }
     return good ? result : PETRI_OUT_OF_MEMORY;

@@ -72,7 +72,7 @@ void draw_close(Canvas *canvas) {
 void draw_report_canvas(Canvas *canvas, DiagLevel level, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    painter_report_args(canvas->faults, NULL, level, code, format, args);
+    painter_report_args(canvas->diags, NULL, level, code, format, args);
     va_end(args);
 }
 
@@ -80,7 +80,7 @@ void draw_report_canvas_at(Canvas *canvas, const Origin *place, DiagLevel level,
                            ...) {
     va_list args;
     va_start(args, format);
-    painter_report_args(canvas->faults, place, level, code, format, args);
+    painter_report_args(canvas->diags, place, level, code, format, args);
     va_end(args);
 }
 

@@ -35,7 +35,7 @@ typedef struct Canvas {
     PetriPainter *painter;
     const CanvasPicture *picture;
     cairo_t *cr;
-    DiagSink *faults;
+    DiagSink *diags;
     bool vector;         // true if the target is a vector surface, false if it is an image
     uint32_t layers;     // number of open layers
     double layer_pixels; // total number of pixels of the open layers
@@ -107,7 +107,7 @@ cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);
 bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file);
 // A CanvasBackend.find_image.
 bool draw_find_file(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, ImagePixels *image,
-                    DiagSink *faults);
+                    DiagSink *diags);
 void draw_images_close(PetriPainter *painter);
 
 // jpeg.c

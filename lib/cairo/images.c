@@ -146,12 +146,12 @@ static const CachedImage *find_image(PetriPainter *painter, const FileAccess *re
 
 // Returns the cached pixels of a file, which are borrowed. If the file cannot be read, reports this and returns NULL.
 static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, Str name, NodeKind kind,
-                                  const Origin *place, DiagSink *faults) {
+                                  const Origin *place, DiagSink *diags) {
     Arena *arena = &painter->arena;
     const FileAccess *reach = &picture->reach;
     const CachedImage *found = find_image(painter, reach, str_to_c(arena, path_join(arena, reach->directory, name)));
     if (!found->surface)
-        painter_report(faults, place, DIAG_WARNING, "cannot-read", "!%s: cannot read '%s': %s", schema_kinds[kind].name,
+        painter_report(diags, place, DIAG_WARNING, "cannot-read", "!%s: cannot read '%s': %s", schema_kinds[kind].name,
                        name.bytes, found->problem ? found->problem : "");
     return found->surface;
 }
@@ -204,7 +204,7 @@ cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image) {
     if (image->file.len == 0)
         return find_picture(canvas, image->id);
     cairo_surface_t *surface =
-        find_file(canvas->painter, canvas->picture, image->file, image->kind, &image->place, canvas->faults);
+        find_file(canvas->painter, canvas->picture, image->file, image->kind, &image->place, canvas->diags);
     return !surface ? NULL : canvas->list->linear ? linear_copy(canvas, surface) : cairo_surface_reference(surface);
 }
 
@@ -212,14 +212,14 @@ bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture *
     *texture = image->file.len == 0 ? find_texture(canvas, image->id) : NULL;
     *file = image->file.len == 0
                 ? NULL
-                : find_file(canvas->painter, canvas->picture, image->file, image->kind, &image->place, canvas->faults);
+                : find_file(canvas->painter, canvas->picture, image->file, image->kind, &image->place, canvas->diags);
     return *texture || *file;
 }
 
 bool draw_find_file(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, ImagePixels *image,
-                    DiagSink *faults) {
+                    DiagSink *diags) {
     cairo_surface_t *surface =
-        find_file(painter, picture, draw_attr(node, ATTR_FILENAME)->as.text, KIND_IMAGE, &node->origin, faults);
+        find_file(painter, picture, draw_attr(node, ATTR_FILENAME)->as.text, KIND_IMAGE, &node->origin, diags);
     if (!surface)
         return false;
     *image = (ImagePixels){.pixels = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface),

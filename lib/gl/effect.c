@@ -65,13 +65,13 @@ static uint32_t split_passes(const char *text, Str *common, Pass passes[MAX_PASS
     return count;
 }
 
-static void report(DiagSink *faults, const DrawNode *node, const char *code, Str problem) {
-    Text text = text_new(faults->arena);
+static void report(DiagSink *diags, const DrawNode *node, const char *code, Str problem) {
+    Text text = text_new(diags->arena);
     size_t line = 0; // only the first line is reported; later errors usually result from the first
     while (line < problem.len && problem.bytes[line] != '\n')
         line++;
     text_add_format(&text, "!%s: %.*s", schema_kinds[node->kind].name, (int)line, problem.bytes);
-    diag_report(faults, &(Diag){DIAG_WARNING, node->origin, text_str(&text), .code = code});
+    diag_report(diags, &(Diag){DIAG_WARNING, node->origin, text_str(&text), .code = code});
 }
 
 // Returns the cost of an effect in nanoseconds per pixel.
@@ -110,9 +110,9 @@ static void add_source(Text *text, const GlEffect *effect, bool merged, bool red
 // Returns the program of a pass. If the program does not compile, reports this and returns 0. If the composite mode is
 // unknown, only returns 0.
 static unsigned build_pass(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Pass pass,
-                           DiagSink *faults) {
+                           DiagSink *diags) {
     Text text = text_new(arena);
-    GlShaderError fault;
+    GlShaderError error;
     bool merged = kind->merges && effect->count > 1;
     if (!gl_add_input_composite(&text, effect, gl_edge(effect->node, kind->edge)))
         return 0;
@@ -122,18 +122,18 @@ static unsigned build_pass(Gl *gl, Arena *arena, const GlEffect *effect, const E
     text_add_c(&text, gl_source_common);
     text_add(&text, common);
     text_add(&text, pass.text);
-    unsigned program = gl_program(gl, arena, str_from(gl_quad), text_str(&text), &fault);
+    unsigned program = gl_program(gl, arena, str_from(gl_quad), text_str(&text), &error);
     if (!program)
-        report(faults, effect->node, "bad-shader", fault.text);
+        report(diags, effect->node, "bad-shader", error.text);
     return program;
 }
 
-GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
+GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *diags) {
     NodeKind node = (NodeKind)effect->node->kind;
     const GlImage none = {0};
     const Pass merging = {STR("void main() { color = merged_here(); }\n"), false};
     if (gl_has_shader(effect->node))
-        return gl_shader(gl, arena, effect, faults);
+        return gl_shader(gl, arena, effect, diags);
     // Without inputs, effects other than noise result in a transparent picture.
     const Effect *kind = effect->count == 0 && node != KIND_NOISE ? &effect_plain : find_effect(effect->node);
     Str common;
@@ -141,10 +141,10 @@ GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     GlPass programs[MAX_PASSES + 1];
     uint32_t count = split_passes(kind->text, &common, passes), first = 0;
     if (kind->merges && effect->count > 1)
-        programs[first++] = (GlPass){build_pass(gl, arena, effect, kind, common, merging, faults), false};
+        programs[first++] = (GlPass){build_pass(gl, arena, effect, kind, common, merging, diags), false};
     for (uint32_t i = 0; i < count; i++)
         programs[first + i] =
-            (GlPass){build_pass(gl, arena, effect, kind, common, passes[i], faults), passes[i].reduced};
+            (GlPass){build_pass(gl, arena, effect, kind, common, passes[i], diags), passes[i].reduced};
     for (uint32_t i = 0; i < first + count; i++)
         if (!programs[i].program)
             return none;

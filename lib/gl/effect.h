@@ -28,4 +28,4 @@ typedef struct GlEffect {
 double gl_effect_cost(const GlEffect *effect);
 // Runs the shader of a node. Returns the resulting picture, which the caller owns. On failure, reports the problem and
 // returns an image with texture 0.
-GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);
+GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *diags);

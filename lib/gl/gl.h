@@ -75,11 +75,11 @@ typedef struct GlShaderError {
 } GlShaderError;
 
 // Returns the program linked from two shaders. Programs are cached by their source, including those that do not
-// compile. If the program does not compile or link, stores the error in *fault and returns 0; the text of the error is
+// compile. If the program does not compile or link, stores the error in *error and returns 0; the text of the error is
 // in the arena. Shader sources must begin with the version line.
-unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
+unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *error);
 // Like gl_program, for a program that a script contains: tests it first.
-unsigned gl_own_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault);
+unsigned gl_own_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *error);
 // Compiles a program and draws GL_TRY_SIDE² pixels with it in a separate context. If it does not compile, or without
 // OpenGL, fills *problem and returns false.
 enum { GL_TRY_SIDE = 16 };

@@ -43,12 +43,12 @@ bool gl_run_passes(Gl *gl, Arena *arena, const GlEffect *effect, const GlPass *p
             }
             gl_set_uniforms(gl, arena, passes[i].program, &state);
             if (own) {
-                double taken, needed, left = gl_seconds_left(gl);
-                taken = gl_draw_quad_within(gl, passes[i].program, width, height, left, &needed);
-                good = taken < INFINITY;
+                double seconds, needed, left = gl_seconds_left(gl);
+                seconds = gl_draw_quad_within(gl, passes[i].program, width, height, left, &needed);
+                good = seconds < INFINITY;
                 if (!good && gl->budget)
                     gl_refuse_passes(gl, needed, count - i);
-                gl->shader_seconds += taken;
+                gl->shader_seconds += seconds;
             } else {
                 gl_draw_quad(gl, passes[i].program);
             }

@@ -130,7 +130,7 @@ static bool test_program(const Gl *gl, GlProgram *program) {
     return false;
 }
 
-static unsigned make_program(Gl *gl, Arena *arena, Str vertex, Str fragment, bool own, GlShaderError *fault) {
+static unsigned make_program(Gl *gl, Arena *arena, Str vertex, Str fragment, bool own, GlShaderError *error) {
     enum { MAX_PROGRAMS = 200 }; // the cache is limited because a script can create a new shader in each frame
     GlProgram *program = find_program(gl, vertex, fragment);
     if (!program) {
@@ -147,18 +147,18 @@ static unsigned make_program(Gl *gl, Arena *arena, Str vertex, Str fragment, boo
         if (!own || test_program(gl, program))
             link_program(program);
     }
-    *fault = (GlShaderError){.in_vertex = program->in_vertex, .failed = program->failed};
+    *error = (GlShaderError){.in_vertex = program->in_vertex, .failed = program->failed};
     if (!program->program)
-        fault->text = str_copy(arena, str_from(program->problem ? program->problem : "?"));
+        error->text = str_copy(arena, str_from(program->problem ? program->problem : "?"));
     return program->program;
 }
 
-unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
-    return make_program(gl, arena, vertex, fragment, false, fault);
+unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *error) {
+    return make_program(gl, arena, vertex, fragment, false, error);
 }
 
-unsigned gl_own_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *fault) {
-    return make_program(gl, arena, vertex, fragment, true, fault);
+unsigned gl_own_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlShaderError *error) {
+    return make_program(gl, arena, vertex, fragment, true, error);
 }
 
 void gl_draw_quad(Gl *gl, unsigned program) {
@@ -190,7 +190,7 @@ double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, doub
     double box = INFINITY;
     for (int i = 0; i < 4 && (box > COMPILES || box / pixels * width * height > UNEVEN * seconds); i++)
         box = fmin(box, draw_box(gl, program, 0, GL_TRY_SIDE, GL_TRY_SIDE));
-    double row = box / pixels * width, taken = 0; // in seconds
+    double row = box / pixels * width, used = 0; // in seconds
     // Pixels may differ in cost, so that the estimate decides only if it is far above the limit.
     bool good = row * height <= UNEVEN * seconds;
     *needed = row * height;
@@ -202,10 +202,10 @@ double gl_draw_quad_within(Gl *gl, unsigned program, int width, int height, doub
         // A GPU takes no processor time; waiting for it counts a quarter. Other threads of this process take processor
         // time for other work, so that it counts for a few threads only.
         double wall = clock_seconds() - start;
-        taken = fmax(fmin(clock_read(CLOCK_PROCESS_CPUTIME_ID) - processor, THREADS * wall), wall / 4);
-        good = taken <= seconds;
-        *needed = taken * height / fmin(y + rows, height);
+        used = fmax(fmin(clock_read(CLOCK_PROCESS_CPUTIME_ID) - processor, THREADS * wall), wall / 4);
+        good = used <= seconds;
+        *needed = used * height / fmin(y + rows, height);
     }
     glDisable(GL_SCISSOR_TEST);
-    return good ? taken : INFINITY;
+    return good ? used : INFINITY;
 }

@@ -47,27 +47,27 @@ uint32_t gl_shader_passes(const DrawNode *node) {
     return wanted >= 2 ? wanted < MAX_PASSES ? (uint32_t)wanted : MAX_PASSES : 1;
 }
 
-void gl_report_shader(DiagSink *faults, const DrawNode *node, const GlShaderError *fault) {
-    const AttrValue *own = draw_attr(node, fault->in_vertex ? ATTR_VERTEX : ATTR_FRAGMENT);
-    diag_report(faults, &(Diag){.level = fault->failed ? DIAG_ERROR : DIAG_WARNING,
-                                .at = node->origin,
-                                .text = fault->text,
-                                .code = "bad-shader",
-                                .shader = {schema_kinds[node->kind].name, own ? own->as.text : (Str){0}}});
+void gl_report_shader(DiagSink *diags, const DrawNode *node, const GlShaderError *error) {
+    const AttrValue *own = draw_attr(node, error->in_vertex ? ATTR_VERTEX : ATTR_FRAGMENT);
+    diag_report(diags, &(Diag){.level = error->failed ? DIAG_ERROR : DIAG_WARNING,
+                               .at = node->origin,
+                               .text = error->text,
+                               .code = "bad-shader",
+                               .shader = {schema_kinds[node->kind].name, own ? own->as.text : (Str){0}}});
 }
 
-void gl_report_limit(DiagSink *faults, const DrawNode *node, const char *what) {
-    Str text = str_format(faults->arena,
+void gl_report_limit(DiagSink *diags, const DrawNode *node, const char *what) {
+    Str text = str_format(diags->arena,
                           "!%s: the shader took longer to draw than the work limit allows (--work); %s is left out",
                           schema_kinds[node->kind].name, what);
-    diag_report(faults, &(Diag){DIAG_ERROR, node->origin, text, .code = "drawing-limit"});
+    diag_report(diags, &(Diag){DIAG_ERROR, node->origin, text, .code = "drawing-limit"});
 }
 
-GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
+GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *diags) {
     const DrawNode *node = effect->node;
     const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
     Text texts[2] = {text_new(arena), text_new(arena)};
-    GlShaderError fault;
+    GlShaderError error;
     bool good = gl_expand_template(&texts[0], vertex ? vertex->as.text : str_from(gl_quad));
     if (fragment)
         good = good && gl_expand_template(&texts[1], fragment->as.text);
@@ -77,9 +77,9 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
         text_add_c(&texts[1], "void main() { color = merged(coord) * alpha; }\n");
     if (!good)
         return (GlImage){0};
-    unsigned program = gl_own_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);
+    unsigned program = gl_own_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &error);
     if (!program) {
-        gl_report_shader(faults, node, &fault);
+        gl_report_shader(diags, node, &error);
         return (GlImage){0};
     }
     uint32_t count = gl_shader_passes(node);
@@ -90,7 +90,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     if (gl_run_passes(gl, arena, effect, passes, count, &out))
         return out;
     if (isinf(gl->shader_seconds)) {
-        gl_report_limit(faults, node, "it");
+        gl_report_limit(diags, node, "it");
         gl_image_free(gl, out);
     }
     return (GlImage){0};

@@ -12,16 +12,16 @@ static inline bool gl_has_shader(const DrawNode *node) {
 // Returns how many times the node's shader runs.
 uint32_t gl_shader_passes(const DrawNode *node);
 // Runs the shaders in the attributes `fragment` and `vertex`.
-GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults);
+GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *diags);
 
 // Appends the source of a script's shader. Replaces ${HEADER} or a line `#version 330` by gl_header. Adds #line
 // directives, so that compiler messages contain the line numbers of the original text. Returns false if the text
 // contains other templates; canvas_read reports them.
 bool gl_expand_template(Text *out, Str text);
 // Reports that the program of a node was rejected.
-void gl_report_shader(DiagSink *faults, const DrawNode *node, const GlShaderError *fault);
+void gl_report_shader(DiagSink *diags, const DrawNode *node, const GlShaderError *error);
 // Reports that the program of a node exceeded the work limit, so that `what` is left out.
-void gl_report_limit(DiagSink *faults, const DrawNode *node, const char *what);
+void gl_report_limit(DiagSink *diags, const DrawNode *node, const char *what);
 
 // passes.c
 // Returns the processor time that the programs of scripts may still take in this picture, in seconds.

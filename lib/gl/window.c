@@ -17,11 +17,11 @@ static void init_curve(Gl *gl, const float thresholds[256]) {
 
 // Returns one of petri's own programs, which always compile.
 static GLuint get_program(Gl *gl, Arena *arena, const char *text) {
-    GlShaderError fault;
+    GlShaderError error;
     Text source = text_new(arena);
     text_add_c(&source, gl_header);
     text_add_c(&source, text);
-    GLuint program = gl_program(gl, arena, str_from(gl_quad), text_str(&source), &fault);
+    GLuint program = gl_program(gl, arena, str_from(gl_quad), text_str(&source), &error);
     glUseProgram(program);
     return program;
 }

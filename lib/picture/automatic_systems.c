@@ -18,7 +18,7 @@ static void take_three(double out[3], const double *v, uint32_t n) {
 // particle i, or UINT32_MAX if the particle is not copied.
 static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system, uint32_t *numbers) {
     PhysColumns columns = phys_columns(view->engine);
-    double most = 0;
+    double max = 0;
     system->bodies = arena_alloc_array(arena, view->particle_count, sizeof *system->bodies);
     for (uint32_t i = 0; i < view->particle_count; i++) {
         const double *position = phys_at_particle(columns.position, i);
@@ -33,11 +33,11 @@ static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system,
         take_three(body->position, position, view->dimensions);
         take_three(body->velocity, phys_at_particle(columns.velocity, i), view->dimensions);
         body->shade = isfinite(charge) ? charge : 0;
-        most = fmax(most, fabs(body->shade));
+        max = fmax(max, fabs(body->shade));
     }
-    system->charged = most > 0;
-    for (uint32_t i = 0; i < system->body_count && most > 0; i++)
-        system->bodies[i].shade /= most;
+    system->charged = max > 0;
+    for (uint32_t i = 0; i < system->body_count && max > 0; i++)
+        system->bodies[i].shade /= max;
 }
 
 // Shades bodies by speed, which is done if no body is charged. The middle colour means the speed at which a body

@@ -36,15 +36,15 @@ typedef struct CanvasBackend {
     // Draws a canvas of width x height units into a cleared sRGB or linear picture. The canvas is scaled to fill the
     // picture.
     PetriStatus (*draw_canvas)(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, int width,
-                               int height, Texture *texture, DiagSink *faults);
+                               int height, Texture *texture, DiagSink *diags);
     // Draws the picture into cleared pixels, scaled to fit and centred: `shown`, the rendered picture of its window, or
     // if that is NULL, its direct canvas or automatic picture.
     PetriStatus (*draw_pixels)(PetriPainter *painter, const CanvasPicture *picture, const Texture *shown,
-                               uint32_t *pixels, int width, int height, size_t stride, DiagSink *faults);
+                               uint32_t *pixels, int width, int height, size_t stride, DiagSink *diags);
     // Finds the image file that an image node in the render graph names. If it cannot be read, reports this and returns
     // false.
     bool (*find_image)(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, ImagePixels *image,
-                       DiagSink *faults);
+                       DiagSink *diags);
     // Stores the width of a text. Returns NULL, or the reason why it cannot be measured. Sets *loaded to true if a font
     // was loaded for this.
     const char *(*measure_text)(PetriPainter *painter, Str text, const TextStyle *style, double *width, bool *loaded);
@@ -53,10 +53,10 @@ typedef struct CanvasBackend {
                                uint32_t *pixels, int width, int height, size_t stride);
     // Encodes a file that shows the picture, whose render graph is rendered, at width x height pixels.
     PetriStatus (*encode)(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width,
-                          int height, Encoded *out, DiagSink *faults);
+                          int height, Encoded *out, DiagSink *diags);
     // Encodes the file of one record.
     PetriStatus (*encode_record)(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
-                                 CanvasFormat format, Encoded *out, DiagSink *faults);
+                                 CanvasFormat format, Encoded *out, DiagSink *diags);
     // Frees what the backend keeps in the painter.
     void (*close)(PetriPainter *painter);
 } CanvasBackend;

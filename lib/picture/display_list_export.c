@@ -484,19 +484,19 @@ static void export_picture(void *context) {
 
 const double *display_list_of_canvas(PetriPainter *painter, const DrawNode *canvas, double width, double height,
                                      size_t *count) {
-    DisplayListExport made = {.painter = painter, .arena = &painter->arena};
-    DisplayListExport *numbers = &made;
+    DisplayListExport export = {.painter = painter, .arena = &painter->arena};
+    DisplayListExport *numbers = &export;
     ADD(width, height, false);
     add_canvas(numbers, canvas);
-    *count = made.out.count;
-    return made.out.at;
+    *count = export.out.count;
+    return export.out.at;
 }
 
 const double *display_list_of_picture(Arena *arena, const CanvasPicture *picture, double scale, size_t *count) {
-    DisplayListExport made = {.picture = picture, .arena = arena, .scale = scale};
-    export_picture(&made);
-    *count = made.out.count;
-    return made.out.at;
+    DisplayListExport export = {.picture = picture, .arena = arena, .scale = scale};
+    export_picture(&export);
+    *count = export.out.count;
+    return export.out.at;
 }
 
 bool petri_picture_is_display_list(const PetriPicture *picture) {
@@ -506,11 +506,11 @@ bool petri_picture_is_display_list(const PetriPicture *picture) {
 PetriStatus petri_picture_display_list(PetriPicture *picture, const double **numbers, size_t *count) {
     if (!picture || !numbers || !count)
         return PETRI_INVALID;
-    DisplayListExport made = {
+    DisplayListExport export = {
         .picture = &picture->picture, .arena = &picture->arena, .scale = picture->width / picture->picture.width};
     Arena *arenas[] = {&picture->arena};
-    bool done = arena_protect(arenas, 1, export_picture, &made) == ARENA_OK;
-    *numbers = done ? made.out.at : NULL;
-    *count = done ? made.out.count : 0;
+    bool done = arena_protect(arenas, 1, export_picture, &export) == ARENA_OK;
+    *numbers = done ? export.out.at : NULL;
+    *count = done ? export.out.count : 0;
     return done ? PETRI_OK : PETRI_OUT_OF_MEMORY;
 }

@@ -115,9 +115,9 @@ uint32_t display_list_build_source(DisplayListBuild *build, const DrawNode *node
     if (build->depth >= MAX_DEPTH)
         return DISPLAY_NONE;
     build->depth++;
-    uint32_t made = sources[node->kind](build, node);
+    uint32_t number = sources[node->kind](build, node);
     build->depth--;
-    return made;
+    return number;
 }
 
 uint32_t display_list_build_image(DisplayListBuild *build, const DrawNode *node) {

@@ -142,13 +142,13 @@ static void include_walls(Bounds *shown, const AutoSystem *system, int axes) {
 static void choose(AutoFrame *frame, const AutoSystem *system, const Extents *extents, int axes) {
     enum { RADII = 8, SLOW = 50 };
     Bounds shown = extents->discs;
-    double half = half_size(&extents->positions, axes), way = half_size(&extents->ways, axes), least = 0;
+    double half = half_size(&extents->positions, axes), way = half_size(&extents->ways, axes), min = 0;
     if (half < way / SLOW) {
         include(&shown, extents->ways.low, 0);
         include(&shown, extents->ways.high, 0);
     }
     if (half < extents->largest / 2)
-        least = RADII * extents->largest;
+        min = RADII * extents->largest;
     include_walls(&shown, system, axes);
     half = half_size(&shown, axes);
     for (int k = 0; k < 3; k++) {
@@ -156,7 +156,7 @@ static void choose(AutoFrame *frame, const AutoSystem *system, const Extents *ex
         frame->middle[k] = fabs(middle) < half / 10 ? 0 : middle;
     }
     // In perspective, corners of the box that point towards the camera need more space, so the view is larger.
-    double wanted = fmax((axes == 3 ? 1.25 : 1.1) * extent(&shown, frame->middle, axes), least);
+    double wanted = fmax((axes == 3 ? 1.25 : 1.1) * extent(&shown, frame->middle, axes), min);
     frame->half = round_up(wanted > 1e-9 ? wanted : 1);
 }
 

@@ -11,7 +11,7 @@ typedef struct HostDrawing {
     int width;
     int height;
     uint32_t *pixels;
-    DiagSink *faults;
+    DiagSink *diags;
     bool done;
 } HostDrawing;
 
@@ -26,34 +26,34 @@ static void call_host(void *context) {
     drawing->done =
         painter->host.draw(painter->host.user_data, numbers, count, drawing->width, drawing->height, drawing->pixels);
     if (!drawing->done)
-        painter_report(drawing->faults, NULL, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn");
+        painter_report(drawing->diags, NULL, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn");
 }
 
 static PetriStatus draw_with_host(HostDrawing *drawing) {
     PetriPainter *painter = drawing->painter;
-    Arena *arenas[] = {&painter->arena, drawing->faults->arena};
+    Arena *arenas[] = {&painter->arena, drawing->diags->arena};
     ArenaMark mark = arena_mark(&painter->arena);
     ArenaOutcome end = arena_protect(arenas, 2, call_host, drawing);
     arena_rewind(&painter->arena, mark);
     if (end == ARENA_MEMORY_LIMIT)
-        return painter_report_limit(drawing->faults);
+        return painter_report_limit(drawing->diags);
     return end != ARENA_OK ? PETRI_OUT_OF_MEMORY : drawing->done ? PETRI_OK : PETRI_INVALID;
 }
 
 static PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, int width,
-                               int height, Texture *texture, DiagSink *faults) {
+                               int height, Texture *texture, DiagSink *diags) {
     (void)width; // hosts always draw at full detail
     (void)height;
     Texture *bytes = texture->bytes ? texture : texture_new(&painter->budget, texture->width, texture->height, false);
     if (!bytes)
-        return painter->budget.memory_refused ? painter_report_limit(faults) : PETRI_OUT_OF_MEMORY;
+        return painter->budget.memory_refused ? painter_report_limit(diags) : PETRI_OUT_OF_MEMORY;
     PetriStatus status = draw_with_host(&(HostDrawing){.painter = painter,
                                                        .picture = picture,
                                                        .canvas = node,
                                                        .width = texture->width,
                                                        .height = texture->height,
                                                        .pixels = bytes->bytes,
-                                                       .faults = faults});
+                                                       .diags = diags});
     if (bytes != texture) {
         texture_copy_linear(bytes, texture->linear);
         texture_free(bytes);
@@ -78,7 +78,7 @@ static void scale_texture(const Texture *texture, const CanvasPicture *picture, 
 }
 
 static PetriStatus draw_whole(PetriPainter *painter, const CanvasPicture *picture, const Texture *shown,
-                              uint32_t *pixels, int width, int height, size_t stride, DiagSink *faults) {
+                              uint32_t *pixels, int width, int height, size_t stride, DiagSink *diags) {
     if (shown) {
         scale_texture(shown, picture, pixels, width, height, stride);
         return PETRI_OK;
@@ -88,11 +88,11 @@ static PetriStatus draw_whole(PetriPainter *painter, const CanvasPicture *pictur
     if (stride != (size_t)width * sizeof *pixels)
         return PETRI_INVALID;
     return draw_with_host(&(HostDrawing){
-        .painter = painter, .picture = picture, .width = width, .height = height, .pixels = pixels, .faults = faults});
+        .painter = painter, .picture = picture, .width = width, .height = height, .pixels = pixels, .diags = diags});
 }
 
 static bool find_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, ImagePixels *image,
-                       DiagSink *faults) {
+                       DiagSink *diags) {
     (void)picture;
     const PetriCanvasBackend *host = &painter->host;
     Str name = draw_attr(node, ATTR_FILENAME)->as.text;
@@ -100,7 +100,7 @@ static bool find_image(PetriPainter *painter, const CanvasPicture *picture, cons
     if (host->image)
         image->pixels = host->image(host->user_data, str_to_c(&painter->arena, name), &image->width, &image->height);
     if (!image->pixels || image->width < 1 || image->height < 1) {
-        painter_report(faults, &node->origin, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': no such picture",
+        painter_report(diags, &node->origin, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': no such picture",
                        name.bytes);
         return false;
     }
@@ -132,7 +132,7 @@ PetriStatus petri_painter_use_backend(PetriPainter *painter, const PetriCanvasBa
         return PETRI_INVALID;
     if (painter->backend->draw_canvas && painter->backend != &host_backend)
         return PETRI_UNSUPPORTED;
-    if (!host_struct_read(&host, sizeof host, functions) || !host.draw || painter->made > 0)
+    if (!host_struct_read(&host, sizeof host, functions) || !host.draw || painter->rendered > 0)
         return PETRI_INVALID;
     painter->host = host;
     painter->backend = &host_backend;

@@ -55,41 +55,41 @@ void painter_clear(uint32_t *pixels, int width, int height, size_t stride) {
 }
 
 // Renders the render graph unless it was already rendered for this picture.
-static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
-    if (painter->made == picture->serial) {
+static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *picture, DiagSink *diags) {
+    if (painter->rendered == picture->serial) {
         painter->shown =
             render_graph_window(painter->render_graph, picture); // petri_picture_select may have changed it
         return PETRI_OK;
     }
     painter->shown = NULL;
-    PetriStatus result = render_graph_run(painter, picture, faults, &painter->shown);
-    painter->made = result == PETRI_OK ? picture->serial : 0;
-    painter->made_frame = picture->frame;
+    PetriStatus result = render_graph_run(painter, picture, diags, &painter->shown);
+    painter->rendered = result == PETRI_OK ? picture->serial : 0;
+    painter->rendered_frame = picture->frame;
     painter->total_work += painter->budget.work + (painter->gl ? gl_call.shader_work(painter->gl) : 0);
     return result;
 }
 
-PetriStatus painter_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+PetriStatus painter_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *diags) {
     if (picture->window && (picture->needs_history || !picture->direct))
-        return make_pictures(painter, picture, faults);
-    if (painter->made > 0 &&
-        painter->made !=
+        return make_pictures(painter, picture, diags);
+    if (painter->rendered > 0 &&
+        painter->rendered !=
             picture->serial) { // this frame does not use the render graph, so the next frame has nothing to continue
         render_graph_clear(painter);
-        painter->made = 0;
+        painter->rendered = 0;
         painter->shown = NULL;
     }
     return PETRI_OK;
 }
 
 const Texture *painter_rendered(const PetriPainter *painter, const CanvasPicture *picture) {
-    return picture->window && painter->made == picture->serial ? painter->shown : NULL;
+    return picture->window && painter->rendered == picture->serial ? painter->shown : NULL;
 }
 
 typedef struct Fetching {
     PetriPainter *painter;
     const CanvasPicture *picture;
-    DiagSink *faults;
+    DiagSink *diags;
 } Fetching;
 
 // Downloads the window's picture from the GPU. If the memory limit does not allow this, reports it and removes the
@@ -108,16 +108,16 @@ static void download_shown(void *context) {
         return;
     painter->shown = NULL;
     if (!painter_report_refused(painter, DIAG_ERROR, &fetching->picture->window->origin, "!window", shown->width,
-                                shown->height, fetching->faults))
-        arena_exhausted(fetching->faults->arena);
+                                shown->height, fetching->diags))
+        arena_exhausted(fetching->diags->arena);
 }
 
-PetriStatus painter_render_pixels(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
-    PetriStatus result = painter_render(painter, picture, faults);
-    const Texture *made = result == PETRI_OK ? painter_rendered(painter, picture) : NULL;
-    Fetching fetching = {painter, picture, faults};
-    if (made && !made->bytes && !made->linear &&
-        arena_protect(&faults->arena, 1, download_shown, &fetching) != ARENA_OK)
+PetriStatus painter_render_pixels(PetriPainter *painter, const CanvasPicture *picture, DiagSink *diags) {
+    PetriStatus result = painter_render(painter, picture, diags);
+    const Texture *rendered = result == PETRI_OK ? painter_rendered(painter, picture) : NULL;
+    Fetching fetching = {painter, picture, diags};
+    if (rendered && !rendered->bytes && !rendered->linear &&
+        arena_protect(&diags->arena, 1, download_shown, &fetching) != ARENA_OK)
         result = PETRI_OUT_OF_MEMORY;
     return result;
 }
@@ -131,20 +131,20 @@ void painter_copy_texture(const Texture *texture, bool opaque, uint32_t *pixels,
 
 const Recorded *painter_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count) {
     *count = 0;
-    return painter->made == picture->serial ? render_graph_records(painter->render_graph, count) : NULL;
+    return painter->rendered == picture->serial ? render_graph_records(painter->render_graph, count) : NULL;
 }
 
 PetriStatus painter_draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width,
-                                int height, size_t stride, DiagSink *faults) {
+                                int height, size_t stride, DiagSink *diags) {
     painter_clear(pixels, width, height, stride);
     if (!painter->backend->draw_pixels)
-        return painter_report_no_backend(faults);
-    PetriStatus status = painter_render_pixels(painter, picture, faults);
+        return painter_report_no_backend(diags);
+    PetriStatus status = painter_render_pixels(painter, picture, diags);
     if (status != PETRI_OK)
         return status;
     const Texture *shown = painter_rendered(painter, picture);
     if (!shown || shown->width != width || shown->height != height)
-        return painter->backend->draw_pixels(painter, picture, shown, pixels, width, height, stride, faults);
+        return painter->backend->draw_pixels(painter, picture, shown, pixels, width, height, stride, diags);
     painter_copy_texture(shown, picture->opaque, pixels, stride);
     return PETRI_OK;
 }
@@ -154,14 +154,14 @@ PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uin
     if (!picture || !painter || !pixels || !picture_is_good_size(width, height) || stride % sizeof *pixels ||
         stride < (size_t)width * sizeof *pixels)
         return PETRI_INVALID;
-    return painter_draw_pixels(painter, &picture->picture, pixels, width, height, stride, &picture->faults);
+    return painter_draw_pixels(painter, &picture->picture, pixels, width, height, stride, &picture->diags);
 }
 
 PetriStatus petri_picture_render(PetriPicture *picture, PetriPainter *painter) {
     if (!picture || !painter)
         return PETRI_INVALID;
     uint64_t before = painter->total_work;
-    PetriStatus status = painter_render(painter, &picture->picture, &picture->faults);
+    PetriStatus status = painter_render(painter, &picture->picture, &picture->diags);
     picture->work += painter->total_work - before;
     return status;
 }

@@ -16,7 +16,7 @@ static bool test_shader(void *user_data, const char *vertex, const char *fragmen
     return false;
 }
 
-static void test_shaders(PetriPainter *painter) {
+static void set_shader_test(PetriPainter *painter) {
     gl_call.test_shaders(painter->gl, painter->shader_test ? test_shader : NULL, painter);
 }
 
@@ -26,7 +26,7 @@ void petri_painter_test_shaders(PetriPainter *painter, PetriShaderTest *test, vo
     painter->shader_test = test;
     painter->shader_test_data = user_data;
     if (painter->gl)
-        test_shaders(painter);
+        set_shader_test(painter);
 }
 
 bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProblem *problem, size_t size) {
@@ -43,13 +43,13 @@ bool petri_shader_try(const char *vertex, const char *fragment, PetriShaderProbl
 
 PetriStatus petri_painter_use_gl(PetriPainter *painter) {
     const char *problem;
-    if (!painter || painter->gl || painter->made > 0)
+    if (!painter || painter->gl || painter->rendered > 0)
         return PETRI_INVALID;
     painter->gl = gl_adopt(&problem);
     painter->on_window = painter->gl;
     if (painter->gl) {
         gl_call.charge(painter->gl, &painter->budget);
-        test_shaders(painter);
+        set_shader_test(painter);
     }
     return painter->gl ? PETRI_OK : problem ? PETRI_UNSUPPORTED : PETRI_OUT_OF_MEMORY;
 }
@@ -63,7 +63,7 @@ Gl *painter_gl(PetriPainter *painter, const char **problem) {
     if (!painter->gl && !*problem) {
         painter->gl = gl_open(problem);
         if (painter->gl)
-            test_shaders(painter);
+            set_shader_test(painter);
     }
     if (painter->gl)
         gl_call.charge(painter->gl, &painter->budget);

@@ -212,7 +212,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     picture->picture.memory = left < access.memory_limit ? left : access.memory_limit;
     arena_detach_budget(&picture->arena); // detached because another thread can free the picture
     if (status == PETRI_OK) {
-        picture->faults = diag_sink_new(&picture->arena, MAX_DIAGNOSTICS);
+        picture->diags = diag_sink_new(&picture->arena, MAX_DIAGNOSTICS);
         *out = picture;
         return PETRI_OK;
     }
@@ -229,7 +229,7 @@ void petri_picture_free(PetriPicture **handle) {
     *handle = NULL;
     if (!picture)
         return;
-    diag_sink_free(&picture->faults);
+    diag_sink_free(&picture->diags);
     arena_free(&picture->arena);
     heap_free(picture);
 }
@@ -254,8 +254,8 @@ bool petri_picture_needs_history(const PetriPicture *picture) {
 }
 
 bool petri_picture_lacks_shader(const PetriPicture *picture) {
-    for (uint32_t i = 0; picture && i < picture->faults.count; i++) {
-        const Diag *diag = &picture->faults.items[i];
+    for (uint32_t i = 0; picture && i < picture->diags.count; i++) {
+        const Diag *diag = &picture->diags.items[i];
         if (diag->level == DIAG_ERROR && diag->code &&
             (strcmp(diag->code, "bad-shader") == 0 || strcmp(diag->code, "drawing-limit") == 0))
             return true;
@@ -264,10 +264,10 @@ bool petri_picture_lacks_shader(const PetriPicture *picture) {
 }
 
 // Reports a problem that was found while the picture was drawn. The script may have been unloaded since then.
-static void report_fault(PetriSession *session, Diag *fault) {
-    if (!session_has_source(session, fault))
-        fault->at.source = NULL;
-    Diag placed = *fault; // the original recognises the same problem when the picture is drawn again
+static void report_diag(PetriSession *session, Diag *diag) {
+    if (!session_has_source(session, diag))
+        diag->at.source = NULL;
+    Diag placed = *diag; // the original recognises the same problem when the picture is drawn again
     Text text = {0};
     if (placed.shader.node)
         picture_place_shader_error(&placed, &text);
@@ -278,9 +278,9 @@ static void report_fault(PetriSession *session, Diag *fault) {
 void petri_picture_report(PetriSession *session, PetriPicture *picture) {
     if (!session || !picture)
         return;
-    for (uint32_t i = 0; i < picture->faults.count; i++)
-        report_fault(session, &picture->faults.items[i]);
-    session_report_dropped(session, &picture->faults);
+    for (uint32_t i = 0; i < picture->diags.count; i++)
+        report_diag(session, &picture->diags.items[i]);
+    session_report_dropped(session, &picture->diags);
     session_add_work(session, picture->work);
     picture->work = 0;
 }

@@ -22,8 +22,8 @@ struct PetriPicture {
     int height;
     int64_t frame;
     const char *title;
-    uint64_t work;   // units of work of petri_picture_render that petri_picture_report has not added to the session
-    DiagSink faults; // diagnostics reported so far while the picture was drawn
+    uint64_t work;  // units of work of petri_picture_render that petri_picture_report has not added to the session
+    DiagSink diags; // diagnostics reported so far while the picture was drawn
 };
 
 // Returns true if this size in pixels is allowed for a picture.

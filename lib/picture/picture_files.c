@@ -33,7 +33,7 @@ bool petri_picture_can_save(const char *file) {
 
 static void report_file(PetriPicture *picture, const char *file, const char *problem) {
     Str text = str_format(&picture->arena, "cannot write '%s': %s", file, problem);
-    diag_report(&picture->faults, &(Diag){.level = DIAG_ERROR, .text = text, .code = "cannot-write"});
+    diag_report(&picture->diags, &(Diag){.level = DIAG_ERROR, .text = text, .code = "cannot-write"});
 }
 
 // A picture that is being written to a file.
@@ -54,16 +54,16 @@ static PetriStatus encode_picture(Saving *saving) {
     PetriPicture *picture = saving->picture;
     PetriPainter *painter = saving->painter;
     const CanvasBackend *backend = painter->backend;
-    DiagSink *faults = &picture->faults;
+    DiagSink *diags = &picture->diags;
     if (!backend->encode || !backend->encode_record)
-        return painter_report_no_backend(faults);
+        return painter_report_no_backend(diags);
     if (saving->record)
         return backend->encode_record(painter, &picture->picture, saving->record, saving->format, &saving->bytes,
-                                      faults);
-    PetriStatus status = painter_render_pixels(painter, &picture->picture, faults);
+                                      diags);
+    PetriStatus status = painter_render_pixels(painter, &picture->picture, diags);
     return status != PETRI_OK ? status
                               : backend->encode(painter, &picture->picture, saving->format, picture->width,
-                                                picture->height, &saving->bytes, faults);
+                                                picture->height, &saving->bytes, diags);
 }
 
 static void save_protected(void *context) {
@@ -73,8 +73,8 @@ static void save_protected(void *context) {
     if (saving->status != PETRI_OK)
         return;
     if (saving->write) {
-        bool taken = saving->write(saving->user_data, (const char *)saving->bytes.bytes, saving->bytes.length);
-        saving->status = taken ? PETRI_OK : PETRI_INVALID;
+        bool accepted = saving->write(saving->user_data, (const char *)saving->bytes.bytes, saving->bytes.length);
+        saving->status = accepted ? PETRI_OK : PETRI_INVALID;
         return;
     }
     Replacement file;

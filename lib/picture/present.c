@@ -80,10 +80,10 @@ static void present_protected(void *context) {
 static PetriStatus prepare_picture(Presentation *presentation) {
     PetriPainter *painter = presentation->painter;
     PetriPicture *picture = presentation->picture;
-    PetriStatus status = picture ? painter_render(painter, &picture->picture, &picture->faults) : PETRI_OK;
-    const Texture *made = picture && status == PETRI_OK ? painter_rendered(painter, &picture->picture) : NULL;
-    if (made && made->gl && !picture->picture.direct) {
-        presentation->texture = made;
+    PetriStatus status = picture ? painter_render(painter, &picture->picture, &picture->diags) : PETRI_OK;
+    const Texture *rendered = picture && status == PETRI_OK ? painter_rendered(painter, &picture->picture) : NULL;
+    if (rendered && rendered->gl && !picture->picture.direct) {
+        presentation->texture = rendered;
         return PETRI_OK;
     }
     uint32_t *pixels = window_pixels(painter, presentation->width, presentation->height);

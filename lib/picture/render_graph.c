@@ -14,10 +14,10 @@ RenderGraph *render_graph_new(void) {
     return pictures;
 }
 
-static void release_node(GraphNode *made) {
-    texture_free(made->picture);
-    for (uint32_t i = 0; i < made->count; i++)
-        release_node(&made->children[i]);
+static void release_node(GraphNode *state) {
+    texture_free(state->picture);
+    for (uint32_t i = 0; i < state->count; i++)
+        release_node(&state->children[i]);
 }
 
 void render_graph_clear_frame(Frame *frame) {
@@ -81,12 +81,12 @@ void render_graph_name(Walk *walk, Str id, Texture *picture) {
     frame->known[frame->known_count++] = (NamedPicture){id, picture};
 }
 
-const GraphNode *render_graph_find_past(const GraphNode *past, const GraphNode *made) {
+const GraphNode *render_graph_find_past(const GraphNode *past, const GraphNode *state) {
     for (uint32_t i = 0; past && i < past->count; i++) {
         GraphNode *other = &past->children[i];
-        if (!other->matched && other->kind == made->kind && str_equal(other->tags, made->tags) &&
-            str_equal(other->id, made->id) &&
-            (made->kind != KIND_PICTURE_IMAGE || str_equal(other->file, made->file))) {
+        if (!other->matched && other->kind == state->kind && str_equal(other->tags, state->tags) &&
+            str_equal(other->id, state->id) &&
+            (state->kind != KIND_PICTURE_IMAGE || str_equal(other->file, state->file))) {
             other->matched = true;
             return other;
         }
@@ -94,10 +94,10 @@ const GraphNode *render_graph_find_past(const GraphNode *past, const GraphNode *
     return NULL;
 }
 
-void render_graph_alloc_children(Walk *walk, GraphNode *made, uint32_t count) {
-    made->children = arena_alloc_array(&walk->frame->arena, count, sizeof *made->children);
-    memset(made->children, 0, count * sizeof *made->children);
-    made->count = count;
+void render_graph_alloc_children(Walk *walk, GraphNode *state, uint32_t count) {
+    state->children = arena_alloc_array(&walk->frame->arena, count, sizeof *state->children);
+    memset(state->children, 0, count * sizeof *state->children);
+    state->count = count;
 }
 
 static bool is_picture(const DrawNode *node) {

@@ -19,7 +19,7 @@ void render_graph_clear(PetriPainter *painter);
 // Renders all pictures of a frame. *shown receives the picture of the window, or NULL if the window has none. The
 // picture and the records are valid until the next call. Pictures that cannot be rendered are reported and left out.
 // Returns PETRI_OK, PETRI_OUT_OF_MEMORY, or PETRI_INVALID after an error.
-PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown);
+PetriStatus render_graph_run(PetriPainter *painter, const CanvasPicture *picture, DiagSink *diags, Texture **shown);
 // Returns the picture of the window that `picture` shows. The last call of render_graph_run must have been for it.
 Texture *render_graph_window(const RenderGraph *pictures, const CanvasPicture *picture);
 const Recorded *render_graph_records(const RenderGraph *pictures, uint32_t *count);

@@ -29,7 +29,7 @@ static Texture *report_no_memory(Walk *walk, const DrawNode *node, int width, in
     char name[40];
     snprintf(name, sizeof name, "!%s", schema_kinds[node->kind].name);
     DiagLevel level = node->kind == KIND_CANVAS3D || node->kind == KIND_CAMERA ? DIAG_ERROR : DIAG_WARNING;
-    if (!painter_report_refused(walk->painter, level, &node->origin, name, width, height, walk->faults))
+    if (!painter_report_refused(walk->painter, level, &node->origin, name, width, height, walk->diags))
         arena_exhausted(&walk->frame->arena);
     return NULL;
 }
@@ -43,8 +43,8 @@ Texture *render_graph_draw_canvas(Walk *walk, const DrawNode *node, int width, i
         return report_no_memory(walk, node, width, height);
     const CanvasBackend *backend = walk->painter->backend;
     PetriStatus status = backend->draw_canvas ? backend->draw_canvas(walk->painter, walk->picture, node, width, height,
-                                                                     texture, walk->faults)
-                                              : painter_report_no_backend(walk->faults);
+                                                                     texture, walk->diags)
+                                              : painter_report_no_backend(walk->diags);
     if (status == PETRI_OUT_OF_MEMORY) {
         texture_free(texture);
         arena_exhausted(&walk->frame->arena);
@@ -63,16 +63,16 @@ Texture *render_graph_load_image(Walk *walk, const DrawNode *node) {
     if (!name || name->as.text.len == 0)
         return NULL;
     if (!painter->backend->find_image) {
-        painter_report_no_backend(walk->faults);
+        painter_report_no_backend(walk->diags);
         return NULL;
     }
-    if (!painter->backend->find_image(painter, walk->picture, node, &image, walk->faults))
+    if (!painter->backend->find_image(painter, walk->picture, node, &image, walk->diags))
         return NULL;
     int width = image.width, height = image.height;
     render_graph_node_size(node, &width, &height);
     if (width < 1 || height < 1 || width > IMAGE_MAX_SIDE || height > IMAGE_MAX_SIDE ||
         (int64_t)width * height > IMAGE_MAX_PIXELS) {
-        painter_report(walk->faults, &node->origin, DIAG_WARNING, "bad-size",
+        painter_report(walk->diags, &node->origin, DIAG_WARNING, "bad-size",
                        "!image: a picture can have 1 to %d pixels in width and height", IMAGE_MAX_SIDE);
         return NULL;
     }
@@ -85,7 +85,7 @@ Texture *render_graph_load_image(Walk *walk, const DrawNode *node) {
 static bool charge_node(Walk *walk, const DrawNode *node, double cost, const char *what) {
     if (budget_charge_time(&walk->painter->budget, cost))
         return true;
-    painter_report(walk->faults, &node->origin, DIAG_WARNING, "drawing-limit",
+    painter_report(walk->diags, &node->origin, DIAG_WARNING, "drawing-limit",
                    "!%s: drawing exceeded the work limit (--work): the %s is left out", schema_kinds[node->kind].name,
                    what);
     return false;
@@ -122,7 +122,7 @@ static Gl *open_gpu(Walk *walk) {
         return gl;
     }
     walk->painter->gl_problem = problem;
-    painter_report(walk->faults, NULL, DIAG_WARNING, "needs-gpu", "effects and 3-D scenes are left out: %s", problem);
+    painter_report(walk->diags, NULL, DIAG_WARNING, "needs-gpu", "effects and 3-D scenes are left out: %s", problem);
     return NULL;
 }
 
@@ -163,7 +163,7 @@ static Texture *run_effect(Walk *walk, const DrawNode *node, const GraphNode *pa
                        .frame = &frame};
     if (!charge_node(walk, node, gl_call.effect_cost(&effect), "effect"))
         return NULL;
-    GlImage image = gl_call.effect(gl, &walk->frame->arena, &effect, walk->faults);
+    GlImage image = gl_call.effect(gl, &walk->frame->arena, &effect, walk->diags);
     if (!image.texture && walk->painter->budget.memory_refused)
         return report_no_memory(walk, node, width, height);
     Texture *texture = image.texture ? texture_from_image(&walk->painter->budget, gl, image) : NULL;
@@ -181,7 +181,7 @@ Texture *render_graph_run_effect(Walk *walk, const DrawNode *node, const GraphNo
 bool render_graph_check_size(Walk *walk, const DrawNode *node, int width, int height) {
     if (width >= 1 && height >= 1 && width <= PETRI_MAX_PICTURE_SIDE && height <= PETRI_MAX_PICTURE_SIDE)
         return true;
-    painter_report(walk->faults, &node->origin, DIAG_WARNING, "bad-size",
+    painter_report(walk->diags, &node->origin, DIAG_WARNING, "bad-size",
                    "!%s: a picture can have 1 to %d pixels in width and height", schema_kinds[node->kind].name,
                    PETRI_MAX_PICTURE_SIDE);
     return false;
@@ -214,25 +214,24 @@ static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *cam
     return texture;
 }
 
-Texture *render_graph_draw_scene(Walk *walk, const DrawNode *node, GraphNode *made, int width, int height) {
+Texture *render_graph_draw_scene(Walk *walk, const DrawNode *node, GraphNode *state, int width, int height) {
     if (!open_gpu(walk))
         return NULL;
-    Scene *scene =
-        scene_read(&walk->frame->arena, node, width, height, walk->bits, &walk->picture->reach, walk->faults);
+    Scene *scene = scene_read(&walk->frame->arena, node, width, height, walk->bits, &walk->picture->reach, walk->diags);
     scene->detail = walk->picture->detail;
     Texture *texture = make_view(walk, scene, &scene->cameras[scene->shown]);
-    if (made->id.len > 0 && texture)
-        render_graph_name(walk, made->id, texture);
+    if (state->id.len > 0 && texture)
+        render_graph_name(walk, state->id, texture);
     if (scene->cameras[scene->shown].id.len > 0 && texture)
         render_graph_name(walk, str_copy(&walk->frame->arena, scene->cameras[scene->shown].id), texture);
-    render_graph_alloc_children(walk, made, scene->camera_count);
+    render_graph_alloc_children(walk, state, scene->camera_count);
     for (uint32_t i = 1; i < scene->camera_count; i++) {
         const SceneCamera *camera = &scene->cameras[i];
         if (!camera->secondary || i == scene->shown)
             continue;
-        made->children[i].picture = make_view(walk, scene, camera);
-        if (made->children[i].picture)
-            render_graph_name(walk, str_copy(&walk->frame->arena, camera->id), made->children[i].picture);
+        state->children[i].picture = make_view(walk, scene, camera);
+        if (state->children[i].picture)
+            render_graph_name(walk, str_copy(&walk->frame->arena, camera->id), state->children[i].picture);
     }
     return texture;
 }

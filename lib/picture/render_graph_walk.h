@@ -43,7 +43,7 @@ struct RenderGraph {
 typedef struct Walk {
     PetriPainter *painter;
     const CanvasPicture *picture;
-    DiagSink *faults;
+    DiagSink *diags;
     Frame *frame;
     const Frame *before; // the previous frame
     int bits;            // bits per channel of the window
@@ -56,10 +56,10 @@ typedef struct Walk {
 // render_graph.c
 void render_graph_clear_frame(Frame *frame);
 void render_graph_name(Walk *walk, Str id, Texture *picture);
-// Returns the child of `past` that the state `made` continues, and marks it as matched. Returns NULL if there is none.
-const GraphNode *render_graph_find_past(const GraphNode *past, const GraphNode *made);
+// Returns the child of `past` that the state `state` continues, and marks it as matched. Returns NULL if there is none.
+const GraphNode *render_graph_find_past(const GraphNode *past, const GraphNode *state);
 // Allocates the state of a node's children.
-void render_graph_alloc_children(Walk *walk, GraphNode *made, uint32_t count);
+void render_graph_alloc_children(Walk *walk, GraphNode *state, uint32_t count);
 
 // render_graph_nodes.c
 // Returns the bits per channel that a node sets, or else `bits`.
@@ -74,6 +74,6 @@ Texture *render_graph_load_image(Walk *walk, const DrawNode *node);
 Texture *render_graph_run_effect(Walk *walk, const DrawNode *node, const GraphNode *past, Texture *const *inputs,
                                  uint32_t count, int width, int height);
 // Renders a scene, and the views of its secondary cameras, which are stored like children of the node.
-Texture *render_graph_draw_scene(Walk *walk, const DrawNode *node, GraphNode *made, int width, int height);
+Texture *render_graph_draw_scene(Walk *walk, const DrawNode *node, GraphNode *state, int width, int height);
 // Adds a `!record` with its picture to the records of the frame.
 void render_graph_add_record(Walk *walk, const DrawNode *node, Texture *texture);

@@ -74,7 +74,7 @@ static const char *measure_text(void *user_data, const BuiltinText *text, double
 // A BuiltinPictures.find. `user_data` is the painter.
 static bool find_picture(void *user_data, Str id, BuiltinPicture *picture) {
     PetriPainter *painter = user_data;
-    if (painter->made == 0 || painter->made_frame != petri_frame_number(painter->served) - 1)
+    if (painter->rendered == 0 || painter->rendered_frame != petri_frame_number(painter->served) - 1)
         return false;
     Texture *texture = render_graph_find(painter->render_graph, id);
     if (id.len == 0 || !texture || !download(painter, texture))

@@ -150,10 +150,10 @@ static void select_window(void *context) {
                               : picture_show_window(picture, selection->window);
     selection->done = !problem;
     if (problem)
-        diag_report(&picture->faults, &(Diag){.level = DIAG_ERROR,
-                                              .text = str_from(problem),
-                                              .code = "cannot-draw",
-                                              .at = window ? window->origin : (Origin){0}});
+        diag_report(&picture->diags, &(Diag){.level = DIAG_ERROR,
+                                             .text = str_from(problem),
+                                             .code = "cannot-draw",
+                                             .at = window ? window->origin : (Origin){0}});
 }
 
 PetriStatus petri_picture_select(PetriPicture *picture, int window) {

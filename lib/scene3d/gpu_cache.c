@@ -145,7 +145,7 @@ static void make_shape(const Gl *gl, CachedModel *model_entry, const Scene *scen
     MeshBuild build = {.scene = scene, .model = &model_entry->model};
     arena_init(&build.arena, "mesh", SIZE_MAX);
     build.arena.budget = gl->budget;
-    Arena *arenas[] = {&build.arena, scene->arena, scene->faults->arena};
+    Arena *arenas[] = {&build.arena, scene->arena, scene->diags->arena};
     ArenaOutcome end = arena_protect(arenas, 3, build_mesh, &build);
     if (end == ARENA_OK && build.done)
         store_mesh(gl, model_entry, &build.mesh);
@@ -241,14 +241,14 @@ static bool charge_target(Gl *gl, SceneTarget *target) {
     size_t pixel = 4 + (target->samples > 0 ? gl_pixel_size(target->format) : 0); // depth, and colour if multisampled
     size_t bytes =
         (size_t)target->width * (size_t)target->height * pixel * (size_t)(target->samples > 0 ? target->samples : 1);
-    bool known = gl_is_refused(gl), taken = budget_reserve(gl->budget, bytes);
-    for (int i = 0; !taken && i < SCENE_TARGETS; i++)
+    bool known = gl_is_refused(gl), fits = budget_reserve(gl->budget, bytes);
+    for (int i = 0; !fits && i < SCENE_TARGETS; i++)
         if (&gl->cache->targets[i] != target)
             free_target(gl, &gl->cache->targets[i]);
-    if (!taken && (taken = budget_reserve(gl->budget, bytes)))
+    if (!fits && (fits = budget_reserve(gl->budget, bytes)))
         gl->budget->memory_refused = known;
-    target->charged = taken ? bytes : 0;
-    return taken;
+    target->charged = fits ? bytes : 0;
+    return fits;
 }
 
 SceneTarget *gpu_cache_target(Gl *gl, int width, int height, int samples, GlFormat format, bool extra) {

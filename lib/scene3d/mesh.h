@@ -49,8 +49,8 @@ typedef struct MeshError {
 } MeshError;
 
 // Reads a mesh from the bytes of an OBJ, STL, PLY or OFF file; STL and PLY files can be text or binary. On failure,
-// sets *fault and returns false.
-bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
+// sets *error and returns false.
+bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *error);
 // Returns the faces of the convex hull of `count` points. Each point is three numbers in `vertices`, and each face is
 // three indices of points. *numbers receives the number of all indices. Returns NULL if all points lie in a plane.
 enum { MESH_MAX_HULL = 2000 }; // maximum number of points

@@ -203,16 +203,16 @@ static Str next_obj_line(Arena *arena, Str *bytes, uint32_t *number) {
     return joined.len ? text_str(&joined) : line;
 }
 
-bool mesh_read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
+bool mesh_read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *error) {
     Obj obj = {.arena = arena, .normals = true};
     for (uint32_t line = 0; bytes.len > 0;) {
         uint32_t first = line + 1;
         if (!read_obj_line(&obj, next_obj_line(arena, &bytes, &line))) {
-            *fault = (MeshError){obj.problem, first};
+            *error = (MeshError){obj.problem, first};
             return false;
         }
     }
-    *fault = (MeshError){"it contains no triangles", 0};
+    *error = (MeshError){"it contains no triangles", 0};
     if (obj.count == 0)
         return false;
     // Creates a vertex for each distinct corner.
@@ -253,25 +253,25 @@ static bool add_stl_triangle(Arena *arena, Floats *list, const float corners[9])
     return true;
 }
 
-static bool read_stl_text(Arena *arena, Str bytes, Floats *list, MeshError *fault) {
+static bool read_stl_text(Arena *arena, Str bytes, Floats *list, MeshError *error) {
     float corners[9];
     int count = 0;
-    for (fault->line = 1; bytes.len > 0; fault->line++) {
+    for (error->line = 1; bytes.len > 0; error->line++) {
         Str line = mesh_next_line(&bytes), word = mesh_next_word(&line);
         if (str_equal(word, STR("vertex"))) {
-            fault->text = "'vertex' needs three numbers, and a loop needs three vertices";
+            error->text = "'vertex' needs three numbers, and a loop needs three vertices";
             if (count == 3 || !read_floats(line, 3, 3, corners + 3 * count))
                 return false;
             count++;
         } else if (str_equal(word, STR("endloop"))) {
-            fault->text = count == 3 ? too_large : "a loop needs three vertices";
+            error->text = count == 3 ? too_large : "a loop needs three vertices";
             if (count != 3 || !add_stl_triangle(arena, list, corners))
                 return false;
             count = 0;
         }
     }
-    fault->text = "the file ends within a loop, before 'endloop'";
-    fault->line--;
+    error->text = "the file ends within a loop, before 'endloop'";
+    error->line--;
     return count == 0;
 }
 
@@ -305,12 +305,12 @@ bool mesh_is_stl(Str bytes) {
     return is_binary_stl(bytes) || str_starts_with(bytes, STR("solid"));
 }
 
-bool mesh_read_stl(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
+bool mesh_read_stl(Arena *arena, Str bytes, Mesh *mesh, MeshError *error) {
     Floats list = {0};
-    *fault = (MeshError){"a coordinate is out of range, or there are more than 4 million triangles", 0};
-    if (is_binary_stl(bytes) ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list, fault))
+    *error = (MeshError){"a coordinate is out of range, or there are more than 4 million triangles", 0};
+    if (is_binary_stl(bytes) ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list, error))
         return false;
-    *fault = (MeshError){"it contains no triangles", 0};
+    *error = (MeshError){"it contains no triangles", 0};
     if (list.count == 0)
         return false;
     *mesh = (Mesh){.vertices = arena_alloc_array(arena, list.count, sizeof(MeshVertex)),

@@ -12,7 +12,7 @@ bool mesh_read_number(Str word, float *out);
 
 // Read the files of these formats, as mesh_from_file does.
 bool mesh_is_stl(Str bytes);
-bool mesh_read_stl(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
-bool mesh_read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
-bool mesh_read_ply(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
-bool mesh_read_off(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault);
+bool mesh_read_stl(Arena *arena, Str bytes, Mesh *mesh, MeshError *error);
+bool mesh_read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshError *error);
+bool mesh_read_ply(Arena *arena, Str bytes, Mesh *mesh, MeshError *error);
+bool mesh_read_off(Arena *arena, Str bytes, Mesh *mesh, MeshError *error);

@@ -56,8 +56,8 @@ static bool add_corner(Polygons *polygons, double number) {
     return true;
 }
 
-static bool finish(Polygons *polygons, Mesh *mesh, MeshError *fault) {
-    *fault = (MeshError){"it contains no triangles", 0};
+static bool finish(Polygons *polygons, Mesh *mesh, MeshError *error) {
+    *error = (MeshError){"it contains no triangles", 0};
     *mesh = (Mesh){.vertices = polygons->vertices,
                    .indices = polygons->indices,
                    .vertex_count = polygons->vertex_count,
@@ -108,27 +108,27 @@ static bool read_off_face(Polygons *polygons, Str line) {
     return true;
 }
 
-bool mesh_read_off(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
+bool mesh_read_off(Arena *arena, Str bytes, Mesh *mesh, MeshError *error) {
     Polygons polygons = {.arena = arena};
     float counts[2] = {0};
-    fault->line = 0;
-    Str line = next_off_line(&bytes, &fault->line);
+    error->line = 0;
+    Str line = next_off_line(&bytes, &error->line);
     mesh_next_word(&line); // "OFF" or "COFF"; colours, which follow the coordinates, are ignored
-    if (!read_counts(line, counts) && !read_counts(next_off_line(&bytes, &fault->line), counts)) {
-        fault->text = "the numbers of vertices and faces are missing";
+    if (!read_counts(line, counts) && !read_counts(next_off_line(&bytes, &error->line), counts)) {
+        error->text = "the numbers of vertices and faces are missing";
         return false;
     }
     for (double i = 0; i < (double)counts[0] + counts[1]; i++) { // every iteration reads a line
         bool is_vertex = i < counts[0];
-        line = next_off_line(&bytes, &fault->line);
+        line = next_off_line(&bytes, &error->line);
         if (line.len == 0)
             fail(&polygons, "the file ends before the last face");
         if (line.len == 0 || !(is_vertex ? read_off_vertex(&polygons, line) : read_off_face(&polygons, line))) {
-            fault->text = polygons.problem;
+            error->text = polygons.problem;
             return false;
         }
     }
-    return finish(&polygons, mesh, fault);
+    return finish(&polygons, mesh, error);
 }
 
 // --- PLY
@@ -332,18 +332,18 @@ static bool read_row(Ply *ply, const Element *element) {
     return true;
 }
 
-bool mesh_read_ply(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
+bool mesh_read_ply(Arena *arena, Str bytes, Mesh *mesh, MeshError *error) {
     Ply *ply = arena_alloc(arena, sizeof *ply);
     *ply = (Ply){.polygons = {.arena = arena}, .bytes = bytes, .row = STR("")};
     if (!read_header(ply)) {
-        *fault = (MeshError){ply->polygons.problem, ply->line};
+        *error = (MeshError){ply->polygons.problem, ply->line};
         return false;
     }
     for (uint32_t i = 0; i < ply->element_count; i++)
         for (double k = 0; k < ply->elements[i].count && ply->elements[i].property_count > 0; k++)
             if (!read_row(ply, &ply->elements[i])) {
-                *fault = (MeshError){ply->polygons.problem, ply->text ? ply->line : 0};
+                *error = (MeshError){ply->polygons.problem, ply->text ? ply->line : 0};
                 return false;
             }
-    return finish(&ply->polygons, mesh, fault);
+    return finish(&ply->polygons, mesh, error);
 }

@@ -11,8 +11,8 @@ enum { MAX_DEPTH = 100, MAX_REPORTS = 100 };
 typedef struct Request {
     PetriSession *session;
     Arena arena;
-    DiagSink faults;  // problems of the models
-    uint32_t printed; // number of faults that are in the text
+    DiagSink diags;   // problems of the models
+    uint32_t printed; // number of diags that are in the text
     const FileAccess *reach;
     Text lines;
     double triangles;
@@ -51,8 +51,8 @@ static void add_model(Request *request, const Scene *scene, uint32_t index) {
     Str text =
         str_format(&request->arena, "!%s: %u triangles%.*s", schema_kinds[model->kind].name, triangles, STR_ARGS(each));
     add_line(request, &(Diag){.at = model->node->origin, .text = text});
-    for (; request->printed < request->faults.count; request->printed++)
-        add_line(request, &request->faults.items[request->printed]);
+    for (; request->printed < request->diags.count; request->printed++)
+        add_line(request, &request->diags.items[request->printed]);
     request->triangles += (double)triangles * count;
     request->nodes += count;
 }
@@ -64,7 +64,7 @@ static void add_scenes(Request *request, const DrawNode *node, int depth) {
             add_scenes(request, node->children[i], depth + 1);
         return;
     }
-    Scene *scene = scene_read(&request->arena, node, ANY_SIZE, ANY_SIZE, ANY_BITS, request->reach, &request->faults);
+    Scene *scene = scene_read(&request->arena, node, ANY_SIZE, ANY_SIZE, ANY_BITS, request->reach, &request->diags);
     for (uint32_t i = 0; i < scene->model_count; i++)
         add_model(request, scene, i);
 }
@@ -74,7 +74,7 @@ static PetriStatus print_meshes(PetriSession *session, void *context) {
     DrawAccess access = session_draw_access(session);
     const Node *window;
     request->reach = access.reach;
-    request->faults = diag_sink_new(&request->arena, MAX_REPORTS);
+    request->diags = diag_sink_new(&request->arena, MAX_REPORTS);
     request->lines = text_new(&request->arena);
     for (uint32_t at = 0; (window = canvas_next_window(access.schema, access.tree, &at));) {
         const DrawNode *top = canvas_read(access.schema, &request->arena, window);
@@ -96,7 +96,7 @@ PetriStatus petri_print_meshes(PetriSession *session, PetriWriteCallback *write,
     arena_init(&request.arena, "meshes", access.memory_limit);
     request.arena.budget = access.budget;
     PetriStatus status = session_protect(session, &request.arena, print_meshes, &request);
-    diag_sink_free(&request.faults);
+    diag_sink_free(&request.diags);
     arena_free(&request.arena);
     return session_report_abort(session, status, "counting triangles");
 }

@@ -159,7 +159,7 @@ static double angle_at(const Mesh *mesh, uint32_t corner) {
 }
 
 void mesh_snap(Arena *arena, Mesh *mesh, double turns) {
-    uint32_t count = mesh->index_count, made = 0;
+    uint32_t count = mesh->index_count, vertex_count = 0;
     arena_charge(arena, (uint64_t)count * 40); // measured: about 0.3 µs per corner on an idle machine
     uint32_t *joined = join_positions(arena, mesh), *points = arena_alloc_array(arena, count, sizeof *points);
     double(*normals)[3] = arena_alloc_array(arena, count / 3, sizeof *normals);
@@ -183,12 +183,12 @@ void mesh_snap(Arena *arena, Mesh *mesh, double turns) {
         double normal[3] = {sums[root][0], sums[root][1], sums[root][2]};
         if (!vector_normalise(normal))
             memcpy(normal, normals[i / 3], sizeof normal);
-        vertices[made] = mesh->vertices[mesh->indices[i]];
-        set_normal(&vertices[made], normal);
-        mesh->indices[i] = made++;
+        vertices[vertex_count] = mesh->vertices[mesh->indices[i]];
+        set_normal(&vertices[vertex_count], normal);
+        mesh->indices[i] = vertex_count++;
     }
     mesh->vertices = vertices;
-    mesh->vertex_count = made;
+    mesh->vertex_count = vertex_count;
 }
 
 void mesh_invert(Mesh *mesh) {

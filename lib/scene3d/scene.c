@@ -11,16 +11,16 @@ const char *scene_path(const Scene *scene, Str name) {
 }
 
 void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem) {
-    if (!scene->faults)
+    if (!scene->diags)
         return;
-    Str text = str_format(scene->faults->arena, "!%s: %s", schema_kinds[node->kind].name, problem);
-    diag_report(scene->faults, &(Diag){DIAG_WARNING, node->origin, text, .code = code});
+    Str text = str_format(scene->diags->arena, "!%s: %s", schema_kinds[node->kind].name, problem);
+    diag_report(scene->diags, &(Diag){DIAG_WARNING, node->origin, text, .code = code});
 }
 
 void scene_report_missing(const Scene *scene, const DrawNode *node) {
-    Str text = str_format(scene->faults->arena, "!%s: drawing exceeded the work limit (--work): the scene is left out",
+    Str text = str_format(scene->diags->arena, "!%s: drawing exceeded the work limit (--work): the scene is left out",
                           schema_kinds[node->kind].name);
-    diag_report(scene->faults, &(Diag){DIAG_ERROR, node->origin, text, .code = "drawing-limit"});
+    diag_report(scene->diags, &(Diag){DIAG_ERROR, node->origin, text, .code = "drawing-limit"});
 }
 
 Eye scene_eye(const Scene *scene, const SceneCamera *camera) {

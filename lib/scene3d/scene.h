@@ -105,7 +105,7 @@ typedef struct Scene {
     Arena *arena;
     const DrawNode *node; // the `!canvas3d`
     const FileAccess *reach;
-    DiagSink *faults;
+    DiagSink *diags;
     SceneGroup **groups; // in drawing order
     uint32_t group_count;
     uint32_t group_capacity;
@@ -128,7 +128,7 @@ typedef struct Scene {
 
 // Reads a `!canvas3d` of width x height pixels, into the arena.
 Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const FileAccess *reach,
-                  DiagSink *faults);
+                  DiagSink *diags);
 // Returns the parameters of a camera's view. Replaces missing values by defaults, and clamps `near` and `far` to their
 // limits.
 Eye scene_eye(const Scene *scene, const SceneCamera *camera);

@@ -91,9 +91,9 @@ bool hiding_face_of_ball(const Matrix *clip, const SceneBox *box, HidingFace *fa
         away[k] = clip->m[4 * k + 2];
         length += away[k] * away[k];
     }
-    int least = fabs(away[0]) <= fabs(away[1]) ? 0 : 1;
-    least = fabs(away[2]) < fabs(away[least]) ? 2 : least;
-    double axis[3] = {least == 0, least == 1, least == 2}, across[3], upwards[3];
+    int smallest = fabs(away[0]) <= fabs(away[1]) ? 0 : 1;
+    smallest = fabs(away[2]) < fabs(away[smallest]) ? 2 : smallest;
+    double axis[3] = {smallest == 0, smallest == 1, smallest == 2}, across[3], upwards[3];
     length = sqrt(length);
     for (int k = 0; k < 3; k++)
         away[k] /= length;

@@ -127,21 +127,21 @@ static void send_light_texture(const Drawing *drawing, const SceneLight *lights,
 // Stores the sum of the ambient lights in `drawing`. Sorts the remaining lights by kind into `sorted`, and returns the
 // number of these.
 static uint32_t sort_lights(Drawing *drawing, const SceneLight *all, uint32_t count, SceneLight *sorted) {
-    uint32_t made = 0;
+    uint32_t sorted_count = 0;
     memset(drawing->ambient, 0, sizeof drawing->ambient);
     for (int kind = LIGHT_AMBIENT; kind < LIGHT_KINDS; kind++) {
         for (uint32_t i = 0; i < count; i++) {
             if (all[i].kind != (float)kind)
                 continue;
             if (kind > LIGHT_AMBIENT)
-                sorted[made++] = all[i];
+                sorted[sorted_count++] = all[i];
             for (int k = 0; kind == LIGHT_AMBIENT && k < 3; k++)
                 drawing->ambient[k] += all[i].color[k];
         }
         if (kind > LIGHT_AMBIENT)
-            drawing->ends[kind - 1] = (GLint)made;
+            drawing->ends[kind - 1] = (GLint)sorted_count;
     }
-    return made;
+    return sorted_count;
 }
 
 static void send_lights(Drawing *drawing, const SceneGroup *group) {
@@ -188,14 +188,14 @@ static Str standard_fragment(const Drawing *drawing, unsigned variant, const cha
 static GLuint standard_program(const Drawing *drawing, unsigned variant) {
     const Scene *scene = drawing->scene;
     Text vertex = text_new(scene->arena);
-    GlShaderError fault;
+    GlShaderError error;
     text_add_c(&vertex, gl_header);
     add_variant(&vertex, variant);
     text_add_c(&vertex, gl_source_scene_vertex);
     GLuint program =
-        gl_program(drawing->gl, scene->arena, text_str(&vertex), standard_fragment(drawing, variant, ""), &fault);
+        gl_program(drawing->gl, scene->arena, text_str(&vertex), standard_fragment(drawing, variant, ""), &error);
     if (!program)
-        scene_report(scene, "bad-shader", scene->node, str_to_c(scene->arena, fault.text));
+        scene_report(scene, "bad-shader", scene->node, str_to_c(scene->arena, error.text));
     return program;
 }
 

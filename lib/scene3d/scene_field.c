@@ -7,7 +7,7 @@
 // Stores the inverse of a matrix in a field, and the factor by which the matrix scales distances at least. Returns
 // false if there is no inverse.
 static bool set_transform(Field *field, const Matrix *matrix) {
-    double cofactors[9], least = INFINITY;
+    double cofactors[9], smallest = INFINITY;
     matrix_cofactors(matrix, cofactors);
     double determinant = vector_dot(matrix->m, cofactors);
     if (!matrix_is_finite(matrix) || !(fabs(determinant) > 0))
@@ -17,9 +17,9 @@ static bool set_transform(Field *field, const Matrix *matrix) {
         for (int k = 0; k < 3; k++)
             m[k] = cofactors[3 * row + k] / determinant;
         m[3] = -(m[0] * matrix->m[12] + m[1] * matrix->m[13] + m[2] * matrix->m[14]);
-        least = fmin(least, sqrt(vector_dot(matrix->m + 4 * row, matrix->m + 4 * row)));
+        smallest = fmin(smallest, sqrt(vector_dot(matrix->m + 4 * row, matrix->m + 4 * row)));
     }
-    field->scale = least;
+    field->scale = smallest;
     return true;
 }
 
@@ -108,10 +108,10 @@ static Field *read_field(const Scene *scene, const DrawNode *node, const Matrix 
     return field;
 }
 
-static void read_corner(const DrawNode *node, AttrName name, AttrName alias, double fallback, double out[3]) {
+static void read_corner(const DrawNode *node, AttrName name, AttrName alias, double default_value, double out[3]) {
     const AttrValue *attr = draw_attr(node, name) ? draw_attr(node, name) : draw_attr(node, alias);
     for (int k = 0; k < 3; k++)
-        out[k] = attr ? attr->as.numbers[k] : fallback;
+        out[k] = attr ? attr->as.numbers[k] : default_value;
 }
 
 // Reads the box of an `!sdf`. Returns the distance between samples.

@@ -125,7 +125,7 @@ GLuint scene_group_program(const GroupView *view, const SceneGroup *group, Str s
     const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
     Arena *arena = view->scene->arena;
     Text texts[2] = {text_new(arena), text_new(arena)};
-    GlShaderError fault;
+    GlShaderError error;
     bool good = true;
     if (vertex)
         good = gl_expand_template(&texts[0], vertex->as.text);
@@ -137,9 +137,9 @@ GLuint scene_group_program(const GroupView *view, const SceneGroup *group, Str s
         text_add(&texts[1], standard);
     if (!good)
         return 0; // canvas_read has reported the template
-    GLuint program = gl_own_program(view->gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);
+    GLuint program = gl_own_program(view->gl, arena, text_str(&texts[0]), text_str(&texts[1]), &error);
     if (!program) {
-        gl_report_shader(view->scene->faults, node, &fault);
+        gl_report_shader(view->scene->diags, node, &error);
         return 0;
     }
     glUseProgram(program);
@@ -182,7 +182,7 @@ bool scene_group_draw(GroupView *view, const DrawNode *node, const SceneShape *s
     if (shape->index_count == 0)
         return true;
     const double left = gl_seconds_left(gl), start = clock_seconds(), processor = clock_read(CLOCK_PROCESS_CPUTIME_ID);
-    double taken = 0, needed;
+    double seconds = 0, needed;
     glEnable(GL_SCISSOR_TEST);
     needed = vertex_seconds(view, shape, count, UNEVEN * left);
     bool good = needed <= UNEVEN * left;
@@ -196,18 +196,18 @@ bool scene_group_draw(GroupView *view, const DrawNode *node, const SceneShape *s
         else if (band > BAND_SECONDS && view->rows > 2)
             view->rows = view->rows / 4 * 2;
         // A GPU takes no processor time; waiting for it counts a quarter.
-        taken = fmax(fmin(clock_read(CLOCK_PROCESS_CPUTIME_ID) - processor, THREADS * wall), wall / 4);
-        good = taken <= left;
-        needed = taken * view->height / (y + rows);
+        seconds = fmax(fmin(clock_read(CLOCK_PROCESS_CPUTIME_ID) - processor, THREADS * wall), wall / 4);
+        good = seconds <= left;
+        needed = seconds * view->height / (y + rows);
     }
     glDisable(GL_SCISSOR_TEST);
-    gl->shader_seconds += good ? taken : INFINITY;
+    gl->shader_seconds += good ? seconds : INFINITY;
     if (glGetError() != GL_NO_ERROR)
         scene_report(view->scene, "bad-shader", node, "OpenGL cannot draw with these shaders");
     if (good)
         return true;
     if (gl->budget)
         gl_refuse_passes(gl, needed, 1);
-    gl_report_limit(view->scene->faults, node, "the scene");
+    gl_report_limit(view->scene->diags, node, "the scene");
     return false;
 }

@@ -300,10 +300,10 @@ static void read_children(Scene *scene, const InheritedState *outside, const Dra
 }
 
 Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const FileAccess *reach,
-                  DiagSink *faults) {
+                  DiagSink *diags) {
     Scene *scene = arena_alloc(arena, sizeof *scene);
     *scene = (Scene){
-        .arena = arena, .node = node, .reach = reach, .faults = faults, .width = width, .detail = 1, .bits = bits};
+        .arena = arena, .node = node, .reach = reach, .diags = diags, .width = width, .detail = 1, .bits = bits};
     scene->textures = arena_grow_array(arena, NULL, 0, &scene->texture_capacity, sizeof *scene->textures);
     scene->textures[scene->texture_count++] = (SceneTextures){.border = false};
     InheritedState place = {.matrix = matrix_identity};

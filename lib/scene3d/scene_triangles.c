@@ -3,30 +3,30 @@
 #include "scene3d/mesh_file.h"
 #include "scene3d/scene_solid.h"
 
-bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *fault) {
-    *fault = (MeshError){
+bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshError *error) {
+    *error = (MeshError){
         "glTF is not supported; convert it to OBJ, for example with 'assimp export MODEL.glb MODEL.obj'", 0};
     if (str_starts_with(bytes, STR("glTF")) || str_starts_with(bytes, STR("{")))
         return false;
     if (str_starts_with(bytes, STR("ply\n")) || str_starts_with(bytes, STR("ply\r\n")))
-        return mesh_read_ply(arena, bytes, mesh, fault);
+        return mesh_read_ply(arena, bytes, mesh, error);
     if (str_starts_with(bytes, STR("OFF")) || str_starts_with(bytes, STR("COFF")))
-        return mesh_read_off(arena, bytes, mesh, fault);
-    return (mesh_is_stl(bytes) ? mesh_read_stl : mesh_read_obj)(arena, bytes, mesh, fault);
+        return mesh_read_off(arena, bytes, mesh, error);
+    return (mesh_is_stl(bytes) ? mesh_read_stl : mesh_read_obj)(arena, bytes, mesh, error);
 }
 
 static bool read_file(const Scene *scene, const DrawNode *node, Str name, Arena *arena, Mesh *mesh) {
     enum { MAX_BYTES = 256 << 20 };
-    MeshError fault = {0};
+    MeshError error = {0};
     Str bytes, text;
-    if (file_read(arena, scene->reach, scene_path(scene, name), true, MAX_BYTES, &bytes, NULL, &fault.text) &&
-        mesh_from_file(arena, bytes, mesh, &fault))
+    if (file_read(arena, scene->reach, scene_path(scene, name), true, MAX_BYTES, &bytes, NULL, &error.text) &&
+        mesh_from_file(arena, bytes, mesh, &error))
         return true;
-    Arena *report_arena = scene->faults->arena;
-    if (fault.line)
-        text = str_format(report_arena, "%.*s:%u: %s", STR_ARGS(name), fault.line, fault.text);
+    Arena *report_arena = scene->diags->arena;
+    if (error.line)
+        text = str_format(report_arena, "%.*s:%u: %s", STR_ARGS(name), error.line, error.text);
     else
-        text = str_format(report_arena, "cannot read '%.*s': %s", STR_ARGS(name), fault.text);
+        text = str_format(report_arena, "cannot read '%.*s': %s", STR_ARGS(name), error.text);
     scene_report(scene, "cannot-read", node, str_to_c(report_arena, text));
     return false;
 }
