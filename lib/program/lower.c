@@ -312,7 +312,7 @@ void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
     static const struct {
         void (*lower)(Lowering *lowering, const Expr *expr, int32_t d);
         uint16_t plain; // if `lower` is NULL: instruction whose operands are the children's values
-    } ways[EXPR_COUNT] = {
+    } lowerings[EXPR_COUNT] = {
 #define EXPR(kind)
 #define SAME(kind)
 #define PLAIN(kind) [EXPR_##kind] = {NULL, OP_##kind},
@@ -329,10 +329,10 @@ void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
         [EXPR_AND] = {.lower = lower_short_circuit}, [EXPR_RANGE] = {.lower = lower_range},
         [EXPR_INDEX] = {.lower = lower_subscript},   [EXPR_LOOKUP] = {.lower = lower_lookup}};
     int32_t mark = lowering->next_register;
-    if (ways[expr->kind].lower)
-        ways[expr->kind].lower(lowering, expr, d);
+    if (lowerings[expr->kind].lower)
+        lowerings[expr->kind].lower(lowering, expr, d);
     else
-        emit_operator(lowering, ways[expr->kind].plain, expr, d);
+        emit_operator(lowering, lowerings[expr->kind].plain, expr, d);
     lowering->next_register = mark;
 }
 

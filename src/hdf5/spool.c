@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 // First line of a spool. [0]: the spool continues an HDF5 file. [1]: the spool contains the whole trajectory.
-static const char *const KINDS[] = {"petri way 1 lengthens\n", "petri way 1 is whole \n"};
+static const char *const KINDS[] = {"petri spool 1 appends\n", "petri spool 1 creates\n"};
 enum { LINE = 22 }; // length of the first line
 
 typedef struct Entry {

@@ -172,22 +172,23 @@ TerminalPicture *terminal_picture_new(int fd, bool colour) {
     return NULL;
 }
 
-void terminal_picture_free(TerminalPicture *way) {
-    (void)way;
+void terminal_picture_free(TerminalPicture *renderer) {
+    (void)renderer;
 }
 
-bool terminal_picture_is_graphics(const TerminalPicture *way) {
-    (void)way;
+bool terminal_picture_is_graphics(const TerminalPicture *renderer) {
+    (void)renderer;
     return false;
 }
 
-TerminalCells terminal_picture_fit(const TerminalPicture *way, int columns, int rows, int width, int height) {
-    (void)way;
+TerminalCells terminal_picture_fit(const TerminalPicture *renderer, int columns, int rows, int width, int height) {
+    (void)renderer;
     return (TerminalCells){columns, rows, width, height};
 }
 
-char *terminal_picture_text(TerminalPicture *way, const uint32_t *pixels, const TerminalCells *cells, size_t *length) {
-    (void)way;
+char *terminal_picture_text(TerminalPicture *renderer, const uint32_t *pixels, const TerminalCells *cells,
+                            size_t *length) {
+    (void)renderer;
     (void)pixels;
     (void)cells;
     *length = 0;

@@ -2,10 +2,10 @@
 // else cells of Unicode characters (ASCII if the locale is not UTF-8) in the terminal's colours.
 //
 // To show one picture, as in still.h:
-//     TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, true);
-//     TerminalCells cells = terminal_picture_fit(way, columns, rows, width, height);   // the size of the script
+//     TerminalPicture *renderer = terminal_picture_new(STDOUT_FILENO, true);
+//     TerminalCells cells = terminal_picture_fit(renderer, columns, rows, width, height);   // the size of the script
 //     ... draw it with cells.width x cells.height pixels ...
-//     char *text = terminal_picture_text(way, pixels, &cells, &length);
+//     char *text = terminal_picture_text(renderer, pixels, &cells, &length);
 // and write the text and a newline. If petri was built without libchafa, terminal_picture_new returns NULL.
 #pragma once
 

@@ -36,7 +36,7 @@ FUZZ_HARNESS(spool) {
     FuzzText file = {0};
     Spool spool;
     Store store;
-    fuzz_append(&file, "petri way 1 is whole \n", 22);
+    fuzz_append(&file, "petri spool 1 creates\n", 22);
     fuzz_put_parts("t.h5.part", &file, data, size, add_block);
     const char *path = fuzz_file("t.h5");
     bool opened = spool_open(&spool, path, false);

@@ -134,7 +134,7 @@ static const struct {
     const char *cpu; // NULL: the best level; a level that this processor lacks is replaced by the best available one
                      // below it
     PetriNeighbours neighbours;
-} ways[] = {
+} variants[] = {
     {"1 thread", 1, NULL, PETRI_NEIGHBOURS_AUTO},
     {"2 threads", 2, NULL, PETRI_NEIGHBOURS_AUTO},
     {"3 threads", 3, NULL, PETRI_NEIGHBOURS_AUTO},
@@ -153,12 +153,12 @@ static const struct {
 };
 
 // Returns the hash of the state after some frames in one of the configurations.
-static uint64_t run_script(const char *script, int frames, size_t way) {
+static uint64_t run_script(const char *script, int frames, size_t variant) {
     World world;
     PetriOptions options = petri_default_options();
-    options.threads = ways[way].threads;
-    options.cpu = ways[way].cpu;
-    options.neighbours = ways[way].neighbours;
+    options.threads = variants[variant].threads;
+    options.cpu = variants[variant].cpu;
+    options.neighbours = variants[variant].neighbours;
     world_open_with(&world, options, script);
     world_to(&world, frames);
     EXPECT_REPORTED(&world, strstr(script, "(1/0") || strstr(script, "0/0)") ? "not-finite" : "");
@@ -167,8 +167,8 @@ static uint64_t run_script(const char *script, int frames, size_t way) {
     return hash;
 }
 
-static uint64_t hash_scene(size_t scene, size_t way) {
-    return run_script(scenes[scene].script, scenes[scene].frames, way);
+static uint64_t hash_scene(size_t scene, size_t variant) {
+    return run_script(scenes[scene].script, scenes[scene].frames, variant);
 }
 
 static void test_hashes_equal_the_constants_of_all_builds(void **state) {
@@ -188,9 +188,9 @@ static void test_hashes_equal_the_constants_of_all_builds(void **state) {
 static void test_hash_is_the_same_in_all_variants(void **state) {
     (void)state;
     for (size_t i = 0; i < COUNT_OF(scenes); i++)
-        for (size_t k = 0; k < COUNT_OF(ways); k++)
+        for (size_t k = 0; k < COUNT_OF(variants); k++)
             if (hash_scene(i, k) != scenes[i].hash)
-                fail_msg("%s: not the same with %s", scenes[i].name, ways[k].name);
+                fail_msg("%s: not the same with %s", scenes[i].name, variants[k].name);
 }
 
 // Particles that a grid cannot sort: one larger than the whole system, all at one point, extremely far apart, half of
@@ -211,10 +211,10 @@ static void test_bad_input(void **state) {
                                " velocity=normal(:v;i)[..2] %s\n !collision strength=100\n",
                                places[i]);
         uint64_t hash = run_script(script, 5, 5); // scalar code
-        for (size_t k = 0; k < COUNT_OF(ways); k++)
-            if (ways[k].neighbours != PETRI_NEIGHBOURS_AUTO || k < 3)
+        for (size_t k = 0; k < COUNT_OF(variants); k++)
+            if (variants[k].neighbours != PETRI_NEIGHBOURS_AUTO || k < 3)
                 if (run_script(script, 5, k) != hash)
-                    fail_msg("%s: not the same with %s", places[i], ways[k].name);
+                    fail_msg("%s: not the same with %s", places[i], variants[k].name);
         free(script);
     }
 }

@@ -129,9 +129,9 @@ static void test_suggested_strength_and_resolution_are_stable(void **state) {
             fail_msg("reported, but stable:\n%s", text);
         world_close(&world);
         free(text);
-        for (int way = 0; way < 2 && unstable; way++) {
-            text = text_of(script, n, way ? 1 / suggested[1] : 1.0 / 60, seed, seed, seed, n, n, n,
-                           way ? strength : suggested[0]);
+        for (int by_resolution = 0; by_resolution < 2 && unstable; by_resolution++) {
+            text = text_of(script, n, by_resolution ? 1 / suggested[1] : 1.0 / 60, seed, seed, seed, n, n, n,
+                           by_resolution ? strength : suggested[0]);
             world_open(&world, 60, text);
             world_to(&world, 600);
             if (largest_velocity(&world) > 1 || world.reported_count > 0)
