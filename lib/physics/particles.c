@@ -130,10 +130,10 @@ static inline bool keep_last_finite(const Columns *columns, const double *column
     bool finite = numbers_finite(column, n, stride), equal = true;
     for (size_t k = 0; k < n; k++)
         equal &= column[k * stride] == row[k];
-    bool taken = finite && (from_attribute || !equal);
-    for (size_t k = 0; k < n && taken; k++)
+    bool stored = finite && (from_attribute || !equal);
+    for (size_t k = 0; k < n && stored; k++)
         row[k] = column[k * stride];
-    for (size_t k = 0; k < n && !taken && home; k++)
+    for (size_t k = 0; k < n && !stored && home; k++)
         home[k * home_stride] = row[k];
     return finite;
 }

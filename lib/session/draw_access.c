@@ -52,12 +52,12 @@ void session_add_work(PetriSession *session, uint64_t work) {
     session->total_work += work;
 }
 
-bool session_has_source(const PetriSession *session, const Diag *fault) {
+bool session_has_source(const PetriSession *session, const Diag *diag) {
     const Unit *program = session->config.program;
     for (const Unit *unit = program; unit; unit = unit == program ? session->loader.modules : unit->next)
         for (const Unit *version = unit; version; version = version->last_good)
-            if (version->source == fault->at.source && fault->at.source)
-                return fault->at.span.end <= fault->at.source->text.len;
+            if (version->source == diag->at.source && diag->at.source)
+                return diag->at.span.end <= diag->at.source->text.len;
     return false;
 }
 

@@ -44,13 +44,13 @@ bool session_sample_function(PetriSession *session, Arena *arena, FunctionSample
                              uint32_t count, double *distances) PRIVATE_API(session_sample_function);
 
 // Returns true if the source of a diagnostic still exists. A reload may have freed the source.
-bool session_has_source(const PetriSession *session, const Diag *fault) PRIVATE_API(session_has_source);
+bool session_has_source(const PetriSession *session, const Diag *diag) PRIVATE_API(session_has_source);
 
 // Adds the work of drawing to the result of petri_work.
 void session_add_work(PetriSession *session, uint64_t work) PRIVATE_API(session_add_work);
 
-// Returns memory for lib/picture that lives as long as the session and is zeroed before frame 0. All calls must pass the
-// same size. Called within a protected call.
+// Returns memory for lib/picture that lives as long as the session and is zeroed before frame 0. All calls must pass
+// the same size. Called within a protected call.
 void *session_draw_memory(PetriSession *session, size_t size) PRIVATE_API(session_draw_memory);
 
 // Runs `call` as a protected call: it is aborted if memory runs out, a limit is exceeded or the session is interrupted.

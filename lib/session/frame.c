@@ -266,20 +266,20 @@ static PetriStatus evaluate_script(PetriSession *session, void *context) {
 
 static PetriStatus update_systems(PetriSession *session, void *context) {
     (void)context;
-    SessionFrame *made = &session->frame;
+    SessionFrame *frame = &session->frame;
     double start = clock_seconds();
     session_lint_top_nodes(session);
-    SceneFrame frame = {.state = session->state,
-                        .arena = &made->systems_arena,
-                        .number = session->clock.number,
-                        .time = session->clock.time,
-                        .fps = session->clock.rates.fps,
-                        .performance = session->clock.wall.performance,
-                        .lockstep = !session->clock.realtime,
-                        .generation = session->loader.generation,
-                        .resolution = session->config.resolution};
-    made->physics_steps = scene_update(session->scene, made->tree, &frame);
-    made->physics_seconds = clock_seconds() - start;
+    SceneFrame scene_frame = {.state = session->state,
+                              .arena = &frame->systems_arena,
+                              .number = session->clock.number,
+                              .time = session->clock.time,
+                              .fps = session->clock.rates.fps,
+                              .performance = session->clock.wall.performance,
+                              .lockstep = !session->clock.realtime,
+                              .generation = session->loader.generation,
+                              .resolution = session->config.resolution};
+    frame->physics_steps = scene_update(session->scene, frame->tree, &scene_frame);
+    frame->physics_seconds = clock_seconds() - start;
     return PETRI_OK;
 }
 
@@ -295,8 +295,8 @@ static PetriStatus evaluate_frame(PetriSession *session, const FrameClock *recor
     session->frame.missed = session->vm.missed;
     session->vm.missed = NULL;
     session_report_abort(session, status, "the frame");
-    bool counts = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
-    if (!counts)
+    bool is_kept = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
+    if (!is_kept)
         input_undo_write(scene_input(session->scene), session->state, &undo);
     if (status == PETRI_OK)
         return status;
@@ -383,17 +383,17 @@ static PetriStatus step_session(PetriSession *session, const ClockBase *at) {
     advance_clock(session, at, replays ? &recorded : NULL);
     session->frame_realtime = session->clock.realtime;
     status = evaluate_frame(session, replays ? &recorded : NULL);
-    bool counts = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
+    bool is_kept = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
     if (status == PETRI_OK) {
         status = update_frame(session);
-        counts = status == PETRI_OK || !session->options.rollback_frames;
+        is_kept = status == PETRI_OK || !session->options.rollback_frames;
     }
-    if (counts)
+    if (is_kept)
         record_frame(session, at && !replays, status == PETRI_OK);
-    if (!counts)
+    if (!is_kept)
         session->clock = clock;
     session->clock.realtime = clock.realtime;
-    session->undo_of_frame = counts && session->options.rollback_frames;
+    session->undo_of_frame = is_kept && session->options.rollback_frames;
     return status;
 }
 

@@ -286,10 +286,10 @@ static PetriStatus replay_step(PetriHistory *history) {
 
 // Adds the current frame to the timeline.
 static PetriStatus record_frame(PetriHistory *history) {
-    const SessionFrame *made = &history->session->frame;
+    const SessionFrame *computed = &history->session->frame;
     int64_t frame = history->session->clock.number;
     record_time(history);
-    history->seconds += made->evaluation_seconds + made->physics_seconds;
+    history->seconds += computed->evaluation_seconds + computed->physics_seconds;
     if (frame < history->last)
         follow_epoch(history);
     if (frame <= history->last)

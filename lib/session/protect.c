@@ -24,7 +24,7 @@ PetriStatus session_attempt(PetriSession *session, Arena *extra, SessionCall *ca
     Unit *compiling = session->loader.compiling;
     bool working = frame->evaluating;
     uint64_t before = 0;
-    Call made = {session, call, context, PETRI_OK};
+    Call protected_call = {session, call, context, PETRI_OK};
     if (session->call_depth++ == 0) {
         budget_begin(&session->budget, session->options.work_limit,
                      session->uninterruptible ? NULL : session->interrupt_source);
@@ -33,11 +33,11 @@ PetriStatus session_attempt(PetriSession *session, Arena *extra, SessionCall *ca
         session->vm.at = NULL;
         session->schema.current_node = NULL;
     }
-    ArenaOutcome end = arena_protect(arenas, sizeof arenas / sizeof *arenas, run_call, &made);
+    ArenaOutcome end = arena_protect(arenas, sizeof arenas / sizeof *arenas, run_call, &protected_call);
     if (--session->call_depth == 0)
         session->total_work += session->budget.work - before;
     if (end == ARENA_OK)
-        return made.status;
+        return protected_call.status;
     session->last_outcome = end;
     session->loader.compiling = compiling;
     frame->evaluating = working;

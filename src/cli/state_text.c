@@ -120,8 +120,8 @@ static bool take_number(Str *text, double *number) {
         return false;
     double value = infinite ? INFINITY : number_parse(digits);
     *number = negative ? -value : value;
-    size_t taken = word.len + (end != NULL);
-    *text = (Str){text->bytes + taken, text->len - taken};
+    size_t length = word.len + (end != NULL);
+    *text = (Str){text->bytes + length, text->len - length};
     return true;
 }
 

@@ -61,13 +61,13 @@ static void print_attributes(Text *text, size_t kind) {
     SCOPED_TEXT_TABLE table = text_table_new(4);
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_node_attribute(kind, i, &attribute, sizeof attribute); i++) {
-        char head[80], fallback[120] = "";
+        char head[80], default_text[120] = "";
         snprintf(head, sizeof head, "    %s", attribute.name);
         if (attribute.default_value[0] != '\0')
-            snprintf(fallback, sizeof fallback, "default %s", attribute.default_value);
+            snprintf(default_text, sizeof default_text, "default %s", attribute.default_value);
         text_table_add(&table, head);
         add_type(&table, &attribute);
-        text_table_add(&table, fallback);
+        text_table_add(&table, default_text);
         text_table_add(&table, attribute.help);
     }
     table_text(&table, text);

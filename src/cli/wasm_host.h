@@ -11,8 +11,8 @@
 #define HOST(name)
 #endif
 
-// Returns a new descriptor, at least `least`, of the same open file.
-HOST(duplicate) int host_duplicate(int descriptor, int least);
+// Returns a new descriptor, at least `min`, of the same open file.
+HOST(duplicate) int host_duplicate(int descriptor, int min);
 // Returns 0 if the descriptor is open.
 HOST(descriptor_flags) int host_descriptor_flags(int descriptor);
 // Ends the program as if by a signal.

@@ -10,12 +10,12 @@
 #include <string.h>
 
 static bool is_column(const Sweep *sweep, const char *name, size_t metrics) {
-    bool taken = strcmp(name, "run") == 0 || strcmp(name, "frame") == 0 || strcmp(name, "error") == 0;
+    bool found = strcmp(name, "run") == 0 || strcmp(name, "frame") == 0 || strcmp(name, "error") == 0;
     for (size_t i = 0; i < sweep->design.axis_count; i++)
-        taken = taken || strcmp(name, sweep->design.axes[i].name) == 0;
+        found = found || strcmp(name, sweep->design.axes[i].name) == 0;
     for (size_t i = 0; i < metrics; i++)
-        taken = taken || strcmp(name, sweep->metrics[i].name) == 0;
-    return taken;
+        found = found || strcmp(name, sweep->metrics[i].name) == 0;
+    return found;
 }
 
 static bool read_metrics(Sweep *sweep) {
