@@ -1,4 +1,7 @@
 // uniforms.c: see uniforms.h.
+//
+// A name is searched among the values that petri computes, then among the node's attributes, then among the names of
+// the frame. A uniform that is found nowhere is 0.
 #include "gl/uniforms.h"
 
 #include "gl/context.h"

@@ -1,4 +1,6 @@
 // automatic.c: the automatic picture of particle systems, as shapes for any target; see automatic.h.
+//
+// A panel is drawn from back to front: axes, barriers, links, bodies from far to near, scale bar.
 #include "picture/automatic.h"
 
 #include "maths/maths.h"

@@ -1,4 +1,8 @@
 // display_list_export.c: exports a picture as an array of numbers, for hosts with their own renderer; see petri-draw.h.
+//
+// The structs of operands and the functions that write them are made from the same list of commands, so they always
+// match. A matrix or paint is written only if it differs from the last one. A host restores both at the end of a layer,
+// so both are then written again.
 #include "picture/display_list.h"
 #include "picture/outline.h"
 #include "picture/painter.h"

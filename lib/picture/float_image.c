@@ -1,4 +1,7 @@
 // float_image.c: see float_image.h.
+//
+// A pool has a list of its images, so that those of an aborted drawing can be freed. If memory was refused, an image
+// has no pixels, and all functions accept such an image and do nothing.
 #include "picture/float_image.h"
 
 #include "base/heap.h"

@@ -1,4 +1,7 @@
 // framing.c: the view and the scale bar of the automatic picture; see automatic.h.
+//
+// The first view is chosen from the bodies around the median position, so that a few bodies that fly away do not affect
+// it.
 #include "maths/maths.h"
 #include "picture/automatic.h"
 

@@ -1,4 +1,7 @@
 // painter.c: opens painters, renders pictures, and draws them to pixels; see painter.h.
+//
+// A picture is rendered once: `rendered` is the serial number of the picture whose textures the render graph has. A
+// picture that does not use the graph clears it, because the next one then has nothing to continue.
 #include "picture/painter.h"
 
 #include "base/heap.h"

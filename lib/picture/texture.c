@@ -1,4 +1,7 @@
 // texture.c: see texture.h.
+//
+// A texture has pixels as bytes or as floats, an image on the GPU, or both. Uploads and downloads keep the pixels that
+// exist. The tables for sRGB are filled once for all threads, before their first use.
 #include "picture/texture.h"
 
 #include "base/heap.h"

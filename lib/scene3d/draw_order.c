@@ -1,4 +1,7 @@
 // draw_order.c: culls, sorts and batches the instances of a scene; see draw_order.h.
+//
+// Opaque instances with the same model and textures follow each other, so that few draws suffice. Transparent ones are
+// ordered by depth. No two instances are equal in this order, so it does not depend on qsort.
 #include "scene3d/draw_order.h"
 
 #include "scene3d/sphere_impostor.h"

@@ -1,4 +1,8 @@
 // gpu_cache.c: see gpu_cache.h.
+//
+// All memory on the GPU is charged to the painter's budget. If it refuses a target, all others are freed before petri
+// tries again. A model is freed when MAX_IDLE_SCENES scenes have not used it. After the context was lost, nothing is
+// deleted.
 #include "scene3d/gpu_cache.h"
 
 #include "base/heap.h"

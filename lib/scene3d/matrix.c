@@ -1,4 +1,6 @@
 // matrix.c: see matrix.h.
+//
+// Quarter turns are recognised, so that their matrices are exact.
 #include "scene3d/matrix.h"
 
 #include "maths/maths.h"

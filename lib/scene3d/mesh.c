@@ -1,4 +1,6 @@
 // mesh.c: box, sphere, cylinder and cone; see mesh.h.
+//
+// Corners at the same point are separate vertices if their normals or texture coordinates differ.
 #include "scene3d/mesh.h"
 
 #include "maths/maths.h"

@@ -1,4 +1,7 @@
 // mesh_surface.c: operations on a model's surface (spec canvas3d.md 7); see mesh.h.
+//
+// mesh_snap unites corners across each edge that is flat enough, so corners share a normal if a chain of such edges
+// connects them. A normal is the sum of the triangles' normals, weighted by their angles at the point.
 #include "maths/maths.h"
 #include "scene3d/matrix.h"
 #include "scene3d/mesh.h"

@@ -1,4 +1,8 @@
 // scene_draw.c: renders a camera's view of a scene; see scene.h.
+//
+// Instances are drawn in the order of draw_order.h, and a program is chosen only if group or variant change. If the
+// script's program of a group fails, the standard program replaces it. Afterwards, reset_state restores what other
+// users of the context expect.
 #include "gl/shader_sources.h"
 #include "scene3d/gpu_cache.h"
 #include "scene3d/scene_cost.h"

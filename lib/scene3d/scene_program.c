@@ -1,4 +1,7 @@
-// scene_program.c: see scene_program.h. Inputs and uniforms have the names that they have in Flitter.
+// scene_program.c: see scene_program.h.
+//
+// Inputs and uniforms have the names that they have in Flitter. A program of a script can take any time. So a draw is
+// divided into bands of rows, which are waited for one by one, and stops when the remaining time is used.
 #include "scene3d/scene_program.h"
 
 #include "base/clock.h"
