@@ -40,14 +40,17 @@ static PetriStatus add_define(PetriSession *session, void *context) {
     Str name = definition->name, value = definition->value;
     if (!session_is_name(name) || utf8_find_error(value) != value.len)
         return PETRI_INVALID;
-    uint32_t count = session->config.define_count;
-    Define *defines = arena_alloc_array(&session->arena, count + 1, sizeof *defines);
-    if (count)
-        memcpy(defines, session->config.defines, count * sizeof *defines);
+    // A new array, because checkpoints use the old one. It omits the old definition of the name, which would make each
+    // move of a slider dearer than the one before.
+    const Symbol *symbol = symbol_intern(&session->symbols, name);
+    Define *defines = arena_alloc_array(&session->arena, session->config.define_count + 1, sizeof *defines);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < session->config.define_count; i++)
+        if (session->config.defines[i].name != symbol)
+            defines[count++] = session->config.defines[i];
     Str text = str_format(&session->arena, "%.*s=%.*s", STR_ARGS(name), STR_ARGS(value));
     value = (Str){text.bytes + name.len + 1, value.len};
-    defines[count] =
-        (Define){symbol_intern(&session->symbols, name), define_value(session, value), str_to_c(&session->arena, text)};
+    defines[count] = (Define){symbol, define_value(session, value), str_to_c(&session->arena, text)};
     session->config.defines = defines;
     session->config.define_count = count + 1;
     session_change_config(session, true);

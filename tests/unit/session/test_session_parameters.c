@@ -341,6 +341,21 @@ static void test_rewind_restores_parameter(void **state) {
     petri_snapshot_free(before);
 }
 
+// A slider that moves for hours defines one name many times.
+static void test_definitions_replace_earlier_ones(void **state) {
+    Player *player = *state;
+    char definition[20], wanted[40];
+    enum { MANY = 20000 };
+    assert_int_equal(petri_define(player->session, "B=5"), PETRI_OK);
+    for (int i = 1; i <= MANY; i++) {
+        snprintf(definition, sizeof definition, "A=%d", i);
+        assert_int_equal(petri_define(player->session, definition), PETRI_OK);
+    }
+    player_run(player, "!a v=A;B\n", 1);
+    snprintf(wanted, sizeof wanted, "!a v=%d;5\n", MANY);
+    assert_text("last", player_tree(player), wanted);
+}
+
 // Modules do not see definitions (L13.2); included files do.
 static void test_modules_do_not_see_definitions(void **state) {
     Player *player = *state;
@@ -422,6 +437,7 @@ TEST_GROUP(session_parameters) {
         PLAYER_TEST(test_invalid_definitions_are_rejected),
         PLAYER_TEST(test_set_parameter),
         PLAYER_TEST(test_rewind_restores_parameter),
+        PLAYER_TEST(test_definitions_replace_earlier_ones),
         PLAYER_TEST(test_modules_do_not_see_definitions),
         PLAYER_TEST(test_recompiling_does_not_parse),
     };
