@@ -120,25 +120,9 @@ KERNEL void integrate_range(IntegratePass *pass, size_t n, size_t first, size_t 
         integrate_block(pass, n, i, end - i);
 }
 
-static void integrate_1(IntegratePass *pass, size_t first, size_t end) {
-    integrate_range(pass, 1, first, end);
-}
-
-static void integrate_2(IntegratePass *pass, size_t first, size_t end) {
-    integrate_range(pass, 2, first, end);
-}
-
-static void integrate_3(IntegratePass *pass, size_t first, size_t end) {
-    integrate_range(pass, 3, first, end);
-}
-
 void PER_ISA(integrate_all)(IntegratePass *pass, size_t first, size_t end) {
-    if (pass->columns->dimensions == 1)
-        integrate_1(pass, first, end);
-    else if (pass->columns->dimensions == 2)
-        integrate_2(pass, first, end);
-    else
-        integrate_3(pass, first, end);
+#define INTEGRATE(n) integrate_range(pass, n, first, end)
+    FOR_DIMENSIONS(pass->columns->dimensions, INTEGRATE);
 }
 
 // Returns true if all parts are finite in all lanes. Sets `zeros` to the lanes in which some part is 0.
@@ -208,11 +192,8 @@ KERNEL size_t write_range(const Columns *columns, size_t n, const uint32_t *orde
 }
 
 size_t PER_ISA(write_rows)(const Columns *columns, const uint32_t *order, double *rows, size_t first, size_t end) {
-    if (columns->dimensions == 1)
-        return write_range(columns, 1, order, rows, first, end);
-    if (columns->dimensions == 2)
-        return write_range(columns, 2, order, rows, first, end);
-    return write_range(columns, 3, order, rows, first, end);
+#define WRITE(n) write_range(columns, n, order, rows, first, end)
+    return FOR_DIMENSIONS(columns->dimensions, WRITE);
 }
 
 #endif

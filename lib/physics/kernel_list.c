@@ -117,12 +117,8 @@ LIST_KERNEL(2)
 LIST_KERNEL(3)
 
 void PER_ISA(list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end) {
-    if (pass->dimensions == 1)
-        forces_1(pass, view, first, end);
-    else if (pass->dimensions == 2)
-        forces_2(pass, view, first, end);
-    else
-        forces_3(pass, view, first, end);
+#define FORCES(n) forces_##n(pass, view, first, end)
+    FOR_DIMENSIONS(pass->dimensions, FORCES);
 }
 
 KERNEL bool refresh_range(const PairPass *pass, const ListView *view, size_t dimensions, size_t first, size_t end) {
@@ -165,9 +161,8 @@ static void refresh_sources(const PairPass *pass, const ListView *view, size_t f
 bool PER_ISA(list_refresh)(const PairPass *pass, const ListView *view, size_t first, size_t end) {
     if (view->sources)
         refresh_sources(pass, view, first, end);
-    if (pass->dimensions == 1)
-        return refresh_range(pass, view, 1, first, end);
-    return pass->dimensions == 2 ? refresh_range(pass, view, 2, first, end) : refresh_range(pass, view, 3, first, end);
+#define REFRESH(n) refresh_range(pass, view, n, first, end)
+    return FOR_DIMENSIONS(pass->dimensions, REFRESH);
 }
 
 KERNEL void apply_range(const PairPass *pass, PairShape shape, const uint32_t *targets, size_t count, size_t first,
@@ -194,10 +189,6 @@ KERNEL void apply_range(const PairPass *pass, PairShape shape, const uint32_t *t
 }
 
 void PER_ISA(range_forces)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end) {
-    if (pass->dimensions == 1)
-        apply_range(pass, (PairShape){1, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
-    else if (pass->dimensions == 2)
-        apply_range(pass, (PairShape){2, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
-    else
-        apply_range(pass, (PairShape){3, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
+#define APPLY(n) apply_range(pass, (PairShape){n, LEAD_NONE, REST_ANY, false}, targets, count, first, end)
+    FOR_DIMENSIONS(pass->dimensions, APPLY);
 }

@@ -336,10 +336,6 @@ void PER_ISA(list_search)(const ListSearch *search, ListChunk *chunk) {
     finder.batch.end = 0;
     for (size_t k = 0; k < SPARE; k++)
         finder.dummies[k] = search->dummy * (uint32_t)search->list->view.width;
-    if (grid->dimensions == 1)
-        search_1(search, chunk, &finder);
-    else if (grid->dimensions == 2)
-        search_2(search, chunk, &finder);
-    else
-        search_3(search, chunk, &finder);
+#define SEARCH_BLOCKS(n) search_##n(search, chunk, &finder)
+    FOR_DIMENSIONS(grid->dimensions, SEARCH_BLOCKS);
 }

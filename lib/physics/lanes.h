@@ -32,6 +32,9 @@
 #define PER_ISA(name) name##_avx512
 #endif
 
+// Evaluates CALL(n), where n is the number of dimensions, from 1 to 3, as a constant.
+#define FOR_DIMENSIONS(dimensions, CALL) ((dimensions) == 1 ? CALL(1) : (dimensions) == 2 ? CALL(2) : CALL(3))
+
 // Returns a mask of the first `count` lanes.
 KERNEL Mask mask_first(size_t count) {
 #if LANES == 1

@@ -65,19 +65,11 @@ KERNEL void row_forces(const PairPass *pass, size_t n, size_t i, size_t first, s
 }
 
 void phys_pair_row(const PairPass *pass, size_t i, size_t first, size_t end) {
-    switch (pass->dimensions) {
-    case 1:
-        row_forces(pass, 1, i, first, end);
-        break;
-    case 2:
-        row_forces(pass, 2, i, first, end);
-        break;
-    case 3:
-        row_forces(pass, 3, i, first, end);
-        break;
-    default:
-        row_forces(pass, pass->dimensions, i, first, end);
-    }
+#define ROW(n) row_forces(pass, n, i, first, end)
+    if (pass->dimensions <= PHYS_VECTOR_DIMENSIONS)
+        FOR_DIMENSIONS(pass->dimensions, ROW);
+    else
+        ROW(pass->dimensions);
 }
 
 static bool link_coefficient(const Force *force, double length, double *coefficient) {
