@@ -92,6 +92,7 @@ test('a TypeScript program compiles, runs, and gets values of the declared types
     fits('Status', [got.status, ...got.statuses]);
     assert.equal(typeof got.snapshot.bytes, 'number');
     assert.equal(typeof got.snapshot.free, 'function');
+    assert.equal(got.before, false);
 
     assert.ok(Math.abs(got.place - 2.5) < 1e-9, got.place);
     assert.deepEqual([got.frame.number, got.text, got.number, got.same, got.status, got.name], [1, '3', 3, true, 'invalid', 'world']);

@@ -1,7 +1,8 @@
 // use.ts: a TypeScript program that uses the package. types.test.mjs checks its types and runs it.
 import { loadEngine, PetriError, STATUS } from 'petri';
 import type {
-    Column, Diagnostic, Engine, Explanation, Frame, Help, Options, Parameter, Picture, RenderedImage, Snapshot, Status, System, Token,
+    Column, Diagnostic, Engine, Explanation, Frame, Help, History, Options, Parameter, Picture, RenderedImage, Snapshot, Status, System,
+    Token,
 } from 'petri';
 import { pictureSize } from 'petri/drawing';
 
@@ -42,6 +43,8 @@ export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string,
     const hash: string = session.hash(), digest: string = session.digest();
     session.step();
     const again: string = session.rewind(snapshot).hash();
+    const history: History = session.history(1e6), before: boolean = history.rewind(-2);
+    history.free();
     const tokens: Token[] = session.tokens('if 1 -- one\n    !a x=:b\n');
     const help: Help[] = session.help();
     const { text, number } = session.evaluate('1+2');
@@ -68,7 +71,8 @@ export async function run(wasm: Uint8Array<ArrayBuffer>): Promise<Record<string,
     status === 'fine';
 
     const result = {
-        frame, parameters, systems: structuredClone(systems), picture, shown, snapshot, tokens, help, diagnostics, reported, place, state,
+        frame, parameters, systems: structuredClone(systems), picture, shown, snapshot, before, tokens, help, diagnostics, reported, place,
+        state,
         size,
         same: hash === again && digest.length === 32 && forces === null && table.dimensions === 2, text, number, printed, status,
         statuses: STATUS, name, kinds, wrong, part, version: engine.version,
