@@ -1,5 +1,5 @@
-// archives.c: wrappers for the functions of petri-archive.h, as in engine.c. Only engine-archives.wasm contains them. The files
-// are in JavaScript's memory (engine/archive.mjs).
+// archives.c: wrappers for the functions of petri-archive.h, as in engine.c. Only engine-archives.wasm contains them.
+// The files are in JavaScript's memory (engine/archive.mjs).
 #include "petri-archive.h"
 #include "petri-inspect.h"
 #include "web/host.h"

@@ -105,8 +105,35 @@ test('forged and damaged archives are detected', edits, () => {
     assert.throws(() => archive.load(session), /cannot load the archive: the archive is damaged: table keyframe: row -1 is not valid/);
 });
 
-test('the engine without archives says so', async () => {
-    const small = await loadEngine();
+test('archives are independent of each other, and are freed', node, () => {
+    const bytes = readFileSync(live), open = engine.memory.files.files, before = open.size;
+    const first = engine.openArchive(bytes), session = engine.open({ archive: first });
+    first.load(session);
+    const cycle = () => {
+        const other = engine.openArchive(bytes);
+        assert.equal(other.check(), null);
+        other.close();
+        assert.equal(first.compare(session.step()), true);
+    };
+    cycle();
+    const size = engine.memory.bytes().length;
+    for (let i = 0; i < 50; i++)
+        cycle();
+    assert.ok(engine.memory.bytes().length <= size + (1 << 20));
+    session.close();
+    first.close();
+    assert.equal(open.size, before);
+});
+
+test('the engine without archives says so, and computes the same', async () => {
+    const small = await loadEngine(), text = readFileSync(join(root, 'samples/dish.fl'), 'utf8');
+    const [one, other] = [small, engine].map(loaded => {
+        const session = loaded.open().load(text);
+        for (let frame = 0; frame < 20; frame++)
+            session.step();
+        return session.hash();
+    });
+    assert.equal(one, other);
     assert.throws(() => small.openArchive(new Uint8Array(0)), /this engine has no archives; load engine-archives\.wasm/);
 });
 
@@ -154,7 +181,8 @@ test('the command in Node.js records the rows of the native command', edits, () 
         return [
             execFileSync('sqlite3', [join(scratch, 'rows.petri'), '.dump'], { encoding: 'utf8' }),
             run('archive', 'info', 'rows.petri'), run('archive', 'verify', 'rows.petri'),
-            run('run', 'rows.petri', '--from', '30', '--frames', '10', '--print', 'digest'), readFileSync(join(scratch, `unpacked${i}/live.fl`), 'utf8'),
+            run('run', 'rows.petri', '--from', '30', '--frames', '10', '--print', 'digest'),
+            readFileSync(join(scratch, `unpacked${i}/live.fl`), 'utf8'),
         ];
     });
     assert.deepEqual(rows[1], rows[0]);
