@@ -22,7 +22,8 @@ test('tokens are coloured by their kind', options, () => opened('', {
     use: async page => {
         await typed(page, '-- said\nlet n=12\n!canvas a=n b="word" c=:symbol\n');
         const colours = await page.waitForFunction(() => {
-            const spans = [...document.querySelectorAll('.cm-line span')];
+            // Spans of diagnostics contain those of tokens.
+            const spans = [...document.querySelectorAll('.cm-line span:not(:has(span))')];
             const of = text => spans.filter(span => span.textContent.trim() === text).map(span => getComputedStyle(span).color)[0];
             const found = ['-- said', 'let', '12', '!canvas', '"word"', ':symbol'].map(of);
             return found.every(Boolean) && { found, plain: getComputedStyle(document.querySelector('.cm-content')).color };
