@@ -13,7 +13,7 @@ sqlite() {
     mkdir -p "$1"
     to=$(cd "$1" && pwd)
     command -v npm >/dev/null || return 1
-    (cd "$to" && npm pack --silent "$SQLITE_SOURCE" >pack.log 2>&1 &&
+    (cd "$to" && npm pack --loglevel=error "$SQLITE_SOURCE" >pack.log 2>&1 &&
         tar -xzf better-sqlite3-*.tgz --strip-components=3 package/deps/sqlite3) || return 1
     echo "$SQLITE_SHA256  $to/sqlite3.c" | sha256sum --check --quiet || die "the SQLite in $SQLITE_SOURCE is not the expected one"
     { "$2" -Os -DSQLITE_OMIT_LOAD_EXTENSION -c "$to/sqlite3.c" -o "$to/sqlite3.o" && "$3" rcs "$to/libsqlite3.a" "$to/sqlite3.o"; } ||
