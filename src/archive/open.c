@@ -13,8 +13,7 @@ PetriArchive *archive_open(const Options *options, const char *file) {
 
 // clang-format off
 static const OptionSpec ROWS[] = {
-    MEMORY_OPTION
-    NO_MORE_OPTIONS
+    MEMORY_OPTION NO_MORE_OPTIONS
 };
 // clang-format on
 const OptionTable ARCHIVE_OPTIONS = {.rows = ROWS};

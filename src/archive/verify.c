@@ -14,10 +14,6 @@ typedef struct Own {
     int64_t sample_segments; // 0: all
 } Own;
 
-static const Own *own_options(const Options *options) {
-    return options->own;
-}
-
 static void print_difference(const Verification *verification, Output *output) {
     const SegmentResult *found = &verification->result;
     output_format(output, "frame %" PRId64 " differs\n", found->frame);
@@ -57,7 +53,7 @@ static int verify_archive(const CommandContext *context, const Options *options,
     CommandContext alone = *context; // each rank computes its segments itself
     alone.ranks = NULL;
     Verification verification = {.context = &alone, .options = options, .file = options->script, .stride = 1};
-    segments_choose(&verification, archive, own_options(options)->sample_segments);
+    segments_choose(&verification, archive, ((const Own *)options->own)->sample_segments);
     ranks_divide(&verification);
     segments_verify(&verification);
     ranks_combine(&verification);
@@ -89,8 +85,7 @@ static const OptionSpec ROWS[] = {
     LIMIT_OPTIONS
     OWN("sample", 0, "K", WHOLE(1, INT64_MAX), sample_segments, "verify only K segments, chosen at random")
     SHARED("threads", 0, "N", WHOLE(1, 1024), threads, "verify N segments at a time (default: number of CPUs)")
-    QUIET_OPTION
-    NO_MORE_OPTIONS
+    QUIET_OPTION NO_MORE_OPTIONS
 };
 // clang-format on
 static const OptionTable VERIFY_OPTIONS = {ROWS, sizeof(Own), NULL};

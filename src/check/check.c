@@ -19,10 +19,6 @@ typedef struct Own {
     bool werror;
 } Own;
 
-static const Own *own_options(const Options *options) {
-    return options->own;
-}
-
 typedef struct Check {
     Options *options;
     bool shown_last; // true if the last error or warning was shown; its notes are then shown as well
@@ -49,6 +45,7 @@ typedef struct Counts {
 // Checks scripts `first` to `end` - 1 with one session, which reads the files of an archive if `options` has one.
 static int check_scripts(Check *check, const CommandContext *host, const Options *options, size_t first, size_t end,
                          Counts *counts) {
+    const Own *own = options->own;
     PetriSession *session = NULL;
     int status = options_open(options, host, on_diagnostic, check, &session);
     if (status != OPTIONS_READ)
@@ -60,7 +57,7 @@ static int check_scripts(Check *check, const CommandContext *host, const Options
             counts->rejected += replay_check(options, session) != PETRI_OK;
         else if (!petri_archive_is(path)) // check_archives checks archives
             counts->rejected += script_check(session, path) != PETRI_OK;
-        if (own_options(options)->stats && (options->replayed || !petri_archive_is(path)))
+        if (own->stats && (options->replayed || !petri_archive_is(path)))
             check_print_meshes(host, options, path);
     }
     check->report.script = NULL;
@@ -106,6 +103,7 @@ static void report_unreadable(Check *check) {
 
 static int check_all(Check *check, const CommandContext *host) {
     const Options *options = check->options;
+    const Own *own = options->own;
     Counts counts = {0};
     int status = check_scripts(check, host, options, 0, options->scripts.count, &counts);
     if (status == OPTIONS_READ)
@@ -118,17 +116,18 @@ static int check_all(Check *check, const CommandContext *host) {
                 options->scripts.count == 1 ? "" : "s", errors, errors == 1 ? "" : "s", warnings,
                 warnings == 1 ? "" : "s");
     report_unreadable(check);
-    bool clean = counts.rejected == 0 && errors == 0 && options->unreadable.count == 0 &&
-                 !(own_options(options)->werror && warnings > 0);
+    bool clean =
+        counts.rejected == 0 && errors == 0 && options->unreadable.count == 0 && !(own->werror && warnings > 0);
     int result = clean ? STATUS_DONE : STATUS_FAILED;
     return check->report.form == REPORT_TEXT ? result : report_end(&check->report, result);
 }
 
 static int check_run(const CommandContext *host, Options *options) {
+    const Own *own = options->own;
     if (options->scripts.count > 0 || options->unreadable.count > 0)
         return check_all(&(Check){.options = options,
                                   .shown_last = options->verbosity != LOG_QUIET,
-                                  .report = {.form = (ReportForm)own_options(options)->report}},
+                                  .report = {.form = (ReportForm)own->report}},
                          host);
     message("no script found: no file is named *.fl");
     return STATUS_FAILED;
@@ -140,12 +139,9 @@ static bool check_needs_pictures(char *const *words) {
 
 // clang-format off
 static const OptionSpec ROWS[] = {
-    DEFINE_NAME_OPTION
-    FILE_OPTIONS
-    LIMIT_OPTIONS
+    DEFINE_NAME_OPTION FILE_OPTIONS LIMIT_OPTIONS
     OWN("stats", 0, NULL, option_flag, stats, "print how many triangles the solids, distance fields and models of the first frame have")
-    QUIET_OPTION
-    COLOUR_OPTION
+    QUIET_OPTION COLOUR_OPTION
     OWN("format", 0, "F", ONE_OF(option_choice, "text", "gcc", "json", "sarif"), report, "output format: text (stderr); gcc, json, sarif (stdout)")
     OWN("werror", 0, NULL, option_flag, werror, "treat warnings as errors")
     NO_MORE_OPTIONS

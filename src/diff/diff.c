@@ -22,10 +22,6 @@ typedef struct Own {
     bool json;
 } Own;
 
-static const Own *own_options(const Options *options) {
-    return options->own;
-}
-
 enum { STATUS_SAME = 0, STATUS_DIFFERS = 1, STATUS_TROUBLE = 2 };
 
 typedef struct Diff {
@@ -87,7 +83,7 @@ static void set_label(Side *side, bool settings) {
 // Sets the sources and options of both sides. Returns false after a message.
 static bool read_sides(Diff *diff, const CommandContext *host) {
     Options *options = diff->options;
-    const Own *own = own_options(options);
+    const Own *own = options->own;
     Side *sides = diff->sides;
     if (!options->second && !own->against && !own->with && !side_is_golden(options->script)) {
         message("nothing to compare with %s: give a second run, --against or --with", options->script);
@@ -198,7 +194,7 @@ static int arguments_before(const Options *options) {
 // Reads the options of the first run. After --against, -D sets parameters of the second run only.
 static bool read_first_options(Diff *diff) {
     Options *options = diff->options;
-    if (!own_options(options)->against)
+    if (!((const Own *)options->own)->against)
         return true;
     if (options_parse(&diff->first_options, &DIFF_COMMAND, diff->host, arguments_before(options), options->argv) !=
         OPTIONS_READ)
@@ -220,7 +216,7 @@ static int diff_runs(Diff *diff, const CommandContext *host, Output *output) {
 }
 
 static int diff_run(const CommandContext *host, Options *options) {
-    Diff diff = {.host = host, .options = options, .json = own_options(options)->json};
+    Diff diff = {.host = host, .options = options, .json = ((const Own *)options->own)->json};
     Output output;
     output_start(&output, STDOUT_FILENO);
     options->keep_forces = true;
@@ -242,16 +238,8 @@ static const OptionSpec ROWS[] = {
     OWN("against", 0, NULL, option_flag, against, "begin the operand and options of the second run")
     OWN("with", 0, "PROGRAM", option_text, with, "compute the second run with PROGRAM, another build of petri")
     OWN("json", 0, NULL, option_flag, json, "print the result as JSON")
-    FPS_OPTION
-    DEFINE_OPTION
-    READ_OPTIONS
-    THREADS_OPTION
-    LIMIT_OPTIONS
-    METHOD_OPTIONS
-    NO_BATCHES_OPTION
-    QUIET_OPTION
-    COLOUR_OPTION
-    NO_MORE_OPTIONS
+    FPS_OPTION DEFINE_OPTION READ_OPTIONS THREADS_OPTION LIMIT_OPTIONS METHOD_OPTIONS NO_BATCHES_OPTION QUIET_OPTION
+    COLOUR_OPTION NO_MORE_OPTIONS
 };
 // clang-format on
 static const OptionTable DIFF_OPTIONS = {ROWS, sizeof(Own), NULL};

@@ -17,10 +17,6 @@ typedef struct Own {
     bool only_checks; // write nothing
 } Own;
 
-static const Own *own_options(const Options *options) {
-    return options->own;
-}
-
 typedef struct Formatting {
     PetriSession *session;
     bool only_checks;
@@ -80,7 +76,8 @@ static void format_script(Formatting *formatting, const char *name) {
 }
 
 static int fmt_run(const CommandContext *host, Options *options) {
-    Formatting formatting = {.only_checks = own_options(options)->only_checks};
+    const Own *own = options->own;
+    Formatting formatting = {.only_checks = own->only_checks};
     if (options->scripts.count == 0) {
         if (options->unreadable.count == 0)
             message("no script found: no file is named *.fl");

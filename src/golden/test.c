@@ -24,10 +24,6 @@ typedef struct Own {
     const char *as_neighbours; // overrides --neighbours of goldens; NULL: no override
 } Own;
 
-static Own *own_options(const Options *options) {
-    return options->own;
-}
-
 enum { MAX_CPUS = 256 };
 
 // A test of one script.
@@ -45,6 +41,7 @@ typedef struct Case {
 typedef struct Suite {
     const CommandContext *host;
     Options *options;
+    Own *own;
     Case *cases;
     size_t count;
     size_t reported; // number of cases whose result was printed
@@ -78,8 +75,7 @@ static void add_lost_golden(Suite *suite, const Script *golden) {
 }
 
 static void add_case(Suite *suite, const Script *script) {
-    const Own *own = own_options(suite->options);
-    if (own->filter && !strstr(script->path + script->relative_start, own->filter))
+    if (suite->own->filter && !strstr(script->path + script->relative_start, suite->own->filter))
         return;
     if (suite->options->scripts.goldens && str_ends_with(str_from(script->path), STR(".golden"))) {
         add_lost_golden(suite, script);
@@ -108,7 +104,6 @@ static void add_override(char **argv, int *argc, Text *text, const char *name, c
 }
 
 static void start_child(Suite *suite, Case *item) {
-    const Own *own = own_options(suite->options);
     SCOPED_STRING folder = memory_folder(item->script);
     const Golden *golden = &item->golden;
     char **argv = memory_calloc((golden->options.count + 11) * sizeof *argv);
@@ -124,8 +119,8 @@ static void start_child(Suite *suite, Case *item) {
         argv[argc++] = "--frames=1";
     for (size_t i = 0; i < golden->options.count; i++)
         argv[argc++] = golden->options.items[i];
-    add_override(argv, &argc, &threads, "threads", own->as_threads);
-    add_override(argv, &argc, &neighbours, "neighbours", own->as_neighbours);
+    add_override(argv, &argc, &threads, "threads", suite->own->as_threads);
+    add_override(argv, &argc, &neighbours, "neighbours", suite->own->as_neighbours);
     if (suite->options->unsimplified)
         argv[argc++] = "--nosimplify";
     if (suite->options->no_batches)
@@ -175,7 +170,7 @@ static void check_case(const Suite *suite, Case *item, int status, const Text *o
         subprocess_describe(status, errors, &result->error_text);
     else if (has_diverged(errors, &result->error_text))
         result->passed = false;
-    else if (own_options(suite->options)->update)
+    else if (suite->own->update)
         result->passed = golden_update(&item->golden, item->recorded, output, &result->updated, &result->error_text);
     else
         result->passed = golden_compare(&item->golden, output, &result->error_text);
@@ -210,14 +205,14 @@ static void report_done(Suite *suite, size_t started) {
 
 // Returns false if no one reads the results: standard output is closed and there is no --junit.
 static bool is_wanted(const Suite *suite) {
-    return suite->output.error == 0 || own_options(suite->options)->junit;
+    return suite->output.error == 0 || suite->own->junit;
 }
 
 static void run_cases(Suite *suite) {
     size_t started = 0;
     int64_t running = 0;
     while ((started < suite->count && is_wanted(suite)) || running > 0) {
-        if (started < suite->count && running < own_options(suite->options)->jobs && is_wanted(suite)) {
+        if (started < suite->count && running < suite->own->jobs && is_wanted(suite)) {
             Case *item = &suite->cases[started++];
             if (!item->done)
                 start_case(suite, item);
@@ -243,13 +238,12 @@ static bool write_junit(const Suite *suite) {
     Result **results = memory_calloc(suite->count * sizeof *results);
     for (size_t i = 0; i < suite->count; i++)
         results[i] = &suite->cases[i].result;
-    bool done = report_junit(own_options(suite->options)->junit, results, suite->count);
+    bool done = report_junit(suite->own->junit, results, suite->count);
     free(results);
     return done;
 }
 
 static int run_suite(Suite *suite) {
-    const Own *own = own_options(suite->options);
     if (suite->options->scripts.count == 0 && suite->options->unreadable.count > 0)
         return STATUS_FAILED;
     suite->cases = memory_calloc(suite->options->scripts.count * sizeof *suite->cases);
@@ -257,7 +251,7 @@ static int run_suite(Suite *suite) {
         add_case(suite, &suite->options->scripts.items[i]);
     if (suite->count == 0) {
         message("no script found with a .golden or .err file%s",
-                !own->filter ? "; see 'petri help test' for how to create one" : " that matches --filter");
+                !suite->own->filter ? "; see 'petri help test' for how to create one" : " that matches --filter");
         return STATUS_FAILED;
     }
     run_cases(suite);
@@ -265,7 +259,7 @@ static int run_suite(Suite *suite) {
     for (size_t i = 0; i < suite->count; i++)
         passed += suite->cases[i].result.passed ? 1 : 0;
     output_format(&suite->output, "%zu passed, %zu failed\n", passed, suite->count - passed);
-    bool reported = !own->junit || write_junit(suite);
+    bool reported = !suite->own->junit || write_junit(suite);
     return passed == suite->count && reported && suite->options->unreadable.count == 0 ? STATUS_DONE : STATUS_FAILED;
 }
 
@@ -278,8 +272,8 @@ static void free_suite(Suite *suite) {
 }
 
 static int test_run(const CommandContext *context, Options *options) {
-    Own *own = own_options(options);
-    Suite suite = {.host = context, .options = options, .output.fd = STDOUT_FILENO};
+    Own *own = options->own;
+    Suite suite = {.host = context, .options = options, .own = own, .output.fd = STDOUT_FILENO};
     if (own->jobs == 0) {
         int jobs = subprocess_default_jobs();
         own->jobs = jobs > MAX_CPUS ? MAX_CPUS : jobs;
@@ -297,9 +291,7 @@ static const OptionSpec ROWS[] = {
     OWN("jobs", 0, "N", WHOLE(1, 256), jobs, "run N scripts at a time (default: number of CPUs)")
     OWN("threads", 0, "N", option_text, as_threads, "run all scripts with --threads N")
     OWN("neighbours", 0, "WHEN", option_text, as_neighbours, "run all scripts with --neighbours WHEN")
-    NOSIMPLIFY_OPTION
-    NO_BATCHES_OPTION
-    NO_MORE_OPTIONS
+    NOSIMPLIFY_OPTION NO_BATCHES_OPTION NO_MORE_OPTIONS
 };
 // clang-format on
 static const OptionTable TEST_OPTIONS = {ROWS, sizeof(Own), NULL};

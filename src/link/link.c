@@ -16,10 +16,6 @@ typedef struct Own {
     const char *page; // URL of the page; NULL: not given
 } Own;
 
-static const Own *own_options(const Options *options) {
-    return options->own;
-}
-
 // Adds a change for each `NAME=VALUE` of -D. read_definition has already rejected definitions without `=`.
 static void read_definitions(Linked *linked, const TextList *definitions) {
     linked->changes = memory_calloc((definitions->count + 1) * sizeof *linked->changes);
@@ -52,7 +48,7 @@ static int print_link(const Linked *linked, const char *page) {
 }
 
 static int make_link(const CommandContext *context, Options *options, LinkSession *link_session) {
-    const Own *own = own_options(options);
+    const Own *own = options->own;
     Linked *linked = &link_session->linked;
     if (!link_possible() || !read_script(&linked->text, options->script))
         return STATUS_FAILED;
@@ -88,12 +84,7 @@ static const OptionSpec ROWS[] = {
     OWN("frame", 0, "N", WHOLE(0, 1000000), frame, "also store the frame number N and the digest of that frame's state")
     OWN("html", 0, "FILE", option_text, html, "write a page to FILE that contains the script, its files and the engine, and runs without a network")
     OWN("page", 0, "ADDRESS", option_text, page, "print a whole URL, with the playground at ADDRESS (default: print only the part from '#')")
-    DEFINE_OPTION
-    THREADS_OPTION
-    LIMIT_OPTIONS
-    QUIET_OPTION
-    COLOUR_OPTION
-    NO_MORE_OPTIONS
+    DEFINE_OPTION THREADS_OPTION LIMIT_OPTIONS QUIET_OPTION COLOUR_OPTION NO_MORE_OPTIONS
 };
 // clang-format on
 static const OptionTable LINK_OPTIONS = {ROWS, sizeof(Own), &(const Own){.frame = -1}};

@@ -21,10 +21,6 @@ typedef struct Own {
     const char *output; // output file
 } Own;
 
-static const Own *own_options(const Options *options) {
-    return options->own;
-}
-
 static bool read_link(Linked *linked, const char *operand) {
     static const size_t max_bytes = (size_t)1 << 20;
     SCOPED_TEXT link = {0};
@@ -55,7 +51,8 @@ static int save_picture(LinkSession *link_session, const char *file) {
 
 // Shows the picture if standard output is a terminal.
 static int show_picture(PetriSession *session, PetriPainter *painter, const Options *options) {
-    bool wanted = !own_options(options)->output && options->verbosity > LOG_QUIET && isatty(STDOUT_FILENO) &&
+    const Own *own = options->own;
+    bool wanted = !own->output && options->verbosity > LOG_QUIET && isatty(STDOUT_FILENO) &&
                   terminal_picture_possible() && progress_possible() && petri_has_picture(session);
     if (!wanted)
         return STATUS_DONE;
@@ -104,7 +101,7 @@ static int compare_state(const LinkSession *link_session, const Options *options
     const char *expected = linked->digest ? linked->digest : linked->hash;
     unsigned section = linked->hash && !linked->digest ? PETRI_PRINT_HASH : PETRI_PRINT_DIGEST;
     petri_print(link_session->frames.session, section, text_collect, &text);
-    int status = !own_options(options)->output ? output_text(text.bytes, text.len, STATUS_DONE) : STATUS_DONE;
+    int status = !((const Own *)options->own)->output ? output_text(text.bytes, text.len, STATUS_DONE) : STATUS_DONE;
     SCOPED_STRING digest = link_session_digest(link_session, section);
     if (!expected) {
         message("%s: no state to compare: the link has no digest; 'petri link --frame N' adds one", linked->name);
@@ -119,7 +116,7 @@ static int compare_state(const LinkSession *link_session, const Options *options
 }
 
 static int open_link(const CommandContext *context, Options *options, LinkSession *link_session) {
-    const Own *own = own_options(options);
+    const Own *own = options->own;
     Linked *linked = &link_session->linked;
     if (!check_output(own->output))
         return STATUS_USAGE;
@@ -151,11 +148,7 @@ static int run_link(const CommandContext *context, Options *options) {
 // clang-format off
 static const OptionSpec ROWS[] = {
     OWN("output", 'o', "FILE", option_text, output, "write the script (FILE.fl, - for standard output) or the picture of the frame (.png, .svg, .pdf)")
-    THREADS_OPTION
-    LIMIT_OPTIONS
-    QUIET_OPTION
-    COLOUR_OPTION
-    NO_MORE_OPTIONS
+    THREADS_OPTION LIMIT_OPTIONS QUIET_OPTION COLOUR_OPTION NO_MORE_OPTIONS
 };
 // clang-format on
 static const OptionTable RUN_LINK_OPTIONS = {ROWS, sizeof(Own), NULL};

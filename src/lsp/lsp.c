@@ -287,10 +287,7 @@ static int lsp_run(const CommandContext *host, Options *options) {
 // clang-format off
 static const OptionSpec ROWS[] = {
     OWN("stdio", 0, NULL, option_flag, stdio, "use standard input and output (default; there is no other transport)")
-    DEFINE_NAME_OPTION
-    FILE_OPTIONS
-    LIMIT_OPTIONS
-    NO_MORE_OPTIONS
+    DEFINE_NAME_OPTION FILE_OPTIONS LIMIT_OPTIONS NO_MORE_OPTIONS
 };
 // clang-format on
 static const OptionTable LSP_OPTIONS = {ROWS, sizeof(Own), NULL};

@@ -33,16 +33,8 @@ static const OptionSpec ROWS[] = {
     OWN("scale", 0, "S", option_positive, scale, "multiply the size of the picture in pixels by S (default: 1)")
     OWN("window", 0, "WINDOW", option_text, window, "draw the window with this id or number, counted from 0 (default: the first with content)")
     OWN("auto", 0, NULL, option_flag, automatic, "draw the particles instead of the script's canvas")
-    CLOCK_OPTIONS
-    DEFINE_OPTION
-    STATE_OPTION
-    FILE_OPTIONS
-    THREADS_OPTION
-    LIMIT_OPTIONS
-    METHOD_OPTIONS
-    FROM_OPTION
-    REPORT_OPTIONS
-    NO_MORE_OPTIONS
+    CLOCK_OPTIONS DEFINE_OPTION STATE_OPTION FILE_OPTIONS THREADS_OPTION LIMIT_OPTIONS METHOD_OPTIONS FROM_OPTION
+    REPORT_OPTIONS NO_MORE_OPTIONS
 };
 // clang-format on
 const OptionTable RENDER_OPTIONS = {ROWS, sizeof(Own), &(const Own){.every = 1, .scale = 1}};

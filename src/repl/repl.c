@@ -1,11 +1,11 @@
 // repl.c: `petri repl`, which runs a script frame by frame at a prompt.
 #include "repl/repl.h"
 
+#include "cli/option_groups.h"
 #include "cli/options.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "repl/line.h"
-#include "repl/options.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -15,6 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+// Options that no other command has.
+typedef struct Own {
+    int64_t limit; // maximum frames of .run and .until
+} Own;
 
 // Writes to the output; a PetriWriteCallback.
 static bool repl_write(void *host, const char *text, size_t length) {
@@ -167,7 +172,8 @@ static int run_session(Repl *repl, const char *state) {
 }
 
 static int repl_run(const CommandContext *host, Options *options) {
-    Repl repl = {.options = options, .output.fd = STDOUT_FILENO};
+    const Own *own = options->own;
+    Repl repl = {.options = options, .limit = own->limit, .output.fd = STDOUT_FILENO};
     repl.script = !options->script || options->replayed ? NULL : memory_strdup(options->script);
     for (size_t i = 0; i < options->definitions.count; i++)
         texts_add(&repl.definitions, options->definitions.items[i]);
@@ -186,6 +192,19 @@ static int repl_run(const CommandContext *host, Options *options) {
     text_free(&repl.script_text);
     return status;
 }
+
+// clang-format off
+static const OptionSpec ROWS[] = {
+    FPS_OPTION DEFINE_OPTION
+    SHARED("state", 0, "FILE", option_text, state_file, "start with the state in FILE")
+    FILE_OPTIONS
+    OWN("limit", 0, "N", WHOLE(1, INT64_MAX), limit, "limit .run and .until to N frames (default: 100000)")
+    THREADS_OPTION LIMIT_OPTIONS NOSIMPLIFY_OPTION FROM_OPTION
+    SHARED("color", 0, "WHEN", ONE_OF(option_colour, "auto", "always", "never"), colour, "use colours in prompts and messages: auto, always or never")
+    NO_MORE_OPTIONS
+};
+// clang-format on
+static const OptionTable REPL_OPTIONS = {ROWS, sizeof(Own), &(const Own){.limit = 100000}};
 
 const Command REPL_COMMAND = {
     .name = "repl",

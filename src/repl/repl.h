@@ -19,6 +19,7 @@
 
 typedef struct Repl {
     Options *options;
+    int64_t limit; // maximum frames of .run and .until (--limit)
     PetriSession *session;
     PetriHistory *history;
     Archiving archiving; // the archive of .archive

@@ -1,7 +1,6 @@
 // step_commands.c: commands that move forward and back by frames, and their output.
 #include "cli/progress.h"
 #include "petri-inspect.h"
-#include "repl/options.h"
 #include "repl/repl.h"
 
 #include <inttypes.h>
@@ -161,7 +160,7 @@ static bool run_step(Repl *repl, const char *rest) {
 static bool run_run(Repl *repl, const char *rest) {
     double seconds = 0;
     if (rest[0] == '\0')
-        return step_frames(repl, &(StepRequest){.count = repl_options(repl->options)->limit, .limited = true});
+        return step_frames(repl, &(StepRequest){.count = repl->limit, .limited = true});
     if (!argument_number(repl, rest, &seconds))
         return false;
     if (seconds < 0)
@@ -169,14 +168,13 @@ static bool run_run(Repl *repl, const char *rest) {
     PetriFrame frame;
     petri_frame(repl->session, &frame, sizeof frame);
     double frames = ceil(seconds * frame.fps - 1e-9);
-    bool limited = frames > (double)repl_options(repl->options)->limit;
-    return step_frames(repl, &(StepRequest){.count = limited ? repl_options(repl->options)->limit : (int64_t)frames,
-                                            .limited = limited});
+    bool limited = frames > (double)repl->limit;
+    return step_frames(repl, &(StepRequest){.count = limited ? repl->limit : (int64_t)frames, .limited = limited});
 }
 
 static bool run_until(Repl *repl, const char *rest) {
     SCOPED_STRING expression = memory_strdup(rest);
-    int64_t limit = repl_options(repl->options)->limit;
+    int64_t limit = repl->limit;
     if (!argument_limit(repl, expression, &limit))
         return false;
     if (expression[0] == '\0')

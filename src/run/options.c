@@ -30,18 +30,12 @@ static bool read_trajectory(const Args *args, void *field) {
 
 // clang-format off
 static const OptionSpec ROWS[] = {
-    LENGTH_OPTIONS
-    CLOCK_OPTIONS
+    LENGTH_OPTIONS CLOCK_OPTIONS
     OWN("print", 0, "LIST", ENDS_SHOW(ONE_OF(read_sections, "tree", "state", "log", "error", "hash", "digest")), sections, "print the listed items: tree, state, log, error, hash (SHA-256 of the state), digest (faster hash of the state), separated by commas (default: only log)")
     OWN("every", 0, "K", ENDS_SHOW(WHOLE(1, INT64_MAX)), every, "print and record every K-th frame, starting with frame 0")
-    DEFINE_OPTION
-    STATE_OPTION
+    DEFINE_OPTION STATE_OPTION
     SHARED("save-every", 0, "K", ENDS_SHOW(NOT_IN_GOLDENS(WHOLE(1, INT64_MAX))), save_every, "save the state every K frames (default: every few seconds)")
-    FILE_OPTIONS
-    THREADS_OPTION
-    LIMIT_OPTIONS
-    METHOD_OPTIONS
-    NO_BATCHES_OPTION
+    FILE_OPTIONS THREADS_OPTION LIMIT_OPTIONS METHOD_OPTIONS NO_BATCHES_OPTION
     OWN("show", 0, NULL, NOT_IN_GOLDENS(option_flag), show, "show the picture in the terminal for 10 seconds, or for the length that --runtime or --frames sets; without a terminal or with text output such as --print, print a summary instead")
     OWN("stats", 0, NULL, ENDS_SHOW(option_flag), stats, "print timings and each system's energy at the end")
     OWN("trajectory", 0, "FILE", ENDS_SHOW(NOT_IN_GOLDENS(read_trajectory)), trajectory, "write all particles to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state, append to FILE")

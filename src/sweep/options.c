@@ -46,14 +46,9 @@ static const OptionSpec ROWS[] = {
     OWN("cache", 0, "DIR", option_text, cache, "store the results of runs in the folder DIR, and do not compute runs again whose results are there")
     OWN("verify-cache", 0, "P%", read_percentage, verify_cache, "compute P % of the runs that have a result in the cache again, and report differences (default: 0)")
     OWN("shard", 0, "I/N", option_text, shard, "divide the runs into N parts and execute only part I")
-    FPS_OPTION
-    READ_OPTIONS
+    FPS_OPTION READ_OPTIONS
     SHARED("threads", 0, "N", WHOLE(1, 1024), threads, "use N worker threads per run (default: 1); does not change results")
-    LIMIT_OPTIONS
-    METHOD_OPTIONS
-    QUIET_OPTION
-    COLOUR_OPTION
-    NO_MORE_OPTIONS
+    LIMIT_OPTIONS METHOD_OPTIONS QUIET_OPTION COLOUR_OPTION NO_MORE_OPTIONS
 };
 // clang-format on
 const OptionTable SWEEP_OPTIONS = {ROWS, sizeof(Own), NULL};

@@ -19,15 +19,8 @@ static const OptionSpec ROWS[] = {
     FPS_OPTION
     SHARED("lockstep", 0, NULL, option_unset, realtime, "run as fast as possible with time = frame/fps")
     SHARED("realtime", 0, NULL, option_flag, realtime, "follow the wall clock (default); frame 0 is at time 0")
-    DEFINE_OPTION
-    STATE_OPTION
-    FILE_OPTIONS
-    THREADS_OPTION
-    LIMIT_OPTIONS
-    METHOD_OPTIONS
-    RECORDING_OPTIONS
-    REPORT_OPTIONS
-    NO_MORE_OPTIONS
+    DEFINE_OPTION STATE_OPTION FILE_OPTIONS THREADS_OPTION LIMIT_OPTIONS METHOD_OPTIONS RECORDING_OPTIONS
+    REPORT_OPTIONS NO_MORE_OPTIONS
 };
 // clang-format on
 const OptionTable VIEW_OPTIONS = {ROWS, sizeof(Own), &(const Own){.screen = -1}};

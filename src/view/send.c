@@ -17,10 +17,6 @@ typedef struct Own {
     const char *send; // path of the socket
 } Own;
 
-static const Own *own_options(const Options *options) {
-    return options->own;
-}
-
 static const size_t MAX_BYTES = (size_t)1 << 20;
 
 static int connect_to(const char *path) {
@@ -79,7 +75,8 @@ static int send_code(const char *socket, const char *code) {
 
 static int send_run(const CommandContext *context, Options *options) {
     (void)context;
-    return send_code(own_options(options)->send, options->script);
+    const Own *own = options->own;
+    return send_code(own->send, options->script);
 }
 
 // clang-format off

@@ -1,15 +1,11 @@
 // seeds.c: writes the first inputs of the fuzzers, made from petri's tables. usage: fuzz_seeds FOLDER
 // FOLDER/dictionary is libFuzzer's dictionary; FOLDER/NAME contains inputs for harness NAME.
+#include "cli/args.h"
 #include "cli/cells.h"
-#include "cli/cli.h"
 #include "cli/hdf5.h"
 #include "petri-draw.h"
 #include "petri-edit.h"
-#include "render/options.h"
-#include "repl/options.h"
 #include "repl/repl.h"
-#include "run/options.h"
-#include "view/options.h"
 
 #include <errno.h>
 #include <math.h>
@@ -19,8 +15,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// The options of the commands of the harness `arguments`.
-static const OptionTable *const TABLES[] = {&RUN_OPTIONS, &RENDER_OPTIONS, &VIEW_OPTIONS, &REPL_OPTIONS};
+// The commands of the harness `arguments`.
+static const Command *const COMMANDS[] = {&RUN_COMMAND, &RENDER_COMMAND, &VIEW_COMMAND, &REPL_COMMAND};
 
 static const char *const TOPICS[] = {
 #define TOPIC(word, usage, help) word,
@@ -96,8 +92,8 @@ static void write_dictionary(void) {
         add_word(file, SIGNS[i]);
     for (size_t i = 0; repl_command_at(i); i++)
         fprintf(file, "\"%s \"\n", repl_command_at(i)->name);
-    for (size_t i = 0; i < sizeof TABLES / sizeof TABLES[0]; i++)
-        for (const OptionSpec *option = TABLES[i]->rows; option->name; option++)
+    for (size_t i = 0; i < sizeof COMMANDS / sizeof COMMANDS[0]; i++)
+        for (const OptionSpec *option = command_options(COMMANDS[i]); option->name; option++)
             fprintf(file, "\"--%s\"\n", option->name);
     fclose(file);
 }
@@ -156,8 +152,8 @@ static void write_commands(void) {
             seed("repl", name + 1, ".step 3\n%s\n%s 2\n%s :cells\n%s SIZE 3\n.step\n%s x.out\n", name, name, name, name,
                  name);
     }
-    for (size_t i = 0; i < sizeof TABLES / sizeof TABLES[0]; i++) {
-        for (const OptionSpec *option = TABLES[i]->rows; option->name; option++) {
+    for (size_t i = 0; i < sizeof COMMANDS / sizeof COMMANDS[0]; i++) {
+        for (const OptionSpec *option = command_options(COMMANDS[i]); option->name; option++) {
             FILE *file = open_seed("arguments", option->name);
             fprintf(file, "--%s%c%s%c%s%c--frames%c2", option->name, 0, option->value ? "3" : "x.fl", 0, "x.fl", 0, 0);
             fclose(file);

@@ -3,7 +3,6 @@
 #include "cli/options.h"
 #include "petri-inspect.h"
 #include "render/options.h"
-#include "repl/options.h"
 #include "run/options.h"
 #include "sweep/options.h"
 #include "view/options.h"
@@ -175,8 +174,7 @@ static void test_operands_of_other_commands(void **state) {
 
 static void test_options_stay_in_their_struct(void **state) {
     (void)state;
-    static const OptionTable *const tables[] = {&RUN_OPTIONS, &RENDER_OPTIONS, &VIEW_OPTIONS, &SWEEP_OPTIONS,
-                                                &REPL_OPTIONS};
+    static const OptionTable *const tables[] = {&RUN_OPTIONS, &RENDER_OPTIONS, &VIEW_OPTIONS, &SWEEP_OPTIONS};
     for (size_t i = 0; i < sizeof tables / sizeof tables[0]; i++) {
         for (const OptionSpec *spec = tables[i]->rows; spec->name; spec++) {
             assert_true(spec->field < (spec->own ? tables[i]->own_size : sizeof(Options)));
