@@ -90,9 +90,8 @@ static void composite_stamp(Canvas *canvas, Stamp *stamp) {
             float *d = wide->pixels + 4 * at, s[4], mixed[4];
             find_color(stamp, &colors, x, y, s);
             if (stamp->mode == COMPOSITE_OVER) {
-                float rest = 1 - k * s[3];
                 for (int c = 0; c < 4; c++)
-                    d[c] = k * s[c] + rest * d[c];
+                    d[c] = blend_OVER(k * s[c], d[c], k * s[3], d[3]);
                 continue;
             }
             blend_colors(stamp->mode, s, d, mixed);
@@ -166,11 +165,9 @@ FloatImage hdr_begin_layer(Canvas *canvas) {
 
 void hdr_end_layer(Canvas *canvas, FloatImage below, double alpha) {
     const FloatImage *layer = &canvas->hdr_target;
-    for (size_t i = 0; i < (size_t)below.width * (size_t)below.height; i++) {
-        float rest = 1 - layer->pixels[4 * i + 3] * (float)alpha;
-        for (size_t k = 4 * i; k < 4 * i + 4; k++)
-            below.pixels[k] = layer->pixels[k] * (float)alpha + below.pixels[k] * rest;
-    }
+    for (size_t i = 0; i < 4 * (size_t)below.width * (size_t)below.height; i++)
+        below.pixels[i] = blend_OVER(layer->pixels[i] * (float)alpha, below.pixels[i],
+                                     layer->pixels[i | 3] * (float)alpha, below.pixels[i | 3]);
     float_image_free(&canvas->pool, &canvas->hdr_target);
     canvas->hdr_target = below;
 }

@@ -1,14 +1,14 @@
 // paint.c: paints the shapes of commands, with all composite modes.
 #include "cairo/hdr_composite.h"
+#include "picture/blend.h"
 
 #include <math.h>
 #include <string.h>
 
-// Returns true for operators that, in Cairo, also change pixels outside the shape. Petri restricts their effect to the
-// shape.
+// Returns true for modes that change pixels outside the shape, unless Cairo itself restricts them to the shape.
+// Modulate is one of them, for which Cairo has no operator.
 static bool is_unbounded(int composite) {
-    return composite == COMPOSITE_IN || composite == COMPOSITE_OUT || composite == COMPOSITE_DST_IN ||
-           composite == COMPOSITE_DST_ATOP;
+    return !blend_is_bounded((CompositeMode)composite) && composite != COMPOSITE_CLEAR && composite != COMPOSITE_SRC;
 }
 
 // Multiplies each pixel of d by the corresponding pixel of s. Returns false unless both are images of the same size.
@@ -71,7 +71,7 @@ static void draw_through_mask(Canvas *canvas, const DisplayCommand *command, con
     cairo_save(cr);
     draw_clip_to_box(canvas, command, paint);
     cairo_pattern_t *mask = draw_make_mask(canvas, command, paint);
-    bool separate = (is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE) && !canvas->vector;
+    bool separate = is_unbounded(paint->composite) && !canvas->vector;
     cairo_set_operator(cr, draw_operator(paint->composite));
     if (separate) {
         cairo_pattern_t *all = combine_all(canvas, cairo_get_group_target(cr), paint->composite);
@@ -99,8 +99,7 @@ void draw_current_path(Canvas *canvas, const DisplayCommand *command, const Disp
     }
     if (!draw_charge_path(canvas, paint, command->fill, command->stroke))
         return;
-    bool odd = is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE,
-         both = command->fill && command->stroke;
+    bool odd = is_unbounded(paint->composite), both = command->fill && command->stroke;
     // The segments of a long stroke overlap, which is visible unless the paint is solid.
     bool in_segments = command->stroke && draw_strokes_in_segments(canvas);
     if (odd || command->path.fill_type > FILL_EVEN_ODD || ((both || in_segments) && !is_solid(paint))) {

@@ -139,7 +139,7 @@ void draw_set_source(Canvas *canvas, const DisplayPaint *paint) {
 
 cairo_operator_t draw_operator(int composite) {
     static const cairo_operator_t operators[] = {
-#define COMPOSITE(id, operator, text, formula) operator,
+#define COMPOSITE(id, operator, mode, text) operator,
 #include "schema/composite_list.h"
     };
     return operators[composite];

@@ -39,10 +39,19 @@ static const char nearest_sampling[] = "vec4 take(sampler2D t, vec2 uv) {\n"
                                        "}\n";
 static const char filtered_sampling[] = "vec4 take(sampler2D t, vec2 uv) { return texture(t, uv); }\n";
 
-static const char *const combining[] = {
-#define MIX(id, text, colour, alpha) [MIX_##id] = "vec4(" #colour ", " #alpha ")",
-#include "schema/mix_list.h"
-    [MIX_UNKNOWN] = "onto",
+// The formulas of composite_list.h, in GLSL. Those that no mode of pictures uses are left out of the program.
+#define FORMULA(id, formula) __attribute__((unused)) static const char formula_##id[] = #formula;
+#define PREMULTIPLIED(id, operator, mode, text, formula) FORMULA(id, formula)
+#define SEPARABLE(id, operator, mode, text, formula) FORMULA(id, formula)
+#include "schema/composite_list.h"
+
+static const struct {
+    const char *colour;
+    const char *alpha;
+} combining[] = {
+#define MIX(id, text, colour, alpha) [MIX_##id] = {formula_##colour, formula_##alpha},
+#include "schema/composite_list.h"
+    [MIX_UNKNOWN] = {"d", "d"},
 };
 
 static void add_sampling(Text *out, const DrawNode *node, GlEdge edge) {
@@ -84,9 +93,10 @@ bool gl_add_input_composite(Text *out, const GlEffect *effect, GlEdge edge) {
     for (uint32_t i = 0; i < effect->count; i++)
         text_add_format(out, "uniform sampler2D texture%u;\n", i);
     add_sampling(out, effect->node, edge);
-    text_add_c(out, "vec4 combined(vec4 source, vec4 onto) {\n"
-                    "    vec3 s = source.rgb, d = onto.rgb;\n    float sa = source.a, da = onto.a;\n");
-    text_add_format(out, "    return %s;\n}\n", combining[how]);
+    text_add_format(out,
+                    "vec4 combined(vec4 s, vec4 d) {\n    float sa = s.a, da = d.a;\n"
+                    "    return vec4((%s).rgb, (%s).a);\n}\n",
+                    combining[how].colour, combining[how].alpha);
     add_merged(out, effect, false);
     add_merged(out, effect, true);
     return true;

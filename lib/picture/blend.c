@@ -4,15 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-static float soft_light(float s, float d) {
-    float deep = d <= 0.25f ? ((16 * d - 12) * d + 4) * d : sqrtf(d);
-    return s <= 0.5f ? d - (1 - 2 * s) * d * (1 - d) : d + (2 * s - 1) * (deep - d);
-}
-
-static float hard_light(float s, float d) {
-    return s <= 0.5f ? 2 * s * d : 2 * s - 1 + d - (2 * s - 1) * d;
-}
-
 static float luminance(const float c[3]) {
     return 0.3f * c[0] + 0.59f * c[1] + 0.11f * c[2];
 }
@@ -48,11 +39,6 @@ static void blend_properties(const float hue[3], const float saturation[3], cons
     set_luminance(out, luminance(luminosity));
 }
 
-// GLSL's names for functions in the formulas of composite_list.h
-#define min fminf
-#define max fmaxf
-#define abs fabsf
-
 static float unpremultiply(float channel, float alpha) {
     return alpha > 0 ? channel / alpha : 0;
 }
@@ -61,20 +47,18 @@ void blend_colors(CompositeMode mode, const float source[4], const float onto[4]
     const float sa = source[3], da = onto[3];
     float mixed[3], result[4];
     switch (mode) {
-#define PREMULTIPLIED(result)                                                                                          \
-    for (int k = 0; k < 4; k++) {                                                                                      \
-        const float s = source[k], d = onto[k];                                                                        \
-        out[k] = result;                                                                                               \
-    }                                                                                                                  \
-    return;
-#define SEPARABLE(blend)                                                                                               \
-    for (int k = 0; k < 3; k++) {                                                                                      \
-        const float s = unpremultiply(source[k], sa), d = unpremultiply(onto[k], da);                                  \
-        mixed[k] = blend;                                                                                              \
-    }                                                                                                                  \
-    break;
-#define NONSEPARABLE(hue, saturation, luminosity)                                                                      \
-    {                                                                                                                  \
+#define PREMULTIPLIED(id, operator, mode, text, formula)                                                               \
+    case COMPOSITE_##id:                                                                                               \
+        for (int k = 0; k < 4; k++)                                                                                    \
+            out[k] = blend_##id(source[k], onto[k], sa, da);                                                           \
+        return;
+#define SEPARABLE(id, operator, mode, text, formula)                                                                   \
+    case COMPOSITE_##id:                                                                                               \
+        for (int k = 0; k < 3; k++)                                                                                    \
+            mixed[k] = blend_##id(unpremultiply(source[k], sa), unpremultiply(onto[k], da), sa, da);                   \
+        break;
+#define NONSEPARABLE(id, operator, mode, text, hue, saturation, luminosity)                                            \
+    case COMPOSITE_##id: {                                                                                             \
         float s[3], d[3];                                                                                              \
         for (int k = 0; k < 3; k++) {                                                                                  \
             s[k] = unpremultiply(source[k], sa);                                                                       \
@@ -83,9 +67,6 @@ void blend_colors(CompositeMode mode, const float source[4], const float onto[4]
         blend_properties(hue, saturation, luminosity, mixed);                                                          \
         break;                                                                                                         \
     }
-#define COMPOSITE(id, operator, text, formula)                                                                         \
-    case COMPOSITE_##id:                                                                                               \
-        formula
 #include "schema/composite_list.h"
     case COMPOSITE_COUNT:
         return;
@@ -94,4 +75,11 @@ void blend_colors(CompositeMode mode, const float source[4], const float onto[4]
         result[k] = source[k] * (1 - da) + onto[k] * (1 - sa) + sa * da * mixed[k];
     result[3] = sa + da * (1 - sa);
     memcpy(out, result, sizeof result);
+}
+
+bool blend_is_bounded(CompositeMode mode) {
+    const float nothing[4] = {0}, opaque[4] = {1, 1, 1, 1};
+    float out[4];
+    blend_colors(mode, nothing, opaque, out);
+    return out[3] == 1;
 }

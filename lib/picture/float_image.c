@@ -252,7 +252,7 @@ void float_image_tint(FloatImage *image, const double color[4]) {
 
 void float_image_composite_over(FloatImage *below, const FloatImage *above) {
     for (size_t i = 0; above->pixels && i < 4 * count_of(below); i++)
-        below->pixels[i] = above->pixels[i] + below->pixels[i] * (1 - above->pixels[i | 3]);
+        below->pixels[i] = blend_OVER(above->pixels[i], below->pixels[i], above->pixels[i | 3], below->pixels[i | 3]);
 }
 
 void float_image_fill(FloatImage *image, const double color[4]) {

@@ -1,14 +1,9 @@
 // layer_composite.c: see layer_composite.h.
 #include "picture/layer_composite.h"
 
-#include "schema/table.h"
+#include "picture/blend.h"
 
 #include <math.h>
-
-// GLSL's names for functions in the formulas of mix_list.h
-#define min fminf
-#define max fmaxf
-#define abs fabsf
 
 // Composites a source onto the destination `onto`.
 static void combine_colors(int how, const float source[4], float onto[4]) {
@@ -16,13 +11,11 @@ static void combine_colors(int how, const float source[4], float onto[4]) {
     switch (how) {
 #define MIX(id, text, colour, alpha)                                                                                   \
     case MIX_##id:                                                                                                     \
-        for (int k = 0; k < 3; k++) {                                                                                  \
-            const float s = source[k], d = onto[k];                                                                    \
-            onto[k] = colour;                                                                                          \
-        }                                                                                                              \
-        onto[3] = alpha;                                                                                               \
+        for (int k = 0; k < 3; k++)                                                                                    \
+            onto[k] = blend_##colour(source[k], onto[k], sa, da);                                                      \
+        onto[3] = blend_##alpha(sa, da, sa, da);                                                                       \
         break;
-#include "schema/mix_list.h"
+#include "schema/composite_list.h"
     }
 }
 

@@ -267,14 +267,8 @@ static void set_blending(const GraphicsState3D *state, bool transparent, bool tr
         GLenum source;
         GLenum target;
     } modes[] = {
-        [MIX3D_OVER] = {GL_FUNC_ADD, GL_ONE, GL_ONE_MINUS_SRC_ALPHA},
-        [MIX3D_SOURCE] = {GL_FUNC_ADD, GL_ONE, GL_ZERO},
-        [MIX3D_DEST] = {GL_FUNC_ADD, GL_ZERO, GL_ONE},
-        [MIX3D_DEST_OVER] = {GL_FUNC_ADD, GL_ONE_MINUS_DST_ALPHA, GL_ONE},
-        [MIX3D_ADD] = {GL_FUNC_ADD, GL_ONE, GL_ONE},
-        [MIX3D_SUBTRACT] = {GL_FUNC_SUBTRACT, GL_ONE, GL_ONE},
-        [MIX3D_LIGHTEN] = {GL_MAX, GL_ONE, GL_ONE},
-        [MIX3D_DARKEN] = {GL_MIN, GL_ONE, GL_ONE},
+#define MIX3D(id, text, equation, source, destination) [MIX3D_##id] = {equation, source, destination},
+#include "schema/composite_list.h"
     };
     bool sorts = state->depth_sort && state->depth_test;
     // Opaque surfaces replace the colours behind them, so they need no blending.

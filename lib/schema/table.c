@@ -56,10 +56,10 @@ const SchemaRow schema_rows[ROW_COUNT] = {
 const WordRow schema_words[WORD_COUNT] = {
 #define WORD(type, text, value) {TYPE_##type, value, {text, sizeof text - 1}},
 #include "schema/word_list.h"
-#define COMPOSITE(id, operator, text, formula) {TYPE_COMPOSITE, COMPOSITE_##id, {text, sizeof text - 1}},
-#include "schema/composite_list.h"
+#define COMPOSITE(id, operator, mode, text) {TYPE_COMPOSITE, COMPOSITE_##id, {text, sizeof text - 1}},
 #define MIX(id, text, colour, alpha) {TYPE_MIX, MIX_##id, {text, sizeof text - 1}},
-#include "schema/mix_list.h"
+#define MIX3D(id, text, equation, source, destination) {TYPE_MIX3D, MIX3D_##id, {text, sizeof text - 1}},
+#include "schema/composite_list.h"
 };
 
 bool schema_find_word(AttrType type, Str word, int *value) {

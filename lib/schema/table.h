@@ -91,22 +91,26 @@ enum { TURBULENCE_FRACTAL, TURBULENCE_FOLDED, TURBULENCE_IMPROVED };
 enum { NOISE_PLANE, NOISE_CYLINDER, NOISE_SPHERE };
 enum {
 #define MIX(id, text, colour, alpha) MIX_##id,
-#include "schema/mix_list.h"
+#include "schema/composite_list.h"
     MIX_UNKNOWN // the script gives an unknown word
 };
 enum { FACE_BACK, FACE_FRONT };
-enum { MIX3D_OVER, MIX3D_SOURCE, MIX3D_DEST, MIX3D_DEST_OVER, MIX3D_ADD, MIX3D_SUBTRACT, MIX3D_LIGHTEN, MIX3D_DARKEN };
+enum {
+#define MIX3D(id, text, equation, source, destination) MIX3D_##id,
+#include "schema/composite_list.h"
+    MIX3D_COUNT
+};
 enum { FOV_HORIZONTAL, FOV_VERTICAL, FOV_DIAGONAL, FOV_WIDE, FOV_NARROW };
 enum { UV_STANDARD, UV_REPEAT };
 enum { REMAP_NONE, REMAP_SPHERE, REMAP_PLANE, REMAP_BOOK };
 typedef enum CompositeMode {
-#define COMPOSITE(id, operator, text, formula) COMPOSITE_##id,
+#define COMPOSITE(id, operator, mode, text) COMPOSITE_##id,
 #include "schema/composite_list.h"
     COMPOSITE_COUNT
 } CompositeMode;
 
 enum {
-    WORD_COUNT = COMPOSITE_COUNT + MIX_UNKNOWN
+    WORD_COUNT = COMPOSITE_COUNT + MIX_UNKNOWN + MIX3D_COUNT
 #define WORD(type, text, value) +1
 #include "schema/word_list.h"
 };

@@ -1,6 +1,6 @@
 // word_list.h: words for attributes of drawing nodes: WORD(TYPE, "word", value). If several words have the same
-// meaning, the first is preferred; the preferred words of COMPOSITE are in composite_list.h. The words of MIX are in
-// mix_list.h.
+// meaning, the first is preferred. The preferred words of COMPOSITE, and those of MIX and MIX3D, are in
+// composite_list.h.
 // clang-format off
 #ifndef WORD
 #define WORD(type, text, value)
@@ -92,15 +92,6 @@ WORD(NOISE_TYPE, "improved", TURBULENCE_IMPROVED)
 
 WORD(FACE, "back", FACE_BACK)
 WORD(FACE, "front", FACE_FRONT)
-
-WORD(MIX3D, "over", MIX3D_OVER)
-WORD(MIX3D, "source", MIX3D_SOURCE)
-WORD(MIX3D, "dest", MIX3D_DEST)
-WORD(MIX3D, "dest_over", MIX3D_DEST_OVER)
-WORD(MIX3D, "add", MIX3D_ADD)
-WORD(MIX3D, "subtract", MIX3D_SUBTRACT)
-WORD(MIX3D, "lighten", MIX3D_LIGHTEN)
-WORD(MIX3D, "darken", MIX3D_DARKEN)
 
 WORD(FOV_REF, "horizontal", FOV_HORIZONTAL)
 WORD(FOV_REF, "vertical", FOV_VERTICAL)

@@ -32,11 +32,17 @@ kind in arrays || kind == "enum" {
         print_list(kind == "enum" ? "SECTIONS" : arrays[kind], kind == "enum" ? "{ " : "[", list, kind == "enum" ? " }" : "]")
     kind = text = ""
 }
-/^COMPOSITE\(/ {
+/^(PREMULTIPLIED|SEPARABLE|NONSEPARABLE)\(/ {
     split($0, parts, "\"")
-    composites = composites (composites == "" ? "" : ", ") "'" parts[2] "'"
+    comma = composites == "" ? "" : ", "
+    composites = composites comma "'" parts[4] "'"
+    modes = modes comma "'" parts[2] "'"
 }
-END { print_list("COMPOSITES", "[", composites, "]") }
+END {
+    print_list("COMPOSITES", "[", composites, "]")
+    if (language != "ts")
+        print_list("CANVAS_MODES", "[", modes, "]")
+}
 # Breaks lines after at most 120 characters.
 function print_list(name, open, list, close_,    line) {
     if (language == "ts") {

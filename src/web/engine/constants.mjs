@@ -7,6 +7,10 @@ export const SECTIONS = { tree: 1, state: 2, log: 4, error: 8, hash: 16, digest:
 export const COMPOSITES = ['modulate', 'clear', 'src', 'dst', 'over', 'dst_over', 'in', 'dst_in', 'out', 'dst_out',
     'atop', 'dst_atop', 'xor', 'add', 'multiply', 'screen', 'overlay', 'darken', 'lighten', 'color_dodge',
     'color_burn', 'hard_light', 'soft_light', 'difference', 'exclusion', 'hue', 'saturation', 'color', 'luminosity'];
+export const CANVAS_MODES = ['multiply', 'clear', 'copy', '', 'source-over', 'destination-over', 'source-in',
+    'destination-in', 'source-out', 'destination-out', 'source-atop', 'destination-atop', 'xor', 'lighter', 'multiply',
+    'screen', 'overlay', 'darken', 'lighten', 'color-dodge', 'color-burn', 'hard-light', 'soft-light', 'difference',
+    'exclusion', 'hue', 'saturation', 'color', 'luminosity'];
 export const COMMANDS = [
     ['matrix', (r, p) => p.matrix(r.matrix())],
     ['color', (r, p) => p.color(r.colour())],

@@ -1,17 +1,11 @@
 // drawing.mjs: draws a display list of petri (petri-draw.h, petri_picture_display_list) on a Canvas 2D.
-import { COMMANDS, COMPOSITES, PATH_ELEMENTS, WORDS } from './constants.mjs';
+import { CANVAS_MODES, COMMANDS, COMPOSITES, PATH_ELEMENTS, WORDS } from './constants.mjs';
 import { drawFiltered, noisePixels, unpackPixels } from './pixels.mjs';
 
 const TURN = 2 * Math.PI;
 const STRETCHES = ['ultra-condensed', 'extra-condensed', 'condensed', 'semi-condensed', 'normal', 'semi-expanded', 'expanded',
     'extra-expanded', 'ultra-expanded'];
-// Modes of Canvas 2D that are not called as in petri; null: nothing is drawn. `modulate` also multiplies alpha (`multiply` below).
-const OTHER_MODES = {
-    modulate: 'multiply', src: 'copy', dst: null, over: 'source-over', dst_over: 'destination-over', in: 'source-in',
-    dst_in: 'destination-in', out: 'source-out', dst_out: 'destination-out', atop: 'source-atop', dst_atop: 'destination-atop',
-    add: 'lighter',
-};
-const MODES = COMPOSITES.map(name => name in OTHER_MODES ? OTHER_MODES[name] : name.replace('_', '-'));
+// `modulate` also multiplies alpha (`multiply` below).
 const MODULATE = COMPOSITES.indexOf('modulate'), OVER = 'source-over';
 // In Canvas 2D, these modes also affect pixels outside the path.
 const UNBOUNDED = new Set(['clear', 'copy', 'source-in', 'destination-in', 'source-out', 'destination-atop']);
@@ -275,7 +269,7 @@ class Painter {
 
     strokeStyle(width, join, cap, mode, antialias, offset, dashes) {
         this.line = {
-            width, join: WORDS.join[join], cap: WORDS.cap[cap], mode: MODES[mode], modulates: mode === MODULATE, offset,
+            width, join: WORDS.join[join], cap: WORDS.cap[cap], mode: CANVAS_MODES[mode], modulates: mode === MODULATE, offset,
             dashes: Array.from(dashes),
         };
         this.styled = this.composed = null;
@@ -553,8 +547,8 @@ class Painter {
             this.compositeOver(made, first, OVER, ratio < 0 ? 1 : 1 - ratio);
             if (ratio >= 0)
                 this.compositeOver(made, second, 'lighter', ratio);
-            else if (MODES[mode])
-                this.compositeOver(made, second, MODES[mode]);
+            else if (CANVAS_MODES[mode])
+                this.compositeOver(made, second, CANVAS_MODES[mode]);
             if (alpha < 1) {
                 Object.assign(made, { globalCompositeOperation: 'destination-in', fillStyle: `rgba(0,0,0,${alpha})` });
                 made.fillRect(0, 0, width, height);
