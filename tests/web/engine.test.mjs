@@ -51,7 +51,7 @@ test('after the WebGL context is restored, the names of lost objects are unused,
 
 test('the example of README gives its values', async () => {
     const [, code] = read('src/web/engine/README.md').match(/```js\n([^]*?)```/);
-    const act = code.replace("'petri'", JSON.stringify(pathToFileURL(join(folder, 'petri.mjs')).href));
+    const act = code.replace("'./petri/petri.mjs'", JSON.stringify(pathToFileURL(join(folder, 'petri.mjs')).href));
     const shown = act.replace('session.digest();', 'globalThis.shown = [session.frame.number, session.state.get(":p;2"), '
         + 'session.systems[0].position.data[2 * session.systems[0].position.stride + 1], session.evaluate("$(:p;2)[1]").number, '
         + 'session.digest()];');
