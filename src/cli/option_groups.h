@@ -13,36 +13,22 @@
 
 #include <stddef.h>
 
-#define SHARED(long_name, short_name, shown, reader, into, text)                                                       \
-    {.name = long_name,                                                                                                \
-     .letter = short_name,                                                                                             \
-     .value = shown,                                                                                                   \
-     .help = text,                                                                                                     \
-     .field = offsetof(Options, into),                                                                                 \
-     .read = reader},
-#define OWN(long_name, short_name, shown, reader, into, text)                                                          \
-    {.own = true,                                                                                                      \
-     .name = long_name,                                                                                                \
-     .letter = short_name,                                                                                             \
-     .value = shown,                                                                                                   \
-     .help = text,                                                                                                     \
-     .field = offsetof(Own, into),                                                                                     \
-     .read = reader},
-// The end of a list.
-#define NO_MORE_OPTIONS                                                                                                \
-    { .name = NULL }
+// clang-format off
+#define SHARED(long_name, short_name, shown, reader, into, text) \
+    {.name = long_name, .letter = short_name, .value = shown, .help = text, .field = offsetof(Options, into), .read = reader},
+#define OWN(long_name, short_name, shown, reader, into, text) \
+    {.own = true, .name = long_name, .letter = short_name, .value = shown, .help = text, .field = offsetof(Own, into), .read = reader},
+#define NO_MORE_OPTIONS {.name = NULL} // the end of a list
 
 // Readers with their parameters.
 #define WHOLE(from, to) option_integer, .min = from, .max = to
 #define VERBOSITY(level) option_verbosity, .min = level
-#define ONE_OF(reader, ...)                                                                                            \
-    reader, .words = (const char *const[]) {                                                                           \
-        __VA_ARGS__, NULL                                                                                              \
-    }
+#define ONE_OF(reader, ...) reader, .words = (const char *const[]){__VA_ARGS__, NULL}
 // Readers of rows with a mark.
 #define NOT_IN_GOLDENS(...) __VA_ARGS__, .not_in_goldens = true
 #define ENDS_SHOW(...) __VA_ARGS__, .ends_show = true
 #define IS_LIST(...) __VA_ARGS__, .is_list = true
+// clang-format on
 
 // Readers: each parses args->value and stores it in a field. They return false after a message.
 bool option_flag(const Args *args, void *field);       // bool: sets it
