@@ -23,7 +23,8 @@ const Command ARCHIVE_COMMAND = {
     .examples = "  petri run dish.fl --archive run.petri           write an archive\n"
                 "  petri archive verify run.petri                  compute it again\n",
     .missing_operand = "no action given",
-    .second_operand_error = "no such action, or too many arguments: '%s'; see 'petri help archive'",
+    .second_operand_error = "too many arguments: '%s'; see 'petri help archive'",
+    .accepts_two = true,
     .parts = (const Command *const[]){&VERIFY_COMMAND, &INFO_COMMAND, &CITE_COMMAND, &UNPACK_COMMAND, NULL},
     .run = archive_run,
 };

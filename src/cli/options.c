@@ -39,7 +39,7 @@ static bool read_operand(const Args *args) {
     } else if (options->script) {
         script_report_second(options->script, args->value);
         return false;
-    } else if (args->value[0] == '\0' && command->options) {
+    } else if (args->value[0] == '\0' && command->options && !command->second_operand_error) {
         message("the script name is empty");
         return false;
     }

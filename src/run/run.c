@@ -341,6 +341,7 @@ const Command RUN_COMMAND = {
     .details =
         "Runs frames without drawing. Prints the requested results to standard output, messages to standard error.\n"
         "Ctrl-C aborts the current frame and ends the run; a second Ctrl-C ends it at once.\n"
+        "'petri help run LINK' explains how to run the script of a link.\n"
         "\n"
         "A top-level line such as `let CELLS=CELLS or 200 -- 1..500 how many` declares a parameter. 'petri run\n"
         "--parameters SCRIPT.fl' lists parameters, '-D CELLS=50' sets one. The range is optional; a value outside it\n"

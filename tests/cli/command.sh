@@ -50,8 +50,8 @@ done
 for wrong in 'verfy x.petri' verfy; do
     petri archive $wrong
     check "a mistyped action is a usage error: $wrong" status_is 2
+    check "the message suggests an action: $wrong" has err "no such action: 'verfy'; did you mean 'petri archive verify'?"
 done
-check "the message suggests an action" has err "no such action: 'verfy'; did you mean 'petri archive verify'?"
 petri archive
 check "archive needs an action" has err "no action given: petri archive ACTION RUN.petri"
 petri view --send socket --help

@@ -119,5 +119,7 @@ check "a cut answer exits with status 1" status_is 1
 rm sock
 send 1
 check "send without a view reports it" has err "cannot reach a view at sock"
+send ''
+check "code may be empty" has err "cannot reach a view at sock"
 check "send without a view exits with status 1" status_is 1
 finish
