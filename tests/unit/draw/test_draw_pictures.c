@@ -1,5 +1,6 @@
 // test_draw_pictures.c: tests of petri_picture: which content it chooses, and copies of frames that are rendered later.
 #include "petri-draw.h"
+#include "picture/painter.h"
 #include "player.h"
 
 #include <dirent.h>
@@ -573,31 +574,80 @@ static const uint32_t *provide_pixels(void *host, const char *file, int *width, 
     return strcmp(file, "a.png") == 0 ? pixels : NULL;
 }
 
-// Without Cairo, the host's backend draws canvases, and petri composites them.
+// A painter without a backend is what builds without Cairo open.
 static void test_host_backend_draws_canvases(void **state) {
     Player *player = *state;
-    PetriPainter *painter = petri_painter_open();
+    PetriPainter *painter = painter_open(NULL);
     int calls = 0;
     uint32_t pixels[8];
     PetriCanvasBackend host = {.size = sizeof host, .draw = fill_black, .image = provide_pixels, .user_data = &calls};
     assert_int_equal(petri_painter_use_backend(NULL, &host), PETRI_INVALID);
     assert_int_equal(petri_painter_use_backend(painter, NULL), PETRI_INVALID);
-    PetriStatus status = petri_painter_use_backend(painter, &host);
+    assert_int_equal(petri_painter_use_backend(painter, &(PetriCanvasBackend){.size = sizeof host}), PETRI_INVALID);
+    assert_int_equal(petri_painter_use_backend(painter, &host), PETRI_OK);
     player_run(player,
                "!window size=4;2\n    !image filename='a.png' size=4;2\n    !image filename='b.png'\n    !canvas\n"
                "        !rect size=1 fill=true\n",
                1);
     PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
-    if (status != PETRI_UNSUPPORTED) {
-        assert_int_equal(status, PETRI_OK);
-        assert_int_equal(petri_picture_draw(picture, painter, pixels, 4, 2, 4 * sizeof *pixels), PETRI_OK);
-        petri_picture_report(player->session, picture);
-        assert_non_null(strstr(player_diagnostics(player), "cannot read 'b.png'"));
-        assert_int_equal(calls, 1);
-        assert_int_equal(pixels[1] >> 16, 0xff00);
-        assert_true((pixels[1] & 0xff00) > 0 && (pixels[1] & 0xff) == 0);
-        assert_int_equal(pixels[2], 0xff0000ffu);
+    assert_int_equal(petri_picture_draw(picture, painter, pixels, 4, 2, 4 * sizeof *pixels), PETRI_OK);
+    petri_picture_report(player->session, picture);
+    assert_non_null(strstr(player_diagnostics(player), "cannot read 'b.png'"));
+    assert_int_equal(calls, 1);
+    assert_int_equal(pixels[1] >> 16, 0xff00);
+    assert_true((pixels[1] & 0xff00) > 0 && (pixels[1] & 0xff) == 0);
+    assert_int_equal(pixels[2], 0xff0000ffu);
+    assert_int_equal(petri_painter_use_backend(painter, &host), PETRI_INVALID); // a picture was rendered
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+}
+
+// At another size, the picture is scaled to fit and centred.
+static void test_host_backend_scales_rendered_pictures(void **state) {
+    Player *player = *state;
+    PetriPainter *painter = painter_open(NULL);
+    int calls = 0;
+    uint32_t pixels[4 * 6];
+    PetriCanvasBackend host = {.size = sizeof host, .draw = fill_black, .user_data = &calls};
+    assert_int_equal(petri_painter_use_backend(painter, &host), PETRI_OK);
+    player_run(player, "!window size=4;2\n    !canvas\n        !rect size=1 fill=true\n    !canvas\n", 1);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
+    petri_picture_draw(picture, painter, pixels, 4, 6, 4 * sizeof *pixels); // the second canvas is empty, so it fails
+    assert_int_equal(calls, 2);
+    for (int y = 0; y < 6; y++) {
+        bool green = (pixels[4 * y] & 0xff00) > 0;
+        assert_int_equal(green, y == 2 || y == 3);
     }
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+}
+
+static bool take_bytes(void *user_data, const char *bytes, size_t length) {
+    (void)user_data, (void)bytes, (void)length;
+    return true;
+}
+
+static void test_painter_without_backend_reports_that_it_cannot_draw(void **state) {
+    Player *player = *state;
+    PetriPainter *painter = painter_open(NULL);
+    uint32_t pixels[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    PetriLabel label = {.text = "a", .width = 2, .height = 2, .size = 1, .line_height = 1};
+    player_run(player, "!window size=4;2\n    !image filename='a.png'\n    !canvas\n        !rect size=1 fill=true\n",
+               1);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
+    assert_int_equal(petri_picture_render(picture, painter), PETRI_OK); // canvases and images are left out
+    assert_int_equal(petri_picture_draw(picture, painter, pixels, 4, 2, 4 * sizeof *pixels), PETRI_UNSUPPORTED);
+    assert_int_equal(pixels[0], 0);
+    assert_int_equal(petri_picture_encode(picture, painter, ".png", take_bytes, NULL), PETRI_UNSUPPORTED);
+    assert_int_equal(petri_picture_encode(picture, painter, ".svg", take_bytes, NULL), PETRI_UNSUPPORTED);
+    assert_int_equal(petri_painter_draw_labels(painter, &label, 1, sizeof label, 1, pixels, 4, 2, 16),
+                     PETRI_UNSUPPORTED);
+    petri_picture_report(player->session, picture);
+    assert_non_null(strstr(player_diagnostics(player), "this build of petri cannot draw"));
+    petri_painter_serve(painter, player->session);
+    player_run(player, "!print text=measure_text('a')\n", 1);
+    assert_non_null(strstr(player_diagnostics(player), "there are no fonts"));
+    petri_painter_serve(NULL, player->session);
     petri_picture_free(&picture);
     petri_painter_close(&painter);
 }
@@ -620,6 +670,8 @@ TEST_GROUP(draw_pictures) {
         PLAYER_TEST(test_display_list_has_whole_canvas),
         PLAYER_TEST(test_is_display_list_without_effects),
         PLAYER_TEST(test_host_backend_draws_canvases),
+        PLAYER_TEST(test_host_backend_scales_rendered_pictures),
+        PLAYER_TEST(test_painter_without_backend_reports_that_it_cannot_draw),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
