@@ -98,7 +98,7 @@ bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool
 // Like draw_charge_path, for `count` filled boxes of width x height units. Assumes that the boxes are on the target.
 bool draw_charge_box(Canvas *canvas, const DisplayPaint *paint, double width, double height, double count);
 
-// images.c
+// image_cache.c
 // Returns a surface with the pixels of an image; the caller destroys the surface. Returns NULL if the image does not
 // exist. A file that cannot be read is reported.
 cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);

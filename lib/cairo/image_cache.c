@@ -1,5 +1,5 @@
-// images.c: decoding and caching of image files, and rendered pictures of other nodes. A painter caches an image until
-// its file changes.
+// image_cache.c: decoded image files, and rendered pictures of other nodes. A painter caches an image until its file
+// changes.
 #include "base/file.h"
 #include "base/heap.h"
 #include "base/source.h"
