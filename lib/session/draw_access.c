@@ -37,8 +37,7 @@ uint32_t session_frame_numbers(PetriSession *session, Arena *arena, const char *
         names[count] = all[i];
         numbers[count++] = v.as.number;
     }
-    for (uint32_t i = session->config.define_count;
-         i-- > 0 && count < capacity;) { // the newest definition of a name comes first
+    for (uint32_t i = 0; i < session->config.define_count && count < capacity; i++) {
         const Define *define = &session->config.defines[i];
         if (define->value.kind != VALUE_NUMBERS || define->value.len != 1)
             continue;

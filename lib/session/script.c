@@ -35,24 +35,32 @@ typedef struct Definition {
     Str value; // text as in petri_define; if `bytes` is NULL: the parameter gets its default
 } Definition;
 
+// Removes the definition of a name, from a new array with room for one more, because checkpoints use the old one.
+static void remove_define(PetriSession *session, const Symbol *name) {
+    Config *config = &session->config;
+    Define *defines = arena_alloc_array(&session->arena, config->define_count + 1, sizeof *defines);
+    uint32_t count = 0, reported = 0;
+    for (uint32_t i = 0; i < config->define_count; i++)
+        if (config->defines[i].name != name) {
+            defines[count++] = config->defines[i];
+            reported += i < session->reported_defines;
+        }
+    config->defines = defines;
+    config->define_count = count;
+    session->reported_defines = reported;
+}
+
 static PetriStatus add_define(PetriSession *session, void *context) {
     const Definition *definition = context;
     Str name = definition->name, value = definition->value;
     if (!session_is_name(name) || utf8_find_error(value) != value.len)
         return PETRI_INVALID;
-    // A new array, because checkpoints use the old one. It omits the old definition of the name, which would make each
-    // move of a slider dearer than the one before.
     const Symbol *symbol = symbol_intern(&session->symbols, name);
-    Define *defines = arena_alloc_array(&session->arena, session->config.define_count + 1, sizeof *defines);
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < session->config.define_count; i++)
-        if (session->config.defines[i].name != symbol)
-            defines[count++] = session->config.defines[i];
     Str text = str_format(&session->arena, "%.*s=%.*s", STR_ARGS(name), STR_ARGS(value));
     value = (Str){text.bytes + name.len + 1, value.len};
-    defines[count] = (Define){symbol, define_value(session, value), str_to_c(&session->arena, text)};
-    session->config.defines = defines;
-    session->config.define_count = count + 1;
+    Define define = {symbol, define_value(session, value), str_to_c(&session->arena, text)};
+    remove_define(session, symbol);
+    ((Define *)session->config.defines)[session->config.define_count++] = define;
     session_change_config(session, true);
     return PETRI_OK;
 }
@@ -177,21 +185,17 @@ PetriStatus petri_reload(PetriSession *session, const char *file) {
 
 // --- parameters
 
-// Replaces all definitions of a name by one with the new value. If the new value is NULL, only removes them.
+// Replaces the definition of a name. If the new value is NULL, only removes it.
 static PetriStatus redefine(PetriSession *session, void *context) {
     const Definition *definition = context;
-    Config *config = &session->config;
+    const Config *config = &session->config;
     const Symbol *symbol = symbol_intern(&session->symbols, definition->name);
     if (!config->program || !program_find_parameter(config->program->program, symbol))
         return PETRI_INVALID;
-    Define *defines = arena_alloc_array(&session->arena, config->define_count + 1, sizeof *defines);
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < config->define_count; i++)
-        if (config->defines[i].name != symbol)
-            defines[count++] = config->defines[i];
-    config->defines = defines;
-    config->define_count = session->reported_defines = count;
-    return definition->value.bytes ? add_define(session, context) : PETRI_OK;
+    if (definition->value.bytes)
+        return add_define(session, context);
+    remove_define(session, symbol);
+    return PETRI_OK;
 }
 
 PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value) {
