@@ -1,32 +1,7 @@
 # archive.sh: tests of archives: `petri run --archive`, `petri archive verify` and `petri archive info`. Part of run.sh.
 
-# reseal ARCHIVE: computes the SHA-256 sums of an archive again, as its README defines them.
-reseal() {
-    python3 - "$1" <<'END'
-import hashlib, sqlite3, struct, sys
-
-def pack(value):
-    if isinstance(value, int):
-        return struct.pack("<q", value)
-    value = value if isinstance(value, bytes) else value.encode()
-    return struct.pack("<q", len(value)) + value
-
-database = sqlite3.connect(sys.argv[1])
-before, sums = -2, None
-for frame, given, setup, state in database.execute("SELECT frame, given, setup, state FROM keyframe ORDER BY frame").fetchall():
-    data = sums.encode() if sums else b"".join(
-        pack(value) for table in ("meta ORDER BY key", "parameter ORDER BY name")
-        for row in database.execute(f"SELECT * FROM {table}") for value in row)
-    for columns in ("frame, name, sha256 FROM file", "frame, kind, payload FROM input", "frame, text FROM note", "frame, digest FROM digest"):
-        order = "frame" if "digest FROM" in columns else "id"
-        for row in database.execute(f"SELECT {columns} WHERE frame > ? AND frame <= ? ORDER BY {order}", (before, frame)):
-            data += b"".join(map(pack, row))
-    data += b"".join(map(pack, (frame, given, setup, state)))
-    before, sums = frame, hashlib.sha256(data).hexdigest()
-    database.execute("UPDATE keyframe SET sha256 = ? WHERE frame = ?", (sums, frame))
-database.commit()
-END
-}
+# reseal ARCHIVE: computes the SHA-256 sums of an archive again.
+reseal() { python3 "$root/tests/support/reseal.py" "$1"; }
 
 cat >dish.fl <<'END'
 let N=N or 5 -- 1..9 number of drops
