@@ -24,9 +24,22 @@ bool words_name_archive(char *const *words) {
     return words_have_option(words, "archive");
 }
 
+// Returns true for `#DATA`, and for a URL that ends so. DATA is base64url. The value of an option such as `#1` is
+// shorter.
+static bool is_link(const char *word) {
+    enum { MIN_DATA = 8 };
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ", rest[] = "0123456789_-";
+    const char *data = strchr(word, '#');
+    if (!data++ || (word[0] != '#' && strncmp(word + strspn(word, letters), "://", 3) != 0))
+        return false;
+    size_t length = 0;
+    while (data[length] != '\0' && (strchr(letters, data[length]) || strchr(rest, data[length])))
+        length++;
+    return data[length] == '\0' && length >= MIN_DATA && access(word, F_OK) != 0;
+}
+
 bool words_name_link(char *const *words) {
-    for (; *words; words++)
-        if ((**words == '#' || (strstr(*words, "://") && strchr(*words, '#'))) && access(*words, F_OK) != 0)
-            return true;
-    return false;
+    while (*words && !is_link(*words))
+        words++;
+    return *words;
 }

@@ -9,6 +9,6 @@ bool word_is_option(const char *word, const char *name);
 bool words_have_option(char *const *words, const char *name);
 // Returns true if a command line, which ends with NULL, reads or writes an archive.
 bool words_name_archive(char *const *words);
-// Returns true if one of the words is a link (link/pack.h): it begins with `#`, or is a URL with a `#`, and no file has
+// Returns true if one of the words is a link (link/pack.h): `#` and data, or a URL that ends so, and no file has
 // this name.
 bool words_name_link(char *const *words);

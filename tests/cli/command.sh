@@ -274,7 +274,7 @@ if [ -x "$(dirname "$petri")/petri-pictures" ]; then
     check "petri alone suggests a command that it cannot execute" has err "'rendr'; did you mean 'petri render'?"
     check "an unknown command is a usage error" status_is 2
     for words in 'render disc.fl -o x.png' 'check --stats plain.fl' 'sweep --plan p' 'sweep plain.fl --plot=x.svg' --help \
-        'run plain.fl --archive x.petri' 'plain.fl --archive=x.petri' 'archive info x' 'run #q1' '#q1' 'view http://a/#q1'; do
+        'run plain.fl --archive x.petri' 'plain.fl --archive=x.petri' 'archive info x' 'run #q1abcdefgh' '#q1abcdefgh' 'view http://a/#q1abcdefgh'; do
         alone $words
         check "'petri $words' needs petri-pictures" one_message "cannot start petri-pictures: No such file or directory"
     done
