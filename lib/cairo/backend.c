@@ -55,8 +55,8 @@ static bool draw_page(Canvas *canvas, const Page *page, double width, double hei
         draw_automatic(canvas, page->picture->automatic);
     cairo_status_t status = cairo_status(cr);
     if (status != CAIRO_STATUS_SUCCESS && !canvas->failed)
-        draw_report_canvas(canvas, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn: %s",
-                           cairo_status_to_string(status));
+        draw_report(canvas, NULL, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn: %s",
+                    cairo_status_to_string(status));
     return status == CAIRO_STATUS_SUCCESS && !canvas->failed;
 }
 

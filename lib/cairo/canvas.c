@@ -9,8 +9,7 @@ const char draw_omitted[] = "parts of the picture are left out";
 bool draw_charge(Canvas *canvas, const Origin *place, double work, const char *outcome) {
     if (budget_charge_time(&canvas->painter->budget, work))
         return true;
-    draw_report_canvas_at(canvas, place, DIAG_WARNING, "drawing-limit", "drawing exceeded the work limit (--work): %s",
-                          outcome);
+    draw_report(canvas, place, DIAG_WARNING, "drawing-limit", "drawing exceeded the work limit (--work): %s", outcome);
     return false;
 }
 
@@ -60,8 +59,8 @@ void draw_report_degraded(Canvas *canvas, const Origin *place, const char *what,
         arena_exhausted(&canvas->painter->arena);
     budget->memory_refused = false;
     canvas->painter->lacks_memory = true;
-    draw_report_canvas_at(canvas, place, DIAG_WARNING, "memory-limit",
-                          "drawing exceeded the memory limit (--memory): the content is drawn without %s", what);
+    draw_report(canvas, place, DIAG_WARNING, "memory-limit",
+                "drawing exceeded the memory limit (--memory): the content is drawn without %s", what);
 }
 
 void draw_close(Canvas *canvas) {
@@ -69,15 +68,7 @@ void draw_close(Canvas *canvas) {
     float_image_free_all(&canvas->pool);
 }
 
-void draw_report_canvas(Canvas *canvas, DiagLevel level, const char *code, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    painter_report_args(canvas->diags, NULL, level, code, format, args);
-    va_end(args);
-}
-
-void draw_report_canvas_at(Canvas *canvas, const Origin *place, DiagLevel level, const char *code, const char *format,
-                           ...) {
+void draw_report(Canvas *canvas, const Origin *place, DiagLevel level, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
     painter_report_args(canvas->diags, place, level, code, format, args);

@@ -57,12 +57,9 @@ typedef struct Canvas {
 } Canvas;
 
 // canvas.c
-// Reports a diagnostic of drawing. Each message is reported only once.
-__attribute__((format(printf, 4, 5))) void draw_report_canvas(Canvas *canvas, DiagLevel level, const char *code,
-                                                              const char *format, ...);
-// Like draw_report_canvas, with a position in the script.
-__attribute__((format(printf, 5, 6))) void draw_report_canvas_at(Canvas *canvas, const Origin *place, DiagLevel level,
-                                                                 const char *code, const char *format, ...);
+// Reports a diagnostic of drawing. `place` may be NULL. Each message is reported only once.
+__attribute__((format(printf, 5, 6))) void draw_report(Canvas *canvas, const Origin *place, DiagLevel level,
+                                                       const char *code, const char *format, ...);
 // Charges work, in nanoseconds, to the picture. If that would exceed the limit, reports this and returns false. The
 // message ends with `outcome`, which describes what is drawn instead.
 extern const char draw_omitted[]; // an `outcome`: the rest of the drawing is left out

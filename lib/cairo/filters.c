@@ -23,9 +23,9 @@ static void report_blur_limit(const FilterContext *context, const DisplayFilter 
     double radius[2];
     filter_radius(filter, &context->matrix, radius);
     if (fmax(radius[0], radius[1]) > FLOAT_IMAGE_MAX_SIGMA)
-        draw_report_canvas_at(context->canvas, &filter->place, DIAG_WARNING, "blur-limit",
-                              "!%s: the radius is limited to %d pixels",
-                              filter->kind == FILTER_BLUR ? "blur" : "shadow", FLOAT_IMAGE_MAX_SIGMA);
+        draw_report(context->canvas, &filter->place, DIAG_WARNING, "blur-limit",
+                    "!%s: the radius is limited to %d pixels", filter->kind == FILTER_BLUR ? "blur" : "shadow",
+                    FLOAT_IMAGE_MAX_SIGMA);
 }
 
 // Returns the pixels of an image surface as a float image.

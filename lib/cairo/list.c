@@ -28,9 +28,8 @@ static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
     if (at < MAX_LAYERS)
         layers->drawn[at] = false;
     if (many) {
-        draw_report_canvas_at(
-            canvas, place, DIAG_WARNING, "too-many-layers",
-            "!layer: layers are nested too deeply or too large; the innermost are drawn without a layer");
+        draw_report(canvas, place, DIAG_WARNING, "too-many-layers",
+                    "!layer: layers are nested too deeply or too large; the innermost are drawn without a layer");
         return;
     }
     if (!draw_charge(canvas, place, pixels, "the content is drawn without the layer"))

@@ -77,8 +77,8 @@ bool draw_strokes_in_segments(const Canvas *canvas) {
 
 bool draw_is_drawable(Canvas *canvas) {
     if (canvas->path_work > MAX_WORK && !canvas->failed) {
-        draw_report_canvas(canvas, DIAG_ERROR, "path-limit",
-                           "the picture cannot be drawn: a path has too many points that are far apart");
+        draw_report(canvas, NULL, DIAG_ERROR, "path-limit",
+                    "the picture cannot be drawn: a path has too many points that are far apart");
         canvas->failed = true;
     }
     return !canvas->failed;

@@ -150,8 +150,8 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
     // Finds the family before Pango objects are allocated, because the report can abort the drawing.
     const char *family = find_family(canvas->painter, text->family, &known);
     if (!known && strcmp(text->family, schema_row(KIND_CANVAS, ATTR_FONT_FAMILY)->default_value.string) != 0)
-        draw_report_canvas(canvas, DIAG_WARNING, "unknown-font", "!font: font '%.100s' is not installed; using another",
-                           text->family);
+        draw_report(canvas, NULL, DIAG_WARNING, "unknown-font", "!font: font '%.100s' is not installed; using another",
+                    text->family);
     use_font(text_context, text, family);
     text_context->family = text->family;
     text_context->font = *text;
@@ -161,8 +161,8 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
 static bool has_drawable_size(Canvas *canvas, double size) {
     double pixels = size * draw_scale_of(canvas->cr);
     if (pixels > MAX_FONT_SIZE || size > MAX_FONT_SIZE)
-        draw_report_canvas(canvas, DIAG_WARNING, "bad-font-size", "!text: text larger than %d pixels is not drawn",
-                           MAX_FONT_SIZE);
+        draw_report(canvas, NULL, DIAG_WARNING, "bad-font-size", "!text: text larger than %d pixels is not drawn",
+                    MAX_FONT_SIZE);
     return pixels > 0.1 && size > 0.001 && pixels <= MAX_FONT_SIZE && size <= MAX_FONT_SIZE;
 }
 
@@ -184,8 +184,8 @@ bool draw_set_text_path(Canvas *canvas, const DisplayText *text, const DisplayPa
     if (text->weight <= 0 || !has_drawable_size(canvas, text->size))
         return false;
     if (text->text.len > MAX_TEXT_LENGTH) {
-        draw_report_canvas(canvas, DIAG_WARNING, "text-too-long", "!text: text longer than %d bytes is not drawn",
-                           MAX_TEXT_LENGTH);
+        draw_report(canvas, NULL, DIAG_WARNING, "text-too-long", "!text: text longer than %d bytes is not drawn",
+                    MAX_TEXT_LENGTH);
         return false;
     }
     // The estimated area per byte of text is a third of the square of the font size.
