@@ -1,5 +1,6 @@
 // diagnostics.c: implementation of diagnostics.h.
 #include "base/heap.h"
+#include "base/host_struct.h"
 #include "session/session.h"
 
 #include <stdio.h>

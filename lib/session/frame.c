@@ -1,5 +1,8 @@
 // frame.c: computation of one frame: evaluates the script, then advances the systems (spec language.md L16).
+#include "ast/literal.h"
 #include "base/clock.h"
+#include "base/host_struct.h"
+#include "petri-inspect.h"
 #include "session/session.h"
 
 #include <math.h>
@@ -15,8 +18,10 @@ static double pragma_number(PetriSession *session, const Pragma *pragma, bool po
     double number = NAN;
     if (value_is_number(v) && !symbol_of_number(&session->symbols, v.as.number))
         number = v.as.number;
-    else if (v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING)
-        petri_parse_number(str_to_c(&session->text_arena, v.as.items[0].as.string->text), &number);
+    else if (v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING) {
+        Str text = v.as.items[0].as.string->text;
+        (void)(literal_parse_number(text, &number) || literal_parse_timecode(text, &number));
+    }
     bool good = positive ? number > 0 && isfinite(number) : !isnan(number);
     if (good)
         return number;

@@ -1,5 +1,6 @@
 // functions.c: functions of the host (petri_add_function), and calls of functions of the script that describe distance
 // fields (`!sdf function=`).
+#include "base/host_struct.h"
 #include "session/session.h"
 #include "value/format.h"
 
@@ -106,14 +107,6 @@ PetriStatus petri_add_function(PetriSession *session, const PetriFunction *given
     if (!session_is_name(name) || engine_name_exists(name) || builtin_find(name) || builtin_constant(name, &constant))
         return PETRI_INVALID;
     return session_protect(session, NULL, add_function, &function);
-}
-
-bool petri_host_function(const PetriSession *session, size_t number, PetriBuiltin *function, size_t size) {
-    if (!session || number >= session->functions.count)
-        return false;
-    const Builtin *row = session->functions.rows[number];
-    const PetriBuiltin found = {row->name, row->parameters, row->help};
-    return host_struct_write(function, size, &found, sizeof found);
 }
 
 // --- functions of the script

@@ -7,6 +7,7 @@
 // If there are too many keyframes, the one is dropped that saves the fewest steps relative to its age. Recent keyframes
 // are therefore closer together than old ones.
 #include "base/heap.h"
+#include "base/host_struct.h"
 #include "session/session.h"
 
 #include <string.h>

@@ -1,5 +1,7 @@
 // host_state.c: the host's access to the state dictionary, its digest (spec digest.md), global names and input.
+#include "base/host_struct.h"
 #include "base/number.h"
+#include "petri-inspect.h"
 #include "physics/threads.h"
 #include "session/session.h"
 

@@ -1,6 +1,7 @@
 // load.c: loading of scripts, modules and includes (spec language.md L13, L14).
 #include "base/file.h"
 #include "base/heap.h"
+#include "petri-inspect.h"
 #include "session/session.h"
 #include "syntax/parse.h"
 

@@ -1,5 +1,6 @@
 // memory.c: arenas, units, lists of statements and the results of a frame, as memory that a session owns.
 #include "base/heap.h"
+#include "builtin/files.h"
 #include "session/session.h"
 
 #include <string.h>

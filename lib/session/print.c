@@ -1,7 +1,8 @@
-// print.c: output of frames and compiled code as text (spec cli.md 3.3).
+// print.c: output of frames as text (spec cli.md 3.3).
 #include "base/number.h"
+#include "petri-inspect.h"
 #include "session/session.h"
-#include "syntax/parse.h"
+#include "session/text_sink.h"
 #include "value/format.h"
 
 static void print_header(TextSink *out, const Clock *clock) {
@@ -77,30 +78,6 @@ static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, b
     }
 }
 
-// Arguments and result of a public output function, such as petri_print.
-typedef struct Printing {
-    void (*print)(TextSink *out, PetriSession *session, unsigned what);
-    unsigned selection; // sections of petri_print, or the PetriDump of petri_dump
-    PetriWriteCallback *write;
-    void *user_data;
-    PetriStatus status;
-} Printing;
-
-static PetriStatus run_print(PetriSession *session, void *context) {
-    Printing *printing = context;
-    arena_reset(&session->text_arena);
-    TextSink out = {.text = text_new(&session->text_arena), .write = printing->write, .user_data = printing->user_data};
-    printing->print(&out, session, printing->selection);
-    text_sink_flush(&out);
-    printing->status = text_sink_finish(session, &out); // not returned, because it is reported already
-    return PETRI_OK;
-}
-
-static PetriStatus print_protected(PetriSession *session, Printing printing) {
-    PetriStatus status = session_protect(session, NULL, run_print, &printing);
-    return status == PETRI_OK ? printing.status : session_report_abort(session, status, "the output");
-}
-
 static void print_log(TextSink *out, PetriSession *session, unsigned sections) {
     (void)sections;
     print_lines(out, &session->frame.log, "> ", false);
@@ -126,29 +103,11 @@ static void print_frame(TextSink *out, PetriSession *session, unsigned sections)
 PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWriteCallback *write, void *host) {
     if (!session || !write)
         return PETRI_INVALID;
-    return print_protected(session, (Printing){print_frame, sections, write, host, PETRI_OK});
+    return text_sink_run(session, print_frame, sections, write, host);
 }
 
 PetriStatus petri_print_log(PetriSession *session, PetriWriteCallback *write, void *host) {
     if (!session || !write)
         return PETRI_INVALID;
-    return print_protected(session, (Printing){print_log, 0, write, host, PETRI_OK});
-}
-
-static void print_code(TextSink *out, PetriSession *session, unsigned what) {
-    const Unit *unit = session->config.program;
-    if (what == PETRI_DUMP_CODE) {
-        program_print(&out->text, &session->symbols, unit->program);
-    } else { // parses the text again, because the syntax tree was freed after compilation
-        DiagSink discarded = diag_sink_new(out->text.arena, 0);
-        const Ast *ast = parse_program(out->text.arena, &session->symbols, unit->source, &discarded);
-        ast_print(&out->text, &session->symbols, unit->source, ast);
-        diag_sink_free(&discarded);
-    }
-}
-
-PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWriteCallback *write, void *host) {
-    if (!session || !write || !session->config.program)
-        return PETRI_INVALID;
-    return print_protected(session, (Printing){print_code, what, write, host, PETRI_OK});
+    return text_sink_run(session, print_log, 0, write, host);
 }

@@ -6,7 +6,9 @@
 // do not depend on how the session reached the frame. Expressions are evaluated in a separate arena and retain nothing.
 #include "base/clock.h"
 #include "base/heap.h"
+#include "base/host_struct.h"
 #include "session/session.h"
+#include "session/text_sink.h"
 #include "syntax/parse.h"
 #include "value/format.h"
 

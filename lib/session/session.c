@@ -2,6 +2,8 @@
 #include "session/session.h"
 
 #include "base/heap.h"
+#include "base/host_struct.h"
+#include "builtin/files.h"
 
 #include <math.h>
 #include <string.h>

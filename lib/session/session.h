@@ -4,34 +4,26 @@
 // checkpoint.c; memory.c frees them. Every public function that allocates does so within session_protect. A file calls
 // only files of lower levels:
 //
-//     1   protect, memory, clock, convert, info, drawing_lint, image
+//     1   protect, memory, clock, convert, library, drawing_lint, image
 //     2   config, checkpoint, diagnostics, image_text
 //     3   run, state_lint, text_sink
-//     4   recorder, tree_lint; values, functions, systems, tokens, profile, drawn_files
+//     4   recorder, tree_lint; values, functions, systems, drawn_files
 //     5   load, frame, host_state, save
-//     6   history, parameters, prompt, session, print
+//     6   history, definitions, prompt, session, print
 //     7   script
-//     8   check, replay
+//     8   replay
 #pragma once
 
-#include "base/host_struct.h"
-#include "base/sha256.h"
-#include "builtin/files.h"
 #include "builtin/noise.h"
 #include "petri-edit.h"
-#include "petri-inspect.h"
-#include "petri-live.h"
 #include "physics/explain.h"
 #include "ranks/ranks.h"
-#include "scene/scene.h"
 #include "session/checkpoint.h"
-#include "session/clock.h"
 #include "session/diagnostics.h"
 #include "session/draw_access.h"
 #include "session/frame.h"
 #include "session/prompt.h"
 #include "session/recorder.h"
-#include "session/unit.h"
 #include "state/digest.h"
 #include "vm/vm.h"
 
@@ -189,25 +181,3 @@ void session_lint_windows(PetriSession *session);
 PetriStatus session_lint_state(PetriSession *session, void *log);
 // Reports shapes and canvases in a window that stay invisible (drawing_lint.c).
 void session_lint_drawings(Schema *schema, Arena *arena, const Node *window, const Source *script);
-
-// Text output to a callback of the host, in chunks (text_sink.c).
-typedef struct TextSink {
-    Text text;                 // text not flushed yet
-    PetriWriteCallback *write; // callback of the host; NULL: the text is discarded
-    void *user_data;
-    bool stopped;             // true if the host stopped the output, or it was truncated
-    const Node *truncated_at; // root of the tree that was truncated, or NULL
-    size_t written;           // bytes flushed so far
-    Sha256 *hash;             // hash that receives the same text; NULL: none
-    bool muted;               // true: only the hash receives the text, not the host
-} TextSink;
-
-// Passes the accumulated text to the host (unless muted or stopped) and to the hash.
-void text_sink_flush(TextSink *out);
-// Ends a line; flushes if enough text has accumulated.
-void text_sink_end_line(TextSink *out);
-// Adds a tree as text. Shared nodes are written each time they occur, so even a small tree may result in a huge output.
-// The output is truncated at 512 MiB.
-void text_sink_add_tree(TextSink *out, const SymbolTable *symbols, const Node *node);
-// Returns the status of the whole output, and reports an error if a tree was truncated. Called after the last flush.
-PetriStatus text_sink_finish(PetriSession *session, const TextSink *out);

@@ -1,4 +1,6 @@
 // systems.c: public access to the particle systems of the last frame.
+#include "base/host_struct.h"
+#include "petri-inspect.h"
 #include "physics/energy.h"
 #include "physics/forces.h"
 #include "session/session.h"

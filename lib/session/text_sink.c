@@ -1,4 +1,6 @@
 // text_sink.c: text output to a callback of the host, in chunks; see session.h.
+#include "session/text_sink.h"
+
 #include "session/session.h"
 #include "value/format.h"
 
@@ -45,4 +47,30 @@ PetriStatus text_sink_finish(PetriSession *session, const TextSink *out) {
     Origin place = node_origin(out->truncated_at, NULL);
     session_report(session, &(Diag){DIAG_ERROR, place, str_from(text), .code = "memory-limit"});
     return PETRI_LIMIT_EXCEEDED;
+}
+
+// Arguments and result of text_sink_run.
+typedef struct Printing {
+    TextSinkPrint *print;
+    unsigned selection;
+    PetriWriteCallback *write;
+    void *user_data;
+    PetriStatus status;
+} Printing;
+
+static PetriStatus run_print(PetriSession *session, void *context) {
+    Printing *printing = context;
+    arena_reset(&session->text_arena);
+    TextSink out = {.text = text_new(&session->text_arena), .write = printing->write, .user_data = printing->user_data};
+    printing->print(&out, session, printing->selection);
+    text_sink_flush(&out);
+    printing->status = text_sink_finish(session, &out); // not returned, because it is reported already
+    return PETRI_OK;
+}
+
+PetriStatus text_sink_run(PetriSession *session, TextSinkPrint *print, unsigned selection, PetriWriteCallback *write,
+                          void *user_data) {
+    Printing printing = {print, selection, write, user_data, PETRI_OK};
+    PetriStatus status = session_protect(session, NULL, run_print, &printing);
+    return status == PETRI_OK ? printing.status : session_report_abort(session, status, "the output");
 }

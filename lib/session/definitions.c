@@ -1,16 +1,11 @@
-// parameters.c: parameters of the loaded script, and checks of the definitions (-D) that set them.
+// definitions.c: checks of the definitions (-D) that set the parameters of the loaded script.
+#include "session/definitions.h"
+
 #include "base/number.h"
 #include "session/session.h"
 #include "value/format.h"
 
 #include <math.h>
-
-// Modules that a program imports at its top level, directly or indirectly, each once.
-enum { MAX_MODULES = 64 };
-typedef struct ModuleList {
-    const Program *items[MAX_MODULES];
-    uint32_t count;
-} ModuleList;
 
 static bool has_module(const ModuleList *list, const Program *module) {
     for (uint32_t i = 0; i < list->count; i++)
@@ -19,15 +14,14 @@ static bool has_module(const ModuleList *list, const Program *module) {
     return false;
 }
 
-// Adds the modules that a program imports. Called within a protected call. The recursion depth is at most MAX_MODULES.
-static void collect_modules(PetriSession *session, const Program *program, ModuleList *list) {
+void session_collect_modules(PetriSession *session, const Program *program, ModuleList *list) {
     for (uint32_t i = 0; i < program->import_count; i++) {
         Str reason;
         const Program *module = session_module(session, program->imports[i], &reason);
         if (!module || has_module(list, module) || list->count == MAX_MODULES)
             continue;
         list->items[list->count++] = module;
-        collect_modules(session, module, list);
+        session_collect_modules(session, module, list);
     }
 }
 
@@ -52,8 +46,7 @@ static bool all_numbers(const PetriSession *session, Value v) {
     return all;
 }
 
-// Returns the number if the value is a single number, else NaN.
-static double one_number(const PetriSession *session, Value v) {
+double session_one_number(const PetriSession *session, Value v) {
     return v.len == 1 && all_numbers(session, v) ? value_at(&v, 0).as.number : NAN;
 }
 
@@ -121,8 +114,7 @@ static void check_range(const Check *check, const Parameter *parameter) {
     }
 }
 
-// Returns true if the definition sets the parameter: it is true, or the parameter also accepts what is false.
-static bool is_used(const Parameter *parameter, Value defined) {
+bool session_uses_define(const Parameter *parameter, Value defined) {
     return value_true(defined) || parameter->keeps_false;
 }
 
@@ -144,7 +136,7 @@ static bool check_false(const Check *check, const Parameter *parameter) {
 static bool check_parameter(const Check *check, const Parameter *parameter) {
     if (!check_numbers(check, parameter))
         return false;
-    if (!is_used(parameter, check->define->value))
+    if (!session_uses_define(parameter, check->define->value))
         return check_false(check, parameter);
     check_range(check, parameter);
     return true;
@@ -204,7 +196,7 @@ static void check_unused(const Check *check) {
                 str_format(arena, "write `let %.*s=%.*s or …` to use the definition", STR_ARGS(name), STR_ARGS(name));
     } else {
         ModuleList modules = {.count = 0};
-        collect_modules(check->session, check->unit->program, &modules);
+        session_collect_modules(check->session, check->unit->program, &modules);
         const Parameter *parameter = find_in_modules(&modules, check->define->name);
         if (!parameter) {
             report_unused(check);
@@ -217,8 +209,7 @@ static void check_unused(const Check *check) {
                       str_format(arena, "unused definition '%.*s': %s", STR_ARGS(name), reason), hint);
 }
 
-// Returns the last definition of a name, or NULL.
-static const Define *find_define(const PetriSession *session, const Symbol *name) {
+const Define *session_find_define(const PetriSession *session, const Symbol *name) {
     for (uint32_t i = session->config.define_count; i > 0; i--)
         if (session->config.defines[i - 1].name == name)
             return &session->config.defines[i - 1];
@@ -243,7 +234,7 @@ bool session_check_definitions(PetriSession *session, Unit *unit) {
     uint32_t first = session->recompiling ? session->reported_defines : 0;
     diagnostics_repeat(&session->diagnostics, outer || session->recompiling);
     for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)
-        if (find_define(session, session->config.defines[i].name) == &session->config.defines[i])
+        if (session_find_define(session, session->config.defines[i].name) == &session->config.defines[i])
             good = check_definition(
                        &(Check){session, unit, &session->config.defines[i], &unit->program->define_uses[i]}) &&
                    good;
@@ -251,83 +242,4 @@ bool session_check_definitions(PetriSession *session, Unit *unit) {
     if (good)
         session->reported_defines = session->config.define_count;
     return good;
-}
-
-// Returns a part of a script as one line, without control characters.
-static const char *to_one_line(Arena *arena, Str source) {
-    Text text = text_new(arena);
-    for (size_t at = 0; at < source.len;) {
-        int32_t c = utf8_next(source, &at);
-        bool blank = c < 0x20 || (c >= 0x7f && c < 0xa0);
-        if (!blank)
-            text_add_code_point(&text, (uint32_t)c);
-        else if (text.len && text.bytes[text.len - 1] != ' ')
-            text_add_char(&text, ' ');
-        while (c == '\n' && at < source.len && source.bytes[at] == ' ')
-            at++;
-    }
-    text_add_c(&text, ""); // makes text.bytes a string even if it is empty
-    return text.bytes;
-}
-
-static void describe_parameter(PetriSession *session, const Parameter *parameter, bool settable, PetriParameter *out) {
-    Arena *arena = &session->text_arena;
-    const Define *define = settable ? find_define(session, parameter->name) : NULL;
-    bool defined = define && is_used(parameter, define->value);
-    Value value = defined ? define->value : parameter->value;
-    SourcePosition place = source_locate(parameter->source, parameter->span.start);
-    *out = (PetriParameter){
-        .name = str_to_c(arena, parameter->name->name),
-        .default_value = to_one_line(arena, parameter->default_text),
-        .value = defined || parameter->is_static ? format_text(arena, &session->symbols, value).bytes
-                                                 : to_one_line(arena, parameter->default_text),
-        .comment = to_one_line(arena, parameter->comment),
-        .number = defined || parameter->is_static ? one_number(session, value) : NAN,
-        .default_number = parameter->is_static ? one_number(session, parameter->value) : NAN,
-        .min = parameter->min,
-        .max = parameter->max,
-        .step = parameter->step,
-        .accepts_false = parameter->keeps_false,
-        .defined = defined,
-        .settable = settable,
-        .file = str_to_c(arena, parameter->source->name),
-        .line = place.line,
-        .column = place.column,
-    };
-}
-
-typedef struct Request {
-    size_t number;
-    PetriParameter *out;
-} Request;
-
-static PetriStatus find_parameter(PetriSession *session, void *context) {
-    Request *request = context;
-    const Program *program = session->config.program->program;
-    size_t number = request->number;
-    ModuleList modules = {.count = 0};
-    arena_reset(&session->text_arena);
-    if (number < program->parameter_count) {
-        describe_parameter(session, &program->parameters[number], true, request->out);
-        return PETRI_OK;
-    }
-    number -= program->parameter_count;
-    collect_modules(session, program, &modules);
-    for (uint32_t i = 0; i < modules.count; i++) {
-        const Program *module = modules.items[i];
-        if (number < module->parameter_count) {
-            describe_parameter(session, &module->parameters[number], false, request->out);
-            return PETRI_OK;
-        }
-        number -= module->parameter_count;
-    }
-    return PETRI_INVALID;
-}
-
-bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter, size_t size) {
-    PetriParameter found;
-    Request request = {number, &found};
-    return session && parameter && session->config.program &&
-           session_run(session, find_parameter, &request, "the query") == PETRI_OK &&
-           host_struct_write(parameter, size, &found, sizeof found);
 }
