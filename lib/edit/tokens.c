@@ -15,7 +15,10 @@ typedef struct Reading {
 
 static void send_token(void *context, TokenKind kind, Span span) {
     const Reading *reading = context;
-    PetriToken token = {sizeof token, (PetriTokenKind)kind, span.start, span.end};
+    // The source ends in a newline even if the text does not; the last dedent is after it.
+    size_t len = reading->text.len;
+    PetriToken token = {sizeof token, (PetriTokenKind)kind, span.start < len ? span.start : len,
+                        span.end < len ? span.end : len};
     reading->token_callback(reading->user_data, &token);
 }
 

@@ -93,7 +93,34 @@ static void test_questions_do_not_change_a_run(void **state) {
     }
 }
 
+// Tokens are in order and do not overlap, also if the text ends anywhere.
+typedef struct Tokens {
+    size_t len;
+    size_t end;
+    uint32_t count;
+} Tokens;
+
+static void follow_token(void *user_data, const PetriToken *token) {
+    Tokens *tokens = user_data;
+    assert_in_range(token->start, tokens->end, tokens->len);
+    assert_in_range(token->end, token->start, tokens->len);
+    tokens->end = token->end;
+    tokens->count++;
+}
+
+static void test_tokens_of_each_prefix_are_in_order(void **state) {
+    Player *player = *state;
+    for (size_t len = 0; len < sizeof SCRIPT; len++) {
+        Tokens tokens = {.len = len};
+        assert_int_equal(petri_tokenise(player->session, SCRIPT, len, follow_token, &tokens), PETRI_OK);
+        assert_true(tokens.count > 0 || len == 0);
+    }
+}
+
 TEST_GROUP(edit_services) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_questions_do_not_change_a_run)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_questions_do_not_change_a_run),
+        PLAYER_TEST(test_tokens_of_each_prefix_are_in_order),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
