@@ -6,6 +6,7 @@
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 // CompletionItemKind of the protocol.
 enum {
@@ -179,9 +180,13 @@ static void offer_files(Offer *all, size_t string) {
     text_add_c(&path, path.len == 0 ? "." : "");
     all->start = string + 1 + folder.len;
     DIR *entries = document->is_file ? opendir(path.bytes) : NULL;
-    for (struct dirent *entry = !entries ? NULL : readdir(entries); entry; entry = readdir(entries))
-        if (entry->d_name[0] != '.' && utf8_find_error(str_from(entry->d_name)) == strlen(entry->d_name))
-            add_candidate(all, entry->d_name, entry->d_type == DT_DIR ? AS_FOLDER : AS_FILE, 'a', "", "");
+    for (struct dirent *entry = !entries ? NULL : readdir(entries); entry; entry = readdir(entries)) {
+        struct stat status;
+        if (entry->d_name[0] == '.' || utf8_find_error(str_from(entry->d_name)) != strlen(entry->d_name))
+            continue;
+        bool folder_found = fstatat(dirfd(entries), entry->d_name, &status, 0) == 0 && S_ISDIR(status.st_mode);
+        add_candidate(all, entry->d_name, folder_found ? AS_FOLDER : AS_FILE, 'a', "", "");
+    }
     if (entries)
         closedir(entries);
 }

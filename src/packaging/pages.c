@@ -103,7 +103,7 @@ static void write_prompt_commands(Output *output) {
 static void write_synopsis(Output *output, const Command *command) {
     output_format(output, ".B petri %s\n%s", command->name, !command->options ? "" : "[options]\n");
     roff_text(output, command->operands);
-    output_format(output, "\n");
+    output_format(output, command->operands[0] == '\0' ? "" : "\n");
 }
 
 static void write_options(Output *output, const Command *command) {
