@@ -61,6 +61,7 @@ enum {
     MAX_KEYFRAMES = 512,
     MAX_EPOCHS = 512,
     INTERVAL = 8, // frames from one keyframe to the next
+    EPOCH_CAPACITY = MAX_EPOCHS + INTERVAL + 1,
 };
 // Seconds of computing after which a frame becomes a keyframe, so that going back takes about as long in a slow world.
 static const double MAX_SECONDS = 1;
@@ -88,7 +89,7 @@ struct PetriHistory {
     Keyframe keyframes[MAX_KEYFRAMES + 1]; // sorted; the first one is at frame `first`
     size_t keyframe_count;
     size_t bytes; // size of all keyframes
-    Epoch epochs[MAX_EPOCHS + INTERVAL + 1];
+    Epoch epochs[EPOCH_CAPACITY];
     size_t epoch_count;
     int64_t first; // first and last frame of the timeline
     int64_t last;
@@ -171,10 +172,11 @@ static bool has_config(const PetriHistory *history, const Epoch *epoch) {
     return history->session->config_revision == epoch->config->revision;
 }
 
-// Starts an epoch at the current frame. Returns false if out of memory.
+// Starts an epoch at the current frame. Returns false if out of memory, also if no snapshot could be taken for so long
+// that no keyframe is left to drop.
 static bool begin_epoch(PetriHistory *history) {
     PetriSession *session = history->session;
-    PetriConfig *config = petri_config_get(session);
+    PetriConfig *config = history->epoch_count < EPOCH_CAPACITY ? petri_config_get(session) : NULL;
     if (!config)
         return false;
     history->epochs[history->epoch_count++] = (Epoch){session->clock.number, config, session->clock.base};

@@ -158,6 +158,48 @@ static void test_many_changes_drop_the_oldest_frames(void **state) {
     petri_history_free(history);
 }
 
+// An allocator that can refuse to enlarge blocks, so that no snapshot can be taken.
+static bool refuses_growth;
+
+static void *allocate(void *user_data, size_t size) {
+    (void)user_data;
+    return malloc(size);
+}
+
+static void *resize(void *user_data, void *block, size_t size) {
+    (void)user_data;
+    return refuses_growth ? NULL : realloc(block, size);
+}
+
+static void release(void *user_data, void *block) {
+    (void)user_data;
+    free(block);
+}
+
+// Without memory for snapshots, there are no frames to drop, so the number of changes is limited by refusing them.
+static void test_changes_without_snapshots_are_limited(void **state) {
+    const PetriAllocator allocator = {sizeof allocator, allocate, resize, release, NULL};
+    Player *player = *state;
+    player_close(player);
+    assert_int_equal(petri_set_allocator(&allocator), PETRI_OK);
+    player_open(player);
+    start_history(player);
+    step(player, 3);
+    refuses_growth = true;
+    for (int i = 0; i < 2 * MAX_EPOCHS; i++) {
+        assert_int_equal(petri_set_tempo(player->session, 60 + i), PETRI_OK);
+        petri_history_step(history);
+    }
+    refuses_growth = false;
+    assert_in_range(petri_frame_number(player->session), MAX_EPOCHS, MAX_EPOCHS + INTERVAL + 3);
+    assert_int_equal(info().last, petri_frame_number(player->session));
+    go_to(player, 2);
+    petri_history_free(history);
+    player_close(player);
+    assert_int_equal(petri_set_allocator(NULL), PETRI_OK);
+    player_open(player);
+}
+
 // Drops all data except the state of the current frame, as after an interrupted step.
 static void lose_systems(Player *player) {
     PetriSystem system;
@@ -200,9 +242,9 @@ static void test_recompute_restores_whole_frame(void **state) {
 
 TEST_GROUP(session_history) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_goto_any_frame_gives_same_bits), PLAYER_TEST(test_change_applies_to_later_frames),
-        PLAYER_TEST(test_goto_before_start_is_rejected),  PLAYER_TEST(test_many_changes_drop_the_oldest_frames),
-        PLAYER_TEST(test_recompute_restores_whole_frame),
+        PLAYER_TEST(test_goto_any_frame_gives_same_bits),        PLAYER_TEST(test_change_applies_to_later_frames),
+        PLAYER_TEST(test_goto_before_start_is_rejected),         PLAYER_TEST(test_many_changes_drop_the_oldest_frames),
+        PLAYER_TEST(test_changes_without_snapshots_are_limited), PLAYER_TEST(test_recompute_restores_whole_frame),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
