@@ -210,9 +210,9 @@ static void check_unused(const Check *check) {
 }
 
 const Define *session_find_define(const PetriSession *session, const Symbol *name) {
-    for (uint32_t i = session->config.define_count; i > 0; i--)
-        if (session->config.defines[i - 1].name == name)
-            return &session->config.defines[i - 1];
+    for (uint32_t i = 0; i < session->config.define_count; i++)
+        if (session->config.defines[i].name == name)
+            return &session->config.defines[i];
     return NULL;
 }
 
@@ -234,10 +234,7 @@ bool session_check_definitions(PetriSession *session, Unit *unit) {
     uint32_t first = session->recompiling ? session->reported_defines : 0;
     diagnostics_repeat(&session->diagnostics, outer || session->recompiling);
     for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)
-        if (session_find_define(session, session->config.defines[i].name) == &session->config.defines[i])
-            good = check_definition(
-                       &(Check){session, unit, &session->config.defines[i], &unit->program->define_uses[i]}) &&
-                   good;
+        good &= check_definition(&(Check){session, unit, &session->config.defines[i], &unit->program->define_uses[i]});
     diagnostics_repeat(&session->diagnostics, outer);
     if (good)
         session->reported_defines = session->config.define_count;

@@ -13,7 +13,7 @@ typedef struct ModuleList {
 
 // Adds the modules that a program imports. Called within a protected call. The recursion depth is at most MAX_MODULES.
 void session_collect_modules(PetriSession *session, const Program *program, ModuleList *list);
-// Returns the last definition of a name, or NULL.
+// Returns the definition of a name, or NULL.
 const Define *session_find_define(const PetriSession *session, const Symbol *name);
 // Returns true if the definition sets the parameter: it is true, or the parameter also accepts what is false.
 bool session_uses_define(const Parameter *parameter, Value defined);

@@ -1,4 +1,4 @@
-// text_sink.c: text output to a callback of the host, in chunks; see session.h.
+// text_sink.c: text output to a callback of the host, in chunks; see text_sink.h.
 #include "session/text_sink.h"
 
 #include "session/session.h"
@@ -39,7 +39,8 @@ void text_sink_add_tree(TextSink *out, const SymbolTable *symbols, const Node *n
     out->stopped = true;
 }
 
-PetriStatus text_sink_finish(PetriSession *session, const TextSink *out) {
+// Returns the status of the whole output, and reports an error if a tree was truncated. Called after the last flush.
+static PetriStatus finish(PetriSession *session, const TextSink *out) {
     if (!out->truncated_at)
         return out->stopped ? PETRI_INVALID : PETRI_OK;
     char text[80];
@@ -64,7 +65,7 @@ static PetriStatus run_print(PetriSession *session, void *context) {
     TextSink out = {.text = text_new(&session->text_arena), .write = printing->write, .user_data = printing->user_data};
     printing->print(&out, session, printing->selection);
     text_sink_flush(&out);
-    printing->status = text_sink_finish(session, &out); // not returned, because it is reported already
+    printing->status = finish(session, &out); // not returned, because it is reported already
     return PETRI_OK;
 }
 

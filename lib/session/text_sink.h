@@ -24,11 +24,10 @@ void text_sink_end_line(TextSink *out);
 // Adds a tree as text. Shared nodes are written each time they occur, so even a small tree may result in a huge output.
 // The output is truncated at 512 MiB.
 void text_sink_add_tree(TextSink *out, const SymbolTable *symbols, const Node *node);
-// Returns the status of the whole output, and reports an error if a tree was truncated. Called after the last flush.
-PetriStatus text_sink_finish(PetriSession *session, const TextSink *out);
 
 // Calls `print` within a protected call, with a sink that passes the text to `write`. `selection` is passed on. Returns
-// the status of text_sink_finish, or the reason for the abort, which is reported.
+// PETRI_INVALID if the host stopped the output, PETRI_LIMIT_EXCEEDED if a tree was truncated, or the reason for an
+// abort; the latter two are reported.
 typedef void TextSinkPrint(TextSink *out, PetriSession *session, unsigned selection);
 PetriStatus text_sink_run(PetriSession *session, TextSinkPrint *print, unsigned selection, PetriWriteCallback *write,
                           void *user_data);
