@@ -23,8 +23,7 @@ static bool read_metric(const Args *args, void *field) {
 static bool read_percentage(const Args *args, void *field) {
     char *end = NULL;
     double value = *(double *)field = strtod(args->value, &end);
-    end += *end == '%';
-    bool good = end != args->value && *end == '\0' && value >= 0 && value <= 100;
+    bool good = end != args->value && end[*end == '%'] == '\0' && value >= 0 && value <= 100;
     return good || option_invalid(args, "a percentage such as 1%");
 }
 

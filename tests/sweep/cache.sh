@@ -169,6 +169,7 @@ check "a cache that is a file fails" status_is 1
 check "a cache that is a file is reported" has err "cannot use the cache 'file': it is not a folder"
 refused "--verify-cache needs a cache" "needs a cache; add --cache DIR" sum.fl -D A=1 --metric a=A --verify-cache 1%
 refused "an invalid percentage is rejected" "expects a percentage such as 1%" sum.fl -D A=1 --metric a=A --cache store --verify-cache 101%
+refused "a percentage without a number is rejected" "expects a percentage such as 1%" sum.fl -D A=1 --metric a=A --cache store --verify-cache %
 
 # A cache from someone else. Entries and folders can be links, pipes or endless files; entries can name such files. Nothing
 # outside the cache is written, and no sweep waits or reads without bound: a file of 4 TiB cannot be read in the time that
