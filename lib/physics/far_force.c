@@ -12,15 +12,11 @@ bool phys_is_far(const PhysSystem *system, const Force *force) {
            (system->dimensions == 2 || system->dimensions == 3);
 }
 
-bool phys_has_far(const PhysSystem *system, ForceRange forces) {
-    for (const Force *force = forces.begin; force < forces.end; force++)
-        if (phys_is_far(system, force))
-            return true;
-    return false;
-}
-
 bool phys_far_divides(const PhysSystem *system, const Group *group, ForceRange forces) {
-    return group->count >= PHYS_FAR_MIN_PARTICLES && phys_has_far(system, forces);
+    bool divides = false;
+    for (const Force *force = forces.begin; force < forces.end && group->count >= PHYS_FAR_MIN_PARTICLES; force++)
+        divides |= phys_is_far(system, force);
+    return divides;
 }
 
 double phys_far_min_useful(double theta) {

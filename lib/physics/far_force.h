@@ -7,7 +7,6 @@ enum { PHYS_FORESTS = 2 }; // for masses and charges
 
 // Returns true if a force is approximated in groups with enough particles.
 bool phys_is_far(const PhysSystem *system, const Force *force);
-bool phys_has_far(const PhysSystem *system, ForceRange forces);
 // Returns true if the pass of these forces for a group is divided: forces with `theta` are computed one by one after
 // the other forces.
 bool phys_far_divides(const PhysSystem *system, const Group *group, ForceRange forces);

@@ -12,6 +12,8 @@ static bool is_part(ExprKind kind, uint32_t i, uint32_t count) {
     return kind == EXPR_COMPOSE || (kind == EXPR_IF && (i % 2 == 1 || i + 1 == count));
 }
 
+static const Expr *compile_expr(Compiler *compiler, const Ast *ast);
+
 static const Expr *compile_part(Compiler *compiler, const Ast *ast, bool in_children) {
     compiler->in_children = in_children;
     return compile_expr(compiler, ast);
@@ -432,7 +434,7 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast, bool in_chil
     }
 }
 
-const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
+static const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
     uint32_t mark = compiler->function->next_slot;
     bool in_children = compiler->in_children;
     compiler->in_children = false;

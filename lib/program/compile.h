@@ -112,7 +112,6 @@ typedef struct ScopeMark {
     uint32_t next_slot;
 } ScopeMark;
 
-const Expr *compile_expr(Compiler *compiler, const Ast *ast);
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count);
 Expr *compile_constant(Compiler *compiler, const Ast *ast, Value value);
 // Sets the dependencies of a new expression, which follow from its kind and its children.

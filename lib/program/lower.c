@@ -18,6 +18,9 @@ static uint32_t line_of(const Lowering *lowering, Opcode op, const Expr *at) {
     return source_line(at->origin.source, at->origin.span.start);
 }
 
+// Emits instructions that compute an expression into register `d`.
+static void lower_into(Lowering *lowering, const Expr *expr, int32_t d);
+
 const Origin *lower_origin(Lowering *lowering, const Expr *expr) {
     if (lowering->origin_expr != expr)
         lowering->origin = arena_copy(lowering->options->arena, &expr->origin, sizeof expr->origin);
@@ -308,7 +311,7 @@ static void lower_if_value(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_if(lowering, expr, &(Target){.d = d});
 }
 
-void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
     static const struct {
         void (*lower)(Lowering *lowering, const Expr *expr, int32_t d);
         uint16_t plain; // if `lower` is NULL: instruction whose operands are the children's values

@@ -59,8 +59,6 @@ const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *
 int32_t lower_operand(Lowering *lowering, const Expr *expr);
 // Like lower_operand for several expressions. Returns the start of the list of their operands.
 uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t count);
-// Emits instructions that compute an expression into register `d`.
-void lower_into(Lowering *lowering, const Expr *expr, int32_t d);
 // Emits a statement that only binds names.
 void lower_statement(Lowering *lowering, const Expr *expr);
 // Sets the target of the jump at index `jump` to the instruction that is emitted next.

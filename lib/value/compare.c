@@ -99,10 +99,6 @@ bool item_equal(Arena *arena, Item a, Item b) {
     return value_equal(arena, x, y);
 }
 
-bool node_equal(Arena *arena, const Node *a, const Node *b) {
-    return item_equal(arena, (Item){ITEM_NODE, .as.node = a}, (Item){ITEM_NODE, .as.node = b});
-}
-
 // Compares two elements that are not equal.
 static int item_compare_unequal(Item a, Item b) {
     if (a.type == ITEM_NUMBER && b.type == ITEM_NUMBER)

@@ -91,8 +91,6 @@ bool node_mentions(const Node *node, const Symbol *name);
 // Returns the location of an attribute. If that is unknown, returns the location of the node. If that is
 // unknown too, the source of the result is NULL.
 Origin node_origin(const Node *node, const Symbol *attr);
-// Returns true if the nodes are structurally equal (L7.5). The arena has the same purpose as in value_equal.
-bool node_equal(Arena *arena, const Node *a, const Node *b);
 // Returns a deep copy.
 const Node *node_copy(Arena *arena, const Node *node);
 

@@ -2,7 +2,8 @@
 // function.
 #include "vm/machine.h"
 
-bool vm_stack_left(const Vm *vm) {
+// Returns true if enough of the C stack is left for another call.
+static bool has_stack_left(const Vm *vm) {
     const char *here = __builtin_frame_address(0);
     // The stack grows down on all supported machines; the absolute distance works in either direction.
     size_t used = vm->stack_base > here ? (size_t)(vm->stack_base - here) : (size_t)(here - vm->stack_base);
@@ -74,7 +75,7 @@ static bool can_enter(Vm *vm, const Closure *closure, const Origin *at) {
     vm_charge(vm, at, CALL_WORK + cost_of(closure->code->code));
     const char *limit = closure->active_calls >= VM_CLOSURE_DEPTH ? "limit of 500 calls of one function"
                         : vm->depth >= VM_CALL_DEPTH              ? "limit of 8192 nested calls"
-                        : !vm_stack_left(vm)                      ? "stack limit"
+                        : !has_stack_left(vm)                     ? "stack limit"
                                                                   : NULL;
     if (limit)
         vm_report(vm, at, "recursion-depth", "recursion too deep in '%.*s': %s reached", STR_ARGS(closure->base.name),
@@ -206,7 +207,7 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
         vm_report(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", STR_ARGS(path), STR_ARGS(reason));
     } else if (is_importing(vm, module->source)) {
         vm_report(vm, instr->at, "circular-import", "circular import of '%.*s'", STR_ARGS(path));
-    } else if (vm->imports->depth >= VM_IMPORT_DEPTH || !vm_stack_left(vm)) {
+    } else if (vm->imports->depth >= VM_IMPORT_DEPTH || !has_stack_left(vm)) {
         vm_report(vm, instr->at, "recursion-depth", "imports nested too deeply");
     } else {
         run_module(vm, frame, module, instr);

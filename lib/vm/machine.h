@@ -135,8 +135,6 @@ void vm_report(Vm *vm, const Origin *at, const char *code, const char *format, .
 void vm_report_text(Vm *vm, const Origin *at, const char *code, Str text);
 // Like vector_finish, but reports an error if the vector was too long.
 Value vm_finish(Vm *vm, const Origin *at, Vector *vector);
-// Returns true if enough of the C stack is left for another call.
-bool vm_stack_left(const Vm *vm);
 
 enum { VM_INSTRS_A_UNIT = 8 }; // number of instructions that cost one unit of work
 // Charges `units` of work for an operation at the source position `at`.
