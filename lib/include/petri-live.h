@@ -134,8 +134,8 @@ PETRI_API PetriStatus petri_history_reset(PetriHistory *history);
 typedef struct PetriHistoryInfo {
     int64_t first; // first and last frame of the timeline; -1: before frame 0
     int64_t last;
-    const char
-        *reason;      // why frames before `first` are missing: a string that the host gave, or English; NULL: none are
+    // Why frames before `first` are missing: a string that the host gave, or English. NULL: none are missing.
+    const char *reason;
     size_t keyframes; // number of snapshots, and their size in bytes
     size_t bytes;
 } PetriHistoryInfo;

@@ -60,8 +60,8 @@ void painter_clear(uint32_t *pixels, int width, int height, size_t stride) {
 // Renders the render graph unless it was already rendered for this picture.
 static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *picture, DiagSink *diags) {
     if (painter->rendered == picture->serial) {
-        painter->shown =
-            render_graph_window(painter->render_graph, picture); // petri_picture_select may have changed it
+        // petri_picture_select may have changed it
+        painter->shown = render_graph_window(painter->render_graph, picture);
         return PETRI_OK;
     }
     painter->shown = NULL;
@@ -75,9 +75,7 @@ static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *pic
 PetriStatus painter_render(PetriPainter *painter, const CanvasPicture *picture, DiagSink *diags) {
     if (picture->window && (picture->needs_history || !picture->direct))
         return make_pictures(painter, picture, diags);
-    if (painter->rendered > 0 &&
-        painter->rendered !=
-            picture->serial) { // this frame does not use the render graph, so the next frame has nothing to continue
+    if (painter->rendered > 0 && painter->rendered != picture->serial) {
         render_graph_clear(painter);
         painter->rendered = 0;
         painter->shown = NULL;

@@ -77,6 +77,6 @@ static void report_no_backend(void *diags) {
 }
 
 PetriStatus painter_report_no_backend(DiagSink *diags) {
-    Arena *arenas[] = {diags->arena};
-    return arena_protect(arenas, 1, report_no_backend, diags) == ARENA_OK ? PETRI_UNSUPPORTED : PETRI_OUT_OF_MEMORY;
+    bool reported = arena_protect(&diags->arena, 1, report_no_backend, diags) == ARENA_OK;
+    return reported ? PETRI_UNSUPPORTED : PETRI_OUT_OF_MEMORY;
 }
