@@ -99,15 +99,10 @@ static void report_input(PetriSession *session, const char *kind, PetriValue key
 }
 
 void recorder_pointer(PetriSession *session, const PetriPointer *pointer) {
-    double numbers[3] = {0};
-    if (pointer)
-        memcpy(numbers, (double[]){pointer->buttons, pointer->x, pointer->y}, sizeof numbers);
-    report_input(session, "pointer",
-                 (PetriValue){.length = !pointer          ? 0
-                                        : pointer->inside ? 3
-                                                          : 1,
-                              .numbers = numbers},
-                 NULL);
+    const PetriPointer none = {0}, *shown = pointer ? pointer : &none;
+    const double numbers[] = {shown->buttons, shown->x, shown->y};
+    uint32_t length = !pointer ? 0 : pointer->inside ? 3 : 1;
+    report_input(session, "pointer", (PetriValue){.length = length, .numbers = numbers}, NULL);
 }
 
 void recorder_key(PetriSession *session, const char *name, bool pressed) {
