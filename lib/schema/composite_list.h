@@ -1,11 +1,13 @@
-// composite_list.h: all modes in which colours are combined, and one formula for each. C, GLSL, and the names of Cairo's
-// operators, of OpenGL's equations and of Canvas 2D's modes are made from these rows.
+// composite_list.h: all modes in which colours are combined, and one formula for each. C, GLSL, and the names of
+// Cairo's operators, of OpenGL's equations and of Canvas 2D's modes are made from these rows.
 //
 // Formulas are valid in C and GLSL. s and d are a channel of source and destination, sa and da are their alphas.
 //
-// Modes of canvases (spec canvas.md 4). Cairo and Canvas 2D have no modulate, so its row names the most similar mode. An
-// empty mode of Canvas 2D draws nothing. word_list.h has alternative words.
+// Modes of canvases (spec canvas.md 4). Cairo and Canvas 2D have no modulate, so its row names the most similar mode.
+// An empty mode of Canvas 2D draws nothing. word_list.h has alternative words.
+//
 // PREMULTIPLIED(ID, Cairo's operator, "mode of Canvas 2D", "word", formula): of premultiplied channels, alpha included
+//
 // SEPARABLE(ID, operator, "mode", "word", formula): of channels that are not premultiplied; the result is
 //     s (1 - da) + d (1 - sa) + sa da formula
 // NONSEPARABLE(ID, operator, "mode", "word", hue, saturation, luminosity): like SEPARABLE, of a colour with these

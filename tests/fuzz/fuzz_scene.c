@@ -1,10 +1,10 @@
 // fuzz_scene.c: fuzzes scenes without OpenGL. The input is a script. Its `!canvas3d` nodes are read, the triangles of
 // their models are made, and the drawing order and cost of each camera's view are computed.
-#include "picture/picture.h"
-#include "scene3d/scene_cost.h"
-#include "scene3d/mesh.h"
 #include "mesh.h"
+#include "picture/picture.h"
 #include "pictures.h"
+#include "scene3d/mesh.h"
+#include "scene3d/scene_cost.h"
 
 #include <string.h>
 

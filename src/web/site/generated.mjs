@@ -50,7 +50,8 @@ export const GENERATED = {
 
     options({ tables: { commands, statuses, variables, beginning } }, env) {
         return paragraphs(beginning) + commands.map(({ name, operands, summary, details, examples, options }) =>
-            section(env, 2, name.toLowerCase().replace(/\W+/g, '-'), `petri ${name}`, `${summary} ${details} ${options.map(one => `--${one.name} ${one.help}`).join(' ')}`)
+            section(env, 2, name.toLowerCase().replace(/\W+/g, '-'), `petri ${name}`,
+                `${summary} ${details} ${options.map(one => `--${one.name} ${one.help}`).join(' ')}`)
             + `<p>${escape(summary)}: <code>petri ${name}${options.length ? ' [options]' : ''} ${escape(operands)}</code></p>\n`
             + paragraphs(details)
             + (options.length ? table(['option', ''], options.map(one => [code(written(one)), escape(one.help)])) : '')

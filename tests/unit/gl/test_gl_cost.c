@@ -1,8 +1,8 @@
 // test_gl_cost.c: tests of the estimated cost of scenes, without OpenGL: what must hold for any way to estimate it.
 #include "check.h"
+#include "scene3d/mesh.h"
 #include "scene3d/scene_cost.h"
 #include "scene3d/scene_cover.h"
-#include "scene3d/mesh.h"
 
 enum { SIDE = 400, MAX_MODELS = 200 };
 
