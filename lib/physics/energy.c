@@ -110,8 +110,9 @@ static PhysStatus add_groups(Source *source, const Body *bodies, const Group *gr
     for (size_t i = group->first; i < (size_t)group->first + group->count; i++) {
         if (group == other)
             first = i + 1;
-        while (first < end && bodies[i].position[0] - bodies[first].position[0] > range)
-            first++;
+        for (size_t step = other->count; step > 0 && group != other; step /= 2) // skips bodies before the range
+            while (first + step <= end && bodies[i].position[0] - bodies[first + step - 1].position[0] > range)
+                first += step;
         size_t j = first;
         for (; j < end && bodies[j].position[0] - bodies[i].position[0] <= range; j++)
             add_pair(source, &bodies[i], &bodies[j]);

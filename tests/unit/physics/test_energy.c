@@ -219,12 +219,44 @@ static void test_energy_is_conserved(void **state) {
                     2);
 }
 
+// The energy of a contact force is the sum over all pairs whose groups are the same or enclose each other. All numbers
+// are multiples of 1/64, so sums in any order are exact.
+static void test_energy_counts_each_pair_of_nested_groups(void **state) {
+    enum { COUNT = 400 };
+    static const uint32_t groups[] = {0, 0, 1, 0, 0, 2, 0, 3};
+    static const bool interact[4][4] = {{1, 1, 1, 1}, {1, 1, 1, 0}, {1, 1, 1, 0}, {1, 0, 0, 1}};
+    double wanted = 0, energy, places_1d[COUNT];
+    (void)state;
+    PhysSystem *system = phys_new();
+    phys_begin(system, 1);
+    phys_add_group(system, 0);
+    phys_add_group(system, 1);
+    phys_add_group(system, 0);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        places_1d[i] = i * 7919 % 1600 / 8.0;
+        phys_add_particle(system, groups[i % COUNT_OF(groups)],
+                          &(PhysParticle){.position = &places_1d[i], .radius = 1, .mass = 1});
+        for (uint32_t j = 0; j < i; j++) {
+            double length = fabs(places_1d[i] - places_1d[j]);
+            if (length > 0 && length < 2 && interact[groups[i % COUNT_OF(groups)]][groups[j % COUNT_OF(groups)]])
+                wanted += (2 - length) * (2 - length);
+        }
+    }
+    PhysForce force = force_of(PHYS_COLLISION);
+    force.strength = 2;
+    uint32_t number = phys_add_force(system, 0, &force);
+    assert_int_equal(phys_potential_energy(system, number, 0, &energy), PHYS_OK);
+    assert_same(energy, wanted);
+    phys_free(system);
+}
+
 TEST_GROUP(energy) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_forces_are_gradients),
         cmocka_unit_test(test_links_of_two_anchors_have_no_energy),
         cmocka_unit_test(test_forces_without_potential),
         cmocka_unit_test(test_energy_is_conserved),
+        cmocka_unit_test(test_energy_counts_each_pair_of_nested_groups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
