@@ -3,6 +3,7 @@
 #include "base/host_struct.h"
 #include "recording/archive.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,8 +68,9 @@ PetriArchive *petri_archive_open(const char *file, size_t memory_limit) {
     archive->recorded_end = -1;
     archive->next_parameter = SIZE_MAX;
     archive->replay_frame = 0; // petri_check reads the first versions of files
+    errno = 0;
     if (!petri_archive_is(file))
-        archive_fail(archive, "it is not an archive");
+        archive_fail(archive, "%s", errno == ENOENT || errno == EACCES ? strerror(errno) : "it is not an archive");
     else if (archive_open_database(archive, file) && archive_read_files(archive) && read_keyframes(archive))
         read_frames(archive);
     return archive;

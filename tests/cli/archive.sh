@@ -74,7 +74,8 @@ if petri run dish.fl --frames 1 --archive run.petri && status_is 0; then
     petri archive info dish.fl
     check "info rejects other files" eval 'status_is 2 && has err "it is not an archive"'
     petri archive verify missing.petri
-    check "verify rejects missing files" status_is 2
+    check "verify rejects missing files" eval \
+        'status_is 2 && has err "No such file or directory"'
     petri run dish.fl --frames 1 --archive mass.fl
     check "run does not overwrite other files" eval \
         'status_is 1 && has err "exists and is not an archive" && has mass.fl "let mass=3"'

@@ -34,7 +34,7 @@ survives() {
     kept=$(sed -n 's/^verified: [0-9]* of \([0-9]*\) frames.*/\1/p' out)
     if [ $status -ne 0 ]; then
         # Killed before the first commit, one second after the first frame. On a busy machine, that frame is late.
-        grep -q -e 'it has no frames' -e 'it is not an archive' err || return 1
+        grep -q -e 'it has no frames' -e 'it is not an archive' -e 'No such file' err || return 1
         [ "$computed" -le $((fps + 1)) ] || [ "$(cut -d. -f1 "$1/delay")" -lt 2 ] || return 1
         kept=0
     fi
