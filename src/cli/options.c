@@ -62,8 +62,9 @@ static int read_all(Args *args) {
             return STATUS_USAGE;
     }
     if (!args->options->script && args->command->missing_operand) {
-        message(!args->command->options ? "%s: petri %s %s" : "%s; usage: petri %s [options] %s",
-                args->command->missing_operand, args->command->name, args->command->operands);
+        message(!args->command->options ? "%s: petri %s%s%s" : "%s; usage: petri %s [options]%s%s",
+                args->command->missing_operand, args->command->name, args->command->operands[0] == '\0' ? "" : " ",
+                args->command->operands);
         return STATUS_USAGE;
     }
     scripts_sort(&args->options->scripts);

@@ -164,9 +164,8 @@ const Command RUN_LINK_COMMAND = {
         "read nor write files. All frames together may use three times the limit of --work, about half a minute by\n"
         "default.\n"
         "\n"
-        "LINK is the whole URL or the part from '#', in quotes. 'petri render LINK' does the same. 'petri view LINK' "
-        "shows\n"
-        "the script from its first frame on, with the options of petri view.",
+        "LINK is the whole URL or the part from '#', in quotes. 'petri render LINK' does the same. 'petri view LINK'\n"
+        "shows the script from its first frame on, with the options of petri view.",
     .examples = "  petri run 'http://127.0.0.1:8080/#q1bKU...'     verify the frame\n"
                 "  petri run '#q1bKU...' -o dish.fl                also save the script\n"
                 "  petri render '#q1bKU...' -o dish.png            also save the picture\n"

@@ -95,9 +95,9 @@ const Command SEND_COMMAND = {
         "Sends TEXT (-: standard input) to a view that was started with --listen SOCKET, and prints its answer as\n"
         "lines of JSON: {\"text\": ...} for values and debug(), diagnostics, and finally {\"done\": true}. TEXT is\n"
         "evaluated as in petri repl: expressions are evaluated once, bindings and nodes in every frame, after the\n"
-        "script. '.set NAME VALUE' sets a parameter, '.set NAME' resets it to its default, '.back N' goes back N "
-        "frames,\n"
-        "'.drop' removes what was sent before, '.reset' restarts the script. Exits with 1 if the text was rejected.",
+        "script. '.set NAME VALUE' sets a parameter, '.set NAME' resets it to its default, '.back N' goes back N\n"
+        "frames, '.drop' removes what was sent before, '.reset' restarts the script. Exits with 1 if the text was\n"
+        "rejected.",
     .examples = "  petri view dish.fl --listen /tmp/dish &\n"
                 "  petri view --send /tmp/dish 'len($)'\n"
                 "  petri view --send /tmp/dish '.set SPEED 0.5'\n",

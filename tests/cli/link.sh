@@ -122,7 +122,8 @@ if /usr/bin/python3 -I -c 'import zlib' 2>/dev/null; then
 fi
 petri open
 check "no link is a wrong command line" status_is 2
-check "a missing link is reported with a hint about quotes" has err "put it in quotes"
+check "a missing link is reported with a hint about quotes" eval \
+    'grep -qx "petri: no link given (put it in quotes); usage: petri run LINK .options." err'
 
 awk 'BEGIN { srand(1); for (i = 0; i < 30000; i++) printf "-- %d\n", rand() * 1e9 }' >long.fl
 petri link long.fl
