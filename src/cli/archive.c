@@ -96,17 +96,9 @@ static void set_frames(Options *options, const Command *command) {
     }
 }
 
-// Returns true if the command has the option --from, as those that replay archives do.
-static bool has_replay_option(const Command *command) {
-    const OptionSpec *spec = command_options(command);
-    while (spec->name && strcmp(spec->name, "from") != 0)
-        spec++;
-    return spec->name;
-}
-
 int replay_open(Options *options, const Command *command) {
-    if (!has_replay_option(command) || !options->script || script_is_stdin(options->script) ||
-        !petri_archive_is(options->script)) {
+    bool replays = option_find(command_options(command), "from", '\0'); // as all commands that replay archives
+    if (!replays || !options->script || script_is_stdin(options->script) || !petri_archive_is(options->script)) {
         if (options->from >= 0)
             message("option '--from' needs an archive");
         return options->from >= 0 ? STATUS_USAGE : OPTIONS_READ;

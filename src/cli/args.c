@@ -12,7 +12,7 @@ const OptionSpec *command_options(const Command *command) {
     return command->options ? command->options->rows : NO_OPTIONS;
 }
 
-static const OptionSpec *find_option(const OptionSpec *rows, const char *name, char letter) {
+const OptionSpec *option_find(const OptionSpec *rows, const char *name, char letter) {
     for (const OptionSpec *spec = rows; spec->name; spec++)
         if (letter != '\0' ? spec->letter == letter : strcmp(spec->name, name) == 0)
             return spec;
@@ -23,7 +23,7 @@ static const OptionSpec *find_option(const OptionSpec *rows, const char *name, c
 static const char *find_other_command(const Args *args, const char *name) {
     char letter = strlen(name) == 1 ? name[0] : '\0';
     for (const SimilarCommand *other = args->similar; other && other->name; other++)
-        if (other->options != args->command->options && find_option(other->options->rows, name, letter))
+        if (other->options != args->command->options && option_find(other->options->rows, name, letter))
             return other->name;
     return NULL;
 }
@@ -72,7 +72,7 @@ static int long_option(Args *args, const char *word) {
     args->version = strcmp(name, "version") == 0;
     if ((strcmp(name, "help") == 0 || args->version) && !equals)
         return ARG_HELP;
-    const OptionSpec *spec = find_option(command_options(args->command), name, '\0');
+    const OptionSpec *spec = option_find(command_options(args->command), name, '\0');
     return !spec ? unknown_option(args, word, name) : accept_option(args, spec, word, !equals ? NULL : equals + 1);
 }
 
@@ -81,7 +81,7 @@ static int short_option(Args *args, const char *word) {
     if ((word[1] == 'h' || args->version) && word[2] == '\0')
         return ARG_HELP;
     // Flags have no short form, so a letter is always followed by a value.
-    const OptionSpec *spec = find_option(command_options(args->command), "", word[1]);
+    const OptionSpec *spec = option_find(command_options(args->command), "", word[1]);
     return !spec ? unknown_option(args, word, word + 1)
                  : accept_option(args, spec, word, word[2] == '\0' ? NULL : word + 2);
 }

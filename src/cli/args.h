@@ -23,6 +23,8 @@ typedef struct Args {
 
 // Returns the options of a command, then one without a name.
 const OptionSpec *command_options(const Command *command);
+// Returns the option with this letter or, if it is 0, with this name. Returns NULL if there is none.
+const OptionSpec *option_find(const OptionSpec *rows, const char *name, char letter);
 
 // Reads the next argument and returns its kind (ARG_...). Prints a message before it returns ARG_INVALID.
 int args_next(Args *args);

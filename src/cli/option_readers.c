@@ -10,7 +10,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// Reports an invalid value and what is expected. Returns false.
 bool option_invalid(const Args *args, const char *expected) {
     message("option '--%s' expects %s, not '%s'", args->option->name, expected, args->value);
     return false;
@@ -28,7 +27,6 @@ bool option_unset(const Args *args, void *field) {
     return true;
 }
 
-// Reads --quiet, --verbose, --debug or --trace. The level is in option->min.
 bool option_verbosity(const Args *args, void *field) {
     *(Verbosity *)field = (Verbosity)args->option->min;
     return true;
@@ -64,7 +62,6 @@ bool option_positive(const Args *args, void *field) {
     return good || option_invalid(args, "a positive number");
 }
 
-// Reads an amount such as 512M. K, M, G and T multiply by 2^10, 2^20, 2^30 and 2^40.
 bool option_amount(const Args *args, void *field) {
     static const char suffixes[] = "KMGT";
     char *end = NULL;
@@ -91,7 +88,6 @@ bool option_time(const Args *args, void *field) {
     return good || option_invalid(args, "seconds or a time code such as 1:30");
 }
 
-// Returns the index of a word in a list that ends with NULL, or -1 if it is not in the list.
 int option_find_word(const char *const *words, const char *word) {
     int i = 0;
     while (words[i] && strcmp(words[i], word) != 0)
@@ -99,7 +95,6 @@ int option_find_word(const char *const *words, const char *word) {
     return words[i] ? i : -1;
 }
 
-// Reads one of option->words and stores its index.
 bool option_choice(const Args *args, void *field) {
     const char *const *words = args->option->words;
     int choice = *(int *)field = option_find_word(words, args->value);
@@ -137,7 +132,6 @@ bool option_definition(const Args *args, void *field) {
     return true;
 }
 
-// Reads a folder and adds it to a list. "all" means the root folder.
 bool option_folder(const Args *args, void *field) {
     const char *folder = strcmp(args->value, "all") == 0 ? "/" : args->value;
     struct stat info;
