@@ -2,7 +2,8 @@
 //
 // The arguments are the words after `petri` on a command line, up to the cursor. It completes the last one. Each
 // line of the output is a candidate for the whole word, a tab and a description. The lines `:files`, `:folders` and
-// `:scripts` mean that the shell completes such paths; `:nospace` means that candidates are not complete words.
+// `:scripts` (also archives) mean that the shell completes such paths; `:nospace` means that candidates are not
+// complete words.
 #include "cli/args.h"
 #include "cli/help.h"
 #include "cli/options.h"

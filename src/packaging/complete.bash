@@ -18,6 +18,7 @@ _petri() {
         :scripts) compopt -o filenames && mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(
             compgen -d -- "$current"
             compgen -f -X '!*.fl' -- "$current"
+            compgen -f -X '!*.petri' -- "$current"
         ) ;;
         *)
             line=${line%%$'\t'*}

@@ -15,7 +15,7 @@ _petri() {
     case $kind in
     :files) _files ;;
     :folders) _files -/ ;;
-    :scripts) _files -g '*.fl' ;;
+    :scripts) _files -g '*.(fl|petri)' ;;
     esac
 }
 if [[ $funcstack[1] == _petri ]]; then

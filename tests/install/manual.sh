@@ -54,7 +54,7 @@ completes() {
 }
 echo 'let DROPS=DROPS or 5    -- 1..9: how many' >one.fl
 cp one.fl 'a dish.fl'
-touch two.txt
+touch two.txt three.petri
 mkdir -p folder
 if command -v bash >/dev/null; then
     check "bash completes commands" [ "$(completes petri re)" = "render repl" ]
@@ -72,6 +72,7 @@ if command -v bash >/dev/null; then
     check "bash completes only folders where these are needed" [ -z "$(completes petri run --allow-read tw)" ]
     check "bash completes all files after options that take files" [ "$(completes petri run --state tw)" = two.txt ]
     check "bash completes scripts" [ "$(completes petri run o)" = one.fl ]
+    check "bash completes archives" [ "$(completes petri archive verify th)" = three.petri ]
     check "bash completes names with blanks" [ "$(completes petri run 'a\ d')" = "a dish.fl" ]
     check "bash completes parameters of a script whose name has a blank" [ "$(completes petri run 'a\ dish.fl' -D DR)" = DROPS= ]
     check "bash completes no other files as scripts" [ -z "$(completes petri run tw)" ]
