@@ -71,7 +71,7 @@ if command -v bash >/dev/null; then
     check "bash completes folders after an equals sign" [ "$(completes petri run --allow-read = fol)" = folder ]
     check "bash completes only folders where these are needed" [ -z "$(completes petri run --allow-read tw)" ]
     check "bash completes all files after options that take files" [ "$(completes petri run --state tw)" = two.txt ]
-    check "bash completes scripts" [ "$(completes petri run o)" = one.fl ]
+    check "bash completes scripts" [ "$(completes petri run on)" = one.fl ]
     check "bash completes archives" [ "$(completes petri archive verify th)" = three.petri ]
     check "bash completes names with blanks" [ "$(completes petri run 'a\ d')" = "a dish.fl" ]
     check "bash completes parameters of a script whose name has a blank" [ "$(completes petri run 'a\ dish.fl' -D DR)" = DROPS= ]
