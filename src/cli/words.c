@@ -29,9 +29,10 @@ bool words_name_archive(char *const *words) {
 static bool is_link(const char *word) {
     enum { MIN_DATA = 8 };
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ", rest[] = "0123456789_-";
-    const char *data = strchr(word, '#');
-    if (!data++ || (word[0] != '#' && strncmp(word + strspn(word, letters), "://", 3) != 0))
+    const char *mark = strchr(word, '#');
+    if (!mark || (mark != word && strncmp(word + strspn(word, letters), "://", 3) != 0))
         return false;
+    const char *data = mark + 1;
     size_t length = 0;
     while (data[length] != '\0' && (strchr(letters, data[length]) || strchr(rest, data[length])))
         length++;
