@@ -28,14 +28,13 @@ bool words_name_archive(char *const *words) {
 // shorter.
 static bool is_link(const char *word) {
     enum { MIN_DATA = 8 };
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ", rest[] = "0123456789_-";
+    static const char base64url[] = "0123456789_-abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    const char *letters = base64url + strlen("0123456789_-");
     const char *mark = strchr(word, '#');
     if (!mark || (mark != word && strncmp(word + strspn(word, letters), "://", 3) != 0))
         return false;
     const char *data = mark + 1;
-    size_t length = 0;
-    while (data[length] != '\0' && (strchr(letters, data[length]) || strchr(rest, data[length])))
-        length++;
+    size_t length = strspn(data, base64url);
     return data[length] == '\0' && length >= MIN_DATA && access(word, F_OK) != 0;
 }
 
