@@ -244,93 +244,39 @@ PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
 
 // A display list (petri_picture_display_list) describes a picture as an array of numbers, for hosts that draw it
 // themselves. It starts with the width and height of the picture, in the units of all other lengths, and a number that
-// is 1 if the list has PETRI_DRAW_NOISE or PETRI_DRAW_FILTER, otherwise 0. Commands follow. Each command is a kind from
-// the list below, then its operands. In the lists, the operands follow the colon, in order. Brackets contain the parts
-// or the number of parts of an operand, or remarks. Other operands are one number, or as follows.
+// is 1 if the list has PETRI_DRAW_NOISE or PETRI_DRAW_FILTER, otherwise 0. Commands follow. Each command is a kind
+// PETRI_DRAW_NAME, then its operands. petri-display-list.inc lists commands, path elements and filters by name, with
+// their operands in order. A PETRI_PAINT is a command that sets the paint for the following commands.
 //
-// A colour is red, green, blue and alpha from 0 to 1, not premultiplied. Angles are in turns. Dashes, commands, a
-// string, a path or a filter are their length, then that many numbers. Those of a string are code points; those of a
-// path are path elements (`PETRI_PATH_*`) with their operands. A matrix is n0 to n5: x' = n0 x + n2 y + n4, y' = n1 x +
-// n3 y + n5. Pixels are a width, a height and a number for each pixel, as in petri_picture_draw. Stops of a gradient
-// are their count, then an offset and a colour for each stop.
+// Operands are:
+// - NUMBER(name), FLAG(name): one number; a flag is 0 or 1. Angles are in turns.
+// - WORD(name, "first, second"): one number, which selects one of the words, from 0
+// - PAIR(name): two numbers, x and y or width and height
+// - NUMBERS(name, count): `count` numbers
+// - COLOUR(name): red, green, blue and alpha from 0 to 1, not premultiplied
+// - MATRIX(name): six numbers n0 to n5: x' = n0 x + n2 y + n4, y' = n1 x + n3 y + n5
+// - STOPS(name): the stops of a gradient: their count, then an offset and a colour for each
+// - LIST(name), STRING(name), PATH(name), FILTER(name), COMMANDS(name): a length, then that many numbers. Those of a
+//   string are code points. Those of a path are path elements (PETRI_PATH_NAME), those of a filter are its kind
+//   (PETRI_FILTER_NAME), with their operands.
+// - PIXELS(name): a width, a height and a number for each pixel, as in petri_picture_draw
+// - PAINT(name): a PETRI_PAINT
+// - INPUT(name): the filter that provides the input of a filter, without its length
 //
-// A paint is a command that sets the paint for the following commands: PETRI_DRAW_COLOR, PETRI_DRAW_LINEAR,
-// PETRI_DRAW_RADIAL, PETRI_DRAW_PATTERN, PETRI_DRAW_BLEND or PETRI_DRAW_NOISE. The composite modes, from 0, are
-// modulate, clear, src, dst, over, dst_over, in, dst_in, out, dst_out, atop, dst_atop, xor, add, multiply, screen,
-// overlay, darken, lighten, color_dodge, color_burn, hard_light, soft_light, difference, exclusion, hue, saturation,
-// color and luminosity.
-//
-// lib/picture/display_list_rows.awk reads these lists. It generates the code that writes and reads display lists.
+// The composite modes, from 0, are modulate, clear, src, dst, over, dst_over, in, dst_in, out, dst_out, atop, dst_atop,
+// xor, add, multiply, screen, overlay, darken, lighten, color_dodge, color_burn, hard_light, soft_light, difference,
+// exclusion, hue, saturation, color and luminosity.
 enum {
-    PETRI_DRAW_MATRIX, // sets the matrix that maps coordinates of the following commands to the picture: matrix
-    PETRI_DRAW_COLOR,  // paint: colour
-    PETRI_DRAW_LINEAR, // paint, a linear gradient: start (x, y), end (x, y), alpha, stops
-    // Paint, a radial gradient with a matrix that maps the unit circle to its edge, and a circle, before this mapping,
-    // where it starts: matrix, inner (x, y, radius), alpha, stops
-    PETRI_DRAW_RADIAL,
-    // Sets the stroke style and ends the current filter: width (0: one pixel), join (0: miter, 1: round, 2: bevel), cap
-    // (0: butt, 1: round, 2: square), mode (of compositing), antialias (0 or 1), dash offset, dashes
-    PETRI_DRAW_STROKE_STYLE,
-    // Draws a path: fill (0 or 1), stroke (0 or 1), rule (0: nonzero, 1: even-odd, 2 and 3: inverse of 0 and 1), path
-    PETRI_DRAW_PATH,
-    // Draws a string: fill (0 or 1), stroke (0 or 1), point (x, y), size, weight (1 to 1000), width (0: ultra-condensed
-    // to 8: ultra-expanded), slant (0: upright, 1: oblique, 2: italic), centred (0 or 1), family string, string
-    PETRI_DRAW_TEXT,
-    // Draws an image: point (x, y), size (width, height), fit (0: original size, 1: stretched, 2: inside, 3: filling),
-    // file string
-    PETRI_DRAW_IMAGE,
-    PETRI_DRAW_CLIP,        // clips to the inside or outside of a path: outside (0 or 1), even-odd (0 or 1), path
-    PETRI_DRAW_SAVE,        // saves the clip
-    PETRI_DRAW_RESTORE,     // restores the clip; the list sets matrix, paint and stroke style again before it uses them
-    PETRI_DRAW_LAYER,       // redirects drawing to a transparent layer, until PETRI_DRAW_LAYER_END
-    PETRI_DRAW_LAYER_END,   // ends the layer and composites it: alpha
-    PETRI_DRAW_UNSUPPORTED, // replaces an element that a display list cannot describe, by its name: string
-    PETRI_DRAW_BACKGROUND,  // fills the whole picture, whatever the matrix: colour
-    // The image of another node, only for a PetriCanvasBackend: point (x, y), size (width, height), fit (as
-    // PETRI_DRAW_IMAGE), pixels
-    PETRI_DRAW_PIXELS,
-    // Paint, a repeated image, with a matrix from its pixels to current coordinates. If the file name is not empty, the
-    // pixels have the size 0. Operands: matrix, alpha, pixels, file string
-    PETRI_DRAW_PATTERN,
-    PETRI_DRAW_FILTER, // sets the filter for the drawings up to the next PETRI_DRAW_STROKE_STYLE: filter
-    // Paint, a blend of two paints. The ratio is the part of the second paint, or -1 to composite it over the first
-    // with the mode. Operands: ratio, mode, alpha, first paint, second paint
-    PETRI_DRAW_BLEND,
-    // Paint, noise: frequency (x, y), tile (width, height), seed, octaves, type (0: fractal, 1: turbulence, 2:
-    // improved), alpha
-    PETRI_DRAW_NOISE,
+#define PETRI_COMMAND(name, operands, text) PETRI_DRAW_##name,
+#include "petri-display-list.inc"
 };
-
-// Path elements of a display list and their operands.
 enum {
-    PETRI_PATH_MOVE,      // starts a subpath: end (x, y)
-    PETRI_PATH_LINE,      // a line: end (x, y)
-    PETRI_PATH_QUADRATIC, // a quadratic curve: control (x, y), end (x, y)
-    PETRI_PATH_CUBIC,     // a cubic curve: control (x, y), second control (x, y), end (x, y)
-    PETRI_PATH_ARC,       // starts a new subpath: centre (x, y), radii (x, y), start, sweep (positive: clockwise)
-    // Like PETRI_PATH_ARC, but joined to the current point by a line: centre (x, y), radii (x, y), start, sweep
-    PETRI_PATH_ARC_ON,
-    PETRI_PATH_ARC_TO, // an arc to a point: radii (x, y), rotation, large (0 or 1), clockwise (0 or 1), end (x, y)
-    PETRI_PATH_CLOSE,  // closes the subpath
+#define PETRI_PATH_ELEMENT(name, operands, text) PETRI_PATH_##name,
+#include "petri-display-list.inc"
 };
-
-// Filters of a display list: a kind, then its operands. Operands that are filters provide the input; their length is
-// not given. Lengths are in the units of the current matrix.
 enum {
-    PETRI_FILTER_BLUR, // blurs: radius (x, y), filter
-    // Adds a shadow, or shows only the shadow: radius (x, y), offset (x, y), colour, only (0 or 1), filter
-    PETRI_FILTER_SHADOW,
-    PETRI_FILTER_OFFSET, // moves: offset (x, y), filter
-    PETRI_FILTER_DILATE, // enlarges shapes: radius (x, y), filter
-    PETRI_FILTER_ERODE,  // shrinks shapes: radius (x, y), filter
-    // Multiplies colours by four rows of five numbers: elements (20), filter
-    PETRI_FILTER_COLOUR_MATRIX,
-    // Fills the whole area. The commands set a paint and end with PETRI_DRAW_STROKE_STYLE. Operands: commands
-    PETRI_FILTER_PAINT,
-    // Combines two filters with a composite mode. If the mode is -1, the result is a*first*second + b*second + c*first
-    // + d instead. Operands: mode, factors (4), first filter, second filter
-    PETRI_FILTER_BLEND,
-    PETRI_FILTER_SOURCE, // the unfiltered drawing
+#define PETRI_FILTER_KIND(name, operands, text) PETRI_FILTER_##name,
+#include "petri-display-list.inc"
 };
 
 // Sets *numbers to the display list of a picture, and *count to its length. Works without Cairo. For a window, it

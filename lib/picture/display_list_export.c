@@ -68,7 +68,7 @@ typedef struct AnyPath {
 #define MATRIX(name) const DisplayMatrix *name;
 #define COLOUR(name) const double *name;
 #define STOPS(name) StopList name;
-#define DASHES(name) NumberList name;
+#define LIST(name) NumberList name;
 #define STRING(name) Str name;
 #define PATH(name) AnyPath name;
 #define PIXELS(name) Texture *name;
@@ -174,7 +174,7 @@ static void add_filter_list(DisplayListExport *numbers, uint32_t number);
 #define MATRIX(name) add_matrix(numbers, o->name);
 #define COLOUR(name) add(numbers, o->name, 4);
 #define STOPS(name) add_stops(numbers, o->name);
-#define DASHES(name) add_list(numbers, o->name);
+#define LIST(name) add_list(numbers, o->name);
 #define STRING(name) add_string(numbers, o->name);
 #define PATH(name) add_path(numbers, &o->name);
 #define PIXELS(name) add_pixels(numbers, o->name);
@@ -185,7 +185,7 @@ static void add_filter_list(DisplayListExport *numbers, uint32_t number);
 #define WRITE(name, ...) write_##name(numbers, &(name##Operands){.kind = PETRI_DRAW_##name, __VA_ARGS__})
 
 static void add_unsupported(DisplayListExport *numbers, const char *what) {
-    WRITE(UNSUPPORTED, .string = str_from(what));
+    WRITE(UNSUPPORTED, .name = str_from(what));
 }
 
 static void report_other_node(DisplayListExport *numbers) {
@@ -204,7 +204,7 @@ static void add_pattern(DisplayListExport *numbers, const DisplaySource *source,
     const DisplayImage *image = &numbers->list->images.at[source->image];
     Texture *pixels = image->file.len > 0 ? NULL : find_pixels(numbers, image->id);
     if (image->file.len > 0 || pixels)
-        WRITE(PATTERN, .matrix = &source->matrix, .alpha = alpha, .pixels = pixels, .file_string = image->file);
+        WRITE(PATTERN, .matrix = &source->matrix, .alpha = alpha, .pixels = pixels, .file = image->file);
     else
         WRITE(COLOR, .colour = (const double[4]){0});
     if (image->file.len == 0)
@@ -232,8 +232,7 @@ static void add_source(DisplayListExport *numbers, const DisplaySource *source, 
         break;
     case SOURCE_BLEND:
         WRITE(BLEND, .ratio = isnan(source->ratio) ? -1 : source->ratio, .mode = source->mode, .alpha = alpha,
-              .first_paint = &list->sources.at[source->first_stop],
-              .second_paint = &list->sources.at[source->stop_count]);
+              .first = &list->sources.at[source->first_stop], .second = &list->sources.at[source->stop_count]);
         break;
     case SOURCE_NOISE:
         WRITE(NOISE, .frequency = source->ends, .tile = source->ends + 2, .seed = source->ratio,
@@ -283,10 +282,10 @@ static void add_filter(DisplayListExport *numbers, uint32_t number) {
     case FILTER_##name:                                                                                                \
         operands break;
 #define NUMBER(name) ADD(filter->name);
-#define NUMBERS(name, count) add(numbers, filter->name, count);
-#define TABLE(name, count) add(numbers, table, count);
+#define PAIR(name) add(numbers, filter->name, 2);
+#define NUMBERS(name, count) add(numbers, table, count);
 #define COLOUR(name) add(numbers, filter->name, 4);
-#define FILTER(name) add_filter(numbers, *inputs++);
+#define INPUT(name) add_filter(numbers, *inputs++);
 #define COMMANDS(name) add_filter_paint(numbers, filter);
 #include "picture/display_list_rows.h"
     }
@@ -305,12 +304,12 @@ static void add_text(DisplayListExport *numbers, const DisplayCommand *command) 
         add_unsupported(numbers, "a path effect on text");
     WRITE(TEXT, .fill = command->fill, .stroke = command->stroke, .point = text->point, .size = text->size,
           .weight = text->weight, .width = text->width, .slant = text->slant, .centred = text->center,
-          .family_string = str_from(text->family ? text->family : ""), .string = text->text);
+          .family = str_from(text->family ? text->family : ""), .text = text->text);
 }
 
 static void add_image(DisplayListExport *numbers, const DisplayImage *image) {
     if (image->file.len > 0) {
-        WRITE(IMAGE, .point = image->point, .size = image->size, .fit = image->fit, .file_string = image->file);
+        WRITE(IMAGE, .point = image->point, .size = image->size, .fit = image->fit, .file = image->file);
         return;
     }
     Texture *pixels = find_pixels(numbers, image->id);

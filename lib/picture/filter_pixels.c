@@ -93,10 +93,10 @@ static FloatImage take_operands(FilterReader *reader, DisplayFilter filter) {
     case FILTER_##name:                                                                                                \
         operands break;
 #define NUMBER(name) filter.name = take_integer(reader, -1, COMPOSITE_COUNT - 1);
-#define NUMBERS(name, size) memcpy(filter.name, take(reader, size), sizeof filter.name);
-#define TABLE(name, size) table = take(reader, size);
+#define PAIR(name) memcpy(filter.name, take(reader, 2), sizeof filter.name);
+#define NUMBERS(name, size) table = take(reader, size);
 #define COLOUR(name) memcpy(filter.name, take(reader, 4), sizeof filter.name);
-#define FILTER(name) results[count++] = take_filter(reader);
+#define INPUT(name) results[count++] = take_filter(reader);
 #define COMMANDS(name) results[count++] = take_paint(reader);
 #include "picture/display_list_rows.h"
     }

@@ -12,7 +12,7 @@
 // COMMAND(ID, name, "help"): a NODE for another drawing without children. lib/picture has a function add_NAME.
 // SOURCE(ID, name, CHILDREN, "help"): a NODE for a paint source. lib/picture has a function make_NAME.
 // FILTER(ID, name, reader, CHILDREN, inputs, "help"): a NODE FILTER_ID for a filter. Its children are at most 1 filter,
-//     or exactly 2. lib/picture has functions apply_NAME and read_READER. petri-draw.h has a row PETRI_FILTER_ID.
+//     or exactly 2. lib/picture has functions apply_NAME and read_READER. petri-display-list.inc has a row ID.
 // EFFECT(ID, name, "help"): a NODE for a path effect. lib/picture has functions read_NAME and apply_NAME.
 // PICTURE_EFFECT(ID, name, scalable, "help"): a NODE for an effect on pictures, with a shader of this name and a row
 //     effect_NAME in lib/gl. `scalable` is true if a result of lower resolution looks similar.

@@ -1,7 +1,7 @@
 # header.awk: generates the manual page of a public header, such as petri.h(3). Variables: version.
 #
 # Comments at the start of a line become text. Declarations are copied with their trailing comments.
-# Preprocessor directives are omitted.
+# Preprocessor directives are omitted, but rows that are included as enumerators are shown.
 function escaped(text) {
     gsub(/\\/, "\\e", text)
     gsub(/-/, "\\-", text)
@@ -10,6 +10,15 @@ function escaped(text) {
     gsub(/\^/, "\\(ha", text)
     gsub(/~/, "\\(ti", text)
     return (text ~ /^\./ ? "\\\\&" : "") text
+}
+# Prints the rows of a file for which `row` was defined as a macro.
+function show_rows(file,    line, shows) {
+    while ((getline line < file) > 0) {
+        shows = line ~ "^" row "\\(" || (row == "PETRI_COMMAND" && line ~ /^PETRI_PAINT\(/) || (shows && line ~ /^ /)
+        if (shows)
+            print "    " escaped(line)
+    }
+    close(file)
 }
 function show(kind) {
     if (shown == kind)
@@ -36,6 +45,15 @@ FNR == 1 {
     printf ".SH SYNOPSIS\n.B #include <%s>\n.PP\ncc ... $(pkg\\-config \\-\\-cflags \\-\\-libs %s)\n", escaped(name),
         escaped(name ~ /-draw/ ? "petri-draw" : "petri")
     print ".SH DESCRIPTION"
+}
+/^#define PETRI.*##name,$/ {
+    row = $2
+    sub(/\(.*/, "", row)
+    next
+}
+/^#include "petri-display-list.inc"/ {
+    show_rows(substr(FILENAME, 1, match(FILENAME, /[^\/]*$/) - 1) substr($2, 2, length($2) - 2))
+    next
 }
 /^#(if|ifdef|ifndef|else|endif|pragma|include|error|elif)/ || /\\$/ || /^extern "C"/ || (/^}$/ && !depth) { next }
 /^#define PETRI(_DRAW)?_H$/ || /^#define PETRI_API/ { next }

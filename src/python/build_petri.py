@@ -24,6 +24,7 @@ def declarations(header):
     text = re.sub(r"#ifdef __cplusplus\n.*?#endif\n", "", text, flags=re.S)
     text = re.sub(r"^static inline .*?^}\n", "", text, flags=re.S | re.M)
     text = re.sub(r"^#(?:[^\n]*\\\n)*[^\n]*\n", "", text, flags=re.M)
+    text = re.sub(r"^enum \{\n\};\n", "", text, flags=re.M)  # display lists, whose rows are included
     return re.sub(r"\bPETRI_API\b", "", text)
 
 

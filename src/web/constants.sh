@@ -13,7 +13,7 @@ fi
     echo '// constants.mjs: generated from the public headers by src/web/constants.sh.'
     # shellcheck disable=SC2086 # a list of files
     awk -f src/web/constants.awk $headers
-    awk -v language=js -f lib/picture/display_list_rows.awk lib/include/petri-draw.h
+    awk -f src/web/display_list.awk lib/include/petri-display-list.inc
 } >"$folder/constants.mjs"
 {
     echo '// constants.d.mts: types of the names in constants.mjs, generated from the public headers by src/web/constants.sh.'

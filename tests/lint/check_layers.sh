@@ -20,7 +20,7 @@ grep -n '^[ 	]*#[ 	]*include[ 	]*"' lib/*/*.[ch] grammar/*.re grammar/*.y src/*/
         else if (header ~ /\//)
             target = substr(header, 1, index(header, "/") - 1)
         else
-            target = header == "parser.h" ? "grammar" : substr(header, 1, length(header) - 2)
+            target = header ~ /\.inc$/ ? "petri-draw" : header == "parser.h" ? "grammar" : substr(header, 1, length(header) - 2)
         print part[count - 1], target, place[1] ":" place[2], "includes \"" header "\""
     }' >"$scratch/lines"
 
