@@ -8,7 +8,6 @@
 #pragma once
 
 #include "base/budget.h"
-#include "base/private_api.h"
 
 #include <setjmp.h>
 #include <stdbool.h>
@@ -72,16 +71,15 @@ enum { ARENA_MAX_PROTECTED = 8 };
 // NULL arenas are ignored. If calls of arena_protect are nested, a failure ends the innermost one that lists the arena.
 // Heap blocks that `call` allocates must be reachable from `context`, so that the caller can free them if
 // `call` is aborted.
-ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context)
-    PRIVATE_API(arena_protect);
+ArenaOutcome arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context);
 // Like arena_alloc, but returns NULL on failure.
-void *arena_try_alloc(Arena *arena, size_t size) PRIVATE_API(arena_try_alloc);
+void *arena_try_alloc(Arena *arena, size_t size);
 
 // Initialises an empty arena that may allocate `limit` bytes between resets. `name` must outlive it.
-void arena_init(Arena *arena, const char *name, size_t limit) PRIVATE_API(arena_init);
+void arena_init(Arena *arena, const char *name, size_t limit);
 
 // Frees all blocks.
-void arena_free(Arena *arena) PRIVATE_API(arena_free);
+void arena_free(Arena *arena);
 
 // Like arena_free, but if budget->retains is true, the blocks are moved to budget->retained instead of being freed.
 // Their bytes stay unchanged and charged to the budget, because the host may still read them.
@@ -90,14 +88,14 @@ void arena_retire(Arena *arena);
 void arena_free_retained(Budget *budget);
 
 // Releases the arena's memory from its budget and sets the budget to NULL.
-void arena_detach_budget(Arena *arena) PRIVATE_API(arena_detach_budget);
+void arena_detach_budget(Arena *arena);
 
 // Drops all allocations but keeps the blocks for reuse. Unoptimised builds overwrite the bytes, and the address
 // sanitizer poisons them.
-void arena_reset(Arena *arena) PRIVATE_API(arena_reset);
+void arena_reset(Arena *arena);
 
 // The slow path of arena_alloc: continues with another block, or escapes if a limit is exceeded.
-void *arena_alloc_slow(Arena *arena, size_t size) PRIVATE_API(arena_alloc_slow);
+void *arena_alloc_slow(Arena *arena, size_t size);
 
 // Returns `size` bytes, aligned to 16, uninitialised. Size 0 returns a valid pointer that must not be dereferenced.
 static inline void *arena_alloc(Arena *arena, size_t size) {
@@ -113,7 +111,7 @@ static inline void *arena_alloc(Arena *arena, size_t size) {
 
 // Escapes with the reason given by `outcome`, a result of budget_charge other than BUDGET_OK. Returns only if no
 // arena_protect encloses the call.
-void arena_check(Arena *arena, BudgetOutcome outcome) PRIVATE_API(arena_check);
+void arena_check(Arena *arena, BudgetOutcome outcome);
 // Charges work (budget.h). Escapes if the work limit is exceeded or the host requested an interrupt.
 static inline void arena_charge(Arena *arena, uint64_t units) {
     BudgetOutcome outcome = budget_charge(arena->budget, units);
@@ -130,26 +128,25 @@ static inline void arena_charge_chunk(Arena *arena, size_t i, unsigned units_eac
 
 // Allocates `count` elements of `size` bytes each and charges the work of filling them. Escapes with
 // ARENA_MEMORY_LIMIT if count * size overflows.
-void *arena_alloc_array(Arena *arena, size_t count, size_t size) PRIVATE_API(arena_alloc_array);
+void *arena_alloc_array(Arena *arena, size_t count, size_t size);
 
 // Copies `size` bytes to the arena. Returns the copy.
 void *arena_copy(Arena *arena, const void *bytes, size_t size);
 
 // Enlarges the allocation `bytes` from old_size to new_size bytes. If it is the most recent allocation and its block
 // has space, it is enlarged in place. Otherwise returns a larger copy.
-void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size) PRIVATE_API(arena_grow);
+void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size);
 
 // Ensures that the array `items` of `count` elements, each of `size` bytes, has capacity for one more element. If it is
 // full, doubles *capacity. Returns `items` or a larger copy of it.
-void *arena_grow_array(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size)
-    PRIVATE_API(arena_grow_array);
+void *arena_grow_array(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size);
 
 // Escapes with ARENA_OUT_OF_MEMORY. Called if a heap allocation fails while the arena is in use.
-_Noreturn void arena_exhausted(const Arena *arena) PRIVATE_API(arena_exhausted);
+_Noreturn void arena_exhausted(const Arena *arena);
 // Escapes with the given outcome, for example the result of an inner arena_protect. Aborts the process if no
 // arena_protect encloses the call.
-_Noreturn void arena_escape(const Arena *arena, ArenaOutcome end) PRIVATE_API(arena_escape);
+_Noreturn void arena_escape(const Arena *arena, ArenaOutcome end);
 
-ArenaMark arena_mark(const Arena *arena) PRIVATE_API(arena_mark);
+ArenaMark arena_mark(const Arena *arena);
 // Drops all allocations made since the mark. Pointers to them become invalid.
-void arena_rewind(Arena *arena, ArenaMark mark) PRIVATE_API(arena_rewind);
+void arena_rewind(Arena *arena, ArenaMark mark);

@@ -6,8 +6,6 @@
 // memory is charged from its allocation until it is freed, even while none of it is in use.
 #pragma once
 
-#include "base/private_api.h"
-
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -42,10 +40,10 @@ typedef enum BudgetOutcome { BUDGET_OK, BUDGET_EXCEEDED, BUDGET_INTERRUPTED } Bu
 
 // Starts to count the work of an operation, such as loading a script: resets `work` and memory_refused. Memory stays
 // charged. `interrupt` may be NULL.
-void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt) PRIVATE_API(budget_begin);
+void budget_begin(Budget *budget, uint64_t work_limit, atomic_bool *interrupt);
 // Returns BUDGET_OK if work may continue, else the reason to stop. Sets next_check. Called if `work` exceeds
 // next_check.
-BudgetOutcome budget_check(Budget *budget) PRIVATE_API(budget_check);
+BudgetOutcome budget_check(Budget *budget);
 
 // Charges `units`. Returns BUDGET_OK if work may continue. If the budget is NULL, nothing is charged.
 static inline BudgetOutcome budget_charge(Budget *budget, uint64_t units) {
@@ -57,19 +55,19 @@ static inline BudgetOutcome budget_charge(Budget *budget, uint64_t units) {
 
 // Charges an estimated time in nanoseconds. If the limit would be exceeded, adds the time to refused_time and returns
 // false.
-bool budget_charge_time(Budget *budget, double time) PRIVATE_API(budget_charge_time);
+bool budget_charge_time(Budget *budget, double time);
 
 // Drawing has a budget with three quarters of the session's work limit. Returns that part of a session's limit.
-uint64_t budget_drawing_limit(uint64_t session_limit) PRIVATE_API(budget_drawing_limit);
+uint64_t budget_drawing_limit(uint64_t session_limit);
 // Returns the session's work limit, in units of 2^20, that suffices to draw also what a drawing budget has refused.
 // Never decreases, so that a message with the result does not change in each frame.
-double budget_suggest_work(Budget *drawing) PRIVATE_API(budget_suggest_work);
+double budget_suggest_work(Budget *drawing);
 // Like budget_suggest_work, for the memory limit in MiB. `limit` is the session's limit in bytes.
-double budget_suggest_memory(const Budget *drawing, size_t limit) PRIVATE_API(budget_suggest_memory);
+double budget_suggest_memory(const Budget *drawing, size_t limit);
 
 // Returns how many bytes may still be reserved.
-size_t budget_memory_left(const Budget *budget) PRIVATE_API(budget_memory_left);
+size_t budget_memory_left(const Budget *budget);
 // Charges memory. Returns false, with nothing charged, if the limit would be exceeded.
-bool budget_reserve(Budget *budget, size_t bytes) PRIVATE_API(budget_reserve);
+bool budget_reserve(Budget *budget, size_t bytes);
 // Releases memory that budget_reserve has charged.
-void budget_release(Budget *budget, size_t bytes) PRIVATE_API(budget_release);
+void budget_release(Budget *budget, size_t bytes);

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "base/hash_index.h"
-#include "base/private_api.h"
 #include "base/source.h"
 
 typedef enum DiagLevel { DIAG_ERROR, DIAG_WARNING, DIAG_NOTE } DiagLevel;
@@ -38,16 +37,16 @@ typedef struct DiagSink {
     uint32_t dropped; // number of diagnostics beyond `limit`
 } DiagSink;
 
-DiagSink diag_sink_new(Arena *arena, uint32_t limit) PRIVATE_API(diag_sink_new);
+DiagSink diag_sink_new(Arena *arena, uint32_t limit);
 // Frees the index. The entries are freed with the arena.
-void diag_sink_free(DiagSink *sink) PRIVATE_API(diag_sink_free);
+void diag_sink_free(DiagSink *sink);
 // Stores a copy of `diag` and returns true. Returns false if the same text at the same location is already stored, or
 // if the sink is full. The source must outlive the sink.
-bool diag_report(DiagSink *sink, const Diag *diag) PRIVATE_API(diag_report);
+bool diag_report(DiagSink *sink, const Diag *diag);
 // Returns the text of a diagnostic, truncated to 400 bytes.
 Str diag_text(const Diag *diag);
 // Appends `FILE:LINE:COLUMN: level: text`, the source line, a caret line and the hint (spec cli.md 3.5). Every line
 // ends with a newline.
 void diag_format(Text *out, const Diag *diag, bool colour);
 // Returns `text (FILE:LINE)`, the format used in the `?` section of a printed frame.
-Str diag_one_line(Arena *arena, const Diag *diag) PRIVATE_API(diag_one_line);
+Str diag_one_line(Arena *arena, const Diag *diag);

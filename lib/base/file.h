@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/file_access.h"
-#include "base/private_api.h"
 
 #include <sys/types.h>
 
@@ -12,9 +11,9 @@
 // *version to a string that changes when the file changes. file_access restricts which files can be read; NULL: no
 // restriction.
 bool file_read(Arena *arena, const FileAccess *file_access, const char *path, bool regular, size_t limit, Str *bytes,
-               Str *version, const char **problem) PRIVATE_API(file_read);
+               Str *version, const char **problem);
 // Calls read, and repeats it if interrupted by a signal.
-ssize_t file_read_some(int file, void *bytes, size_t len) PRIVATE_API(file_read_some);
+ssize_t file_read_some(int file, void *bytes, size_t len);
 // Reads exactly `len` bytes. Returns false if the file ends earlier, or with errno set on failure.
 bool file_read_bytes(int file, void *bytes, size_t len);
 // Reads `file` to its end and adds the bytes to `text`. Stops early once text->len exceeds max_len. On failure returns
@@ -29,23 +28,22 @@ const char *text_read_file(Text *text, const char *path, size_t limit);
 const char *text_read_regular(Text *text, int file, size_t limit);
 bool file_exists(const char *path);
 // Sets *version to the same string as file_read would. Returns false if the file does not exist or cannot be accessed.
-bool file_version(Arena *arena, const FileAccess *file_access, const char *path, Str *version)
-    PRIVATE_API(file_version);
+bool file_version(Arena *arena, const FileAccess *file_access, const char *path, Str *version);
 // Replaces the contents of a file by `bytes` atomically. `flags` are ReplaceFlags. Returns NULL on success, else the
 // reason for the failure.
 const char *file_replace(const char *path, Str bytes, unsigned flags);
 // Writes `bytes` to a replacement and commits it. Returns NULL on success. On failure aborts the replacement and
 // returns the reason.
-const char *file_finish(Replacement *replacement, Str bytes) PRIVATE_API(file_finish);
+const char *file_finish(Replacement *replacement, Str bytes);
 // Calls openat with O_CLOEXEC and O_NOCTTY, and retries if interrupted by a signal. `folder` may be AT_FDCWD.
-int file_open_at(int folder, const char *name, int flags, mode_t mode) PRIVATE_API(file_open_at);
+int file_open_at(int folder, const char *name, int flags, mode_t mode);
 // Writes all bytes to an open file. On failure returns false with errno set.
 bool file_write(int file, const char *bytes, size_t len);
 // Truncates a file to `len` bytes. On failure returns false with errno set.
 bool file_truncate(int file, size_t len);
 // Sets `resolved` to the path with symbolic links, "." and ".." resolved. The file itself need not exist, but its
 // folder must. On failure returns false with errno set.
-bool file_resolve(const char *path, char resolved[PATH_MAX]) PRIVATE_API(file_resolve);
+bool file_resolve(const char *path, char resolved[PATH_MAX]);
 // Returns a NUL-terminated path with symbolic links, "." and ".." resolved. A path that does not exist is copied
 // unchanged. If the host provides the files (FileAccess.read_file), the path is only normalised.
 Str file_canonical(Arena *arena, const FileAccess *file_access, const char *path);

@@ -5,7 +5,6 @@
 // folder without following links, so that a link created in the meantime cannot redirect it.
 #pragma once
 
-#include "base/private_api.h"
 #include "base/replace.h"
 #include "base/str.h"
 
@@ -40,7 +39,7 @@ void file_access_add(Arena *arena, FileAccess *file_access, FileAccessKind kind,
 // directory does not exist.
 Str file_access_folder(Arena *arena, Str directory);
 // Returns a copy whose strings are also copied to the arena. The copy has no on_read.
-FileAccess file_access_copy(Arena *arena, const FileAccess *file_access) PRIVATE_API(file_access_copy);
+FileAccess file_access_copy(Arena *arena, const FileAccess *file_access);
 
 // Returns true if access to a canonical path is allowed. If file_access is NULL, all paths are allowed.
 bool file_access_allows(const FileAccess *file_access, FileAccessKind kind, const char *path);
@@ -65,9 +64,8 @@ int file_access_open(const FileAccess *file_access, const char *path, int flags)
 int file_open_below(int folder, char *rest, int flags, mode_t mode, bool make_folders);
 // Like replace_begin, but only for a regular or new file, and only if writing it is allowed. On failure returns false
 // with errno set (EXDEV: not allowed).
-bool file_access_replace(const FileAccess *file_access, const char *path, Replacement *replacement)
-    PRIVATE_API(file_access_replace);
+bool file_access_replace(const FileAccess *file_access, const char *path, Replacement *replacement);
 // Creates the missing folders that will contain the file `path`. Returns false if writing the file is not allowed.
-bool file_access_make_folders(const FileAccess *file_access, const char *path) PRIVATE_API(file_access_make_folders);
+bool file_access_make_folders(const FileAccess *file_access, const char *path);
 // Returns why access to a path is denied and which option would allow it, as a constant string or one in the arena.
 const char *file_access_reason(Arena *arena, const FileAccess *file_access, FileAccessKind kind, const char *path);

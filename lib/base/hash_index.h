@@ -4,8 +4,6 @@
 // entries stay dense and ordered. It is used for symbols, state keys and diagnostics.
 #pragma once
 
-#include "base/private_api.h"
-
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -27,18 +25,18 @@ typedef struct HashIndex {
 // Returns true if the owner's entry at position `entry` has this key.
 typedef bool HashIndexMatch(const void *owner, uint32_t entry, const void *key);
 
-void hash_index_free(HashIndex *index) PRIVATE_API(hash_index_free);
+void hash_index_free(HashIndex *index);
 void hash_index_clear(HashIndex *index);
 // Returns the position of the entry with this key, or HASH_INDEX_NONE.
 uint32_t hash_index_find(const HashIndex *index, uint64_t hash, HashIndexMatch *match, const void *owner,
-                         const void *key) PRIVATE_API(hash_index_find);
+                         const void *key);
 // Adds an entry at position `entry`, whose key must not be in the index yet. Returns false, with nothing changed, if
 // out of memory.
-bool hash_index_add(HashIndex *index, uint64_t hash, uint32_t entry) PRIVATE_API(hash_index_add);
+bool hash_index_add(HashIndex *index, uint64_t hash, uint32_t entry);
 // Removes the entry at position `entry`, which must be in the index.
 void hash_index_remove(HashIndex *index, uint64_t hash, uint32_t entry);
 
 // Returns a well-mixed 64-bit hash of bytes: FNV-1a followed by the SplitMix64 mixer.
-uint64_t hash_bytes(uint64_t seed, const void *bytes, size_t len) PRIVATE_API(hash_bytes);
+uint64_t hash_bytes(uint64_t seed, const void *bytes, size_t len);
 // Returns x mixed by SplitMix64.
 uint64_t hash_mix(uint64_t x);

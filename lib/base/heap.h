@@ -34,7 +34,7 @@ void heap_free(void *block) PRIVATE_API(heap_free);
 // aborts the process. The command replaces it by a function that prints a message and exits.
 _Noreturn void heap_exhausted(void);
 // Returns a copy of `length` bytes, followed by a NUL byte.
-char *heap_strndup(const char *bytes, size_t length) PRIVATE_API(heap_strndup);
+char *heap_strndup(const char *bytes, size_t length);
 // Ensures that the heap array *array can hold at least count + 1 elements of `size` bytes each. Updates *capacity if
 // the array grows. Returns false, with nothing changed, if out of memory.
-bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size) PRIVATE_API(heap_reserve);
+bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);

@@ -1,7 +1,6 @@
 // number.h: locale-independent conversion between doubles and text.
 #pragma once
 
-#include "base/private_api.h"
 #include "base/str.h"
 
 #include <math.h>
@@ -11,14 +10,14 @@
 enum { NUMBER_TEXT = 40 }; // size in bytes of a buffer for any formatted number
 
 // Writes the shortest decimal that parses as the same double (spec language.md L18.1). Returns its length.
-size_t number_format(double x, char text[NUMBER_TEXT]) PRIVATE_API(number_format);
+size_t number_format(double x, char text[NUMBER_TEXT]);
 // Appends that decimal.
 void text_add_number(Text *text, double x);
 // Writes nine significant digits like C's "%.9g", but every NaN as "nan" (L6.2). Returns the length.
 size_t number_format_short(double x, char text[NUMBER_TEXT]);
 // Parses a well-formed decimal number with optional sign, point and exponent. Underscores are skipped. The result is
 // correctly rounded; NaN if out of memory.
-double number_parse(Str digits) PRIVATE_API(number_parse);
+double number_parse(Str digits);
 
 // Returns floor(x), which is -0 for x = -0. Faster than the C library's floor, which is a function call if the compiler
 // cannot use SSE4.1.

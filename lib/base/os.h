@@ -4,8 +4,6 @@
 // POSIX.1-2008 alone. It has a substitute for each function, or fails with the error ENOTSUP.
 #pragma once
 
-#include "base/private_api.h"
-
 #include <limits.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -23,7 +21,7 @@ char *realpath(const char *restrict path, char *restrict resolved);
 // Returns the number of processors that this process may run on, at least 1.
 int os_processor_count(void);
 // Return the times of the last change of a file's contents, and of contents or permissions.
-struct timespec os_time_modified(const struct stat *info) PRIVATE_API(os_time_modified);
+struct timespec os_time_modified(const struct stat *info);
 struct timespec os_time_changed(const struct stat *info);
 
 // A flag of open for folders of which only files are opened, so that permission to list them is not needed. O_RDONLY
@@ -34,7 +32,7 @@ extern const int OS_SEARCH;
 int os_open_below(int folder, const char *path, int flags);
 // Takes an exclusive lock on an open file, which lasts until the file is closed. Fails with EWOULDBLOCK if another open
 // file holds the lock, with other errors if there are no such locks.
-bool os_lock(int file) PRIVATE_API(os_lock);
+bool os_lock(int file);
 // Writes a file or folder to disk.
 bool os_sync(int file);
 // Opens a new file without a name in a folder. On failure returns -1.

@@ -3,7 +3,6 @@
 // Tokens and syntax nodes store only byte offsets. Line and column are computed when a diagnostic needs them.
 #pragma once
 
-#include "base/private_api.h"
 #include "base/str.h"
 
 typedef struct Source {
@@ -45,4 +44,4 @@ uint32_t source_line(const Source *source, uint32_t offset);
 // Returns the part of a path up to and including the last slash.
 Str path_directory(Str path);
 // Returns `path` if it is absolute or `directory` is empty, else both joined by a slash.
-Str path_join(Arena *arena, Str directory, Str path) PRIVATE_API(path_join);
+Str path_join(Arena *arena, Str directory, Str path);

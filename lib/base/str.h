@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/arena.h"
-#include "base/private_api.h"
 
 #include <stdarg.h>
 #include <stdbool.h>
@@ -18,16 +17,16 @@ typedef struct Str {
 // Arguments for the format %.*s.
 #define STR_ARGS(str) (int)(str).len, (str).bytes
 
-Str str_from(const char *text) PRIVATE_API(str_from);
-bool str_equal(Str a, Str b) PRIVATE_API(str_equal);
+Str str_from(const char *text);
+bool str_equal(Str a, Str b);
 // Returns -1, 0 or 1. Compares bytes, which for UTF-8 is the order of code points. A prefix sorts before
 // the longer string.
-int str_compare(Str a, Str b) PRIVATE_API(str_compare);
+int str_compare(Str a, Str b);
 // str_copy and str_to_c return a copy that is followed by a NUL byte.
-Str str_copy(Arena *arena, Str text) PRIVATE_API(str_copy);
-char *str_to_c(Arena *arena, Str text) PRIVATE_API(str_to_c);
-bool str_starts_with(Str text, Str prefix) PRIVATE_API(str_starts_with);
-bool str_ends_with(Str text, Str suffix) PRIVATE_API(str_ends_with);
+Str str_copy(Arena *arena, Str text);
+char *str_to_c(Arena *arena, Str text);
+bool str_starts_with(Str text, Str prefix);
+bool str_ends_with(Str text, Str suffix);
 // Returns the longest prefix of at most max_bytes bytes that does not end within a character.
 Str str_truncate(Str text, size_t max_bytes);
 // Returns the index of a word in a space-separated list, or -1 if the list does not contain it.
@@ -36,7 +35,7 @@ int str_word_number(Str word, const char *list);
 // NULL if there is no separator. Returns NULL if *rest is NULL.
 char *str_split(char **rest, char separator);
 // Returns the text without white space (space, tab, CR, LF, VT, FF) at both ends.
-Str str_trim(Str text) PRIVATE_API(str_trim);
+Str str_trim(Str text);
 
 // Returns the number of edits (insertion, deletion, replacement, swap of adjacent bytes) that turn a into b, for
 // "did you mean" hints. Returns 64 if a or b is longer than 64 bytes.
@@ -62,22 +61,20 @@ typedef struct Text {
     size_t capacity; // of `bytes`
 } Text;
 
-Text text_new(Arena *arena) PRIVATE_API(text_new);
-void text_free(Text *text) PRIVATE_API(text_free); // frees a text on the heap; it is then empty
+Text text_new(Arena *arena);
+void text_free(Text *text); // frees a text on the heap; it is then empty
 // Ensures space for `more` bytes and a NUL after text->len. Returns the address of that space.
 char *text_reserve(Text *text, size_t more);
-void text_add(Text *text, Str part) PRIVATE_API(text_add);
-void text_add_c(Text *text, const char *part) PRIVATE_API(text_add_c);
+void text_add(Text *text, Str part);
+void text_add_c(Text *text, const char *part);
 void text_add_char(Text *text, char c);
 void text_add_code_point(Text *text, uint32_t code_point);
 // Adds a text. Writes '?' for ill-formed UTF-8 and for control characters that are not in `allowed`, because they must
 // not reach a terminal.
 void text_add_printable(Text *text, Str part, const char *allowed);
-void text_add_format(Text *text, const char *format, ...) PRIVATE_API(text_add_format)
-    __attribute__((format(printf, 2, 3)));
-void text_add_va(Text *text, const char *format, va_list args) PRIVATE_API(text_add_va)
-    __attribute__((format(printf, 2, 0)));
-Str text_str(const Text *text) PRIVATE_API(text_str);
+void text_add_format(Text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void text_add_va(Text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
+Str text_str(const Text *text);
 
 // Returns the value of a hexadecimal digit, or -1.
 int str_hex_digit(char c);
@@ -90,18 +87,18 @@ bool text_add_hex_colour(Text *text, Str hex);
 Str str_named_colour(Str name);
 
 // Returns a formatted string in the arena. It is followed by a NUL byte.
-Str str_format(Arena *arena, const char *format, ...) PRIVATE_API(str_format) __attribute__((format(printf, 2, 3)));
+Str str_format(Arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 enum { UTF8_MAX = 4 };
 // Decodes the code point at *at and advances *at. For ill-formed UTF-8, including surrogates and overlong forms,
 // returns -1 and advances by one byte.
-int32_t utf8_next(Str text, size_t *at) PRIVATE_API(utf8_next);
+int32_t utf8_next(Str text, size_t *at);
 // Returns true for control characters and for -1, the result of utf8_next for ill-formed bytes. None of these must
 // reach a terminal.
 bool utf8_is_control(int32_t code_point);
 // Writes 1 to 4 bytes and returns how many. The code point must be at most 0x10FFFF.
 size_t utf8_encode(uint32_t code_point, char bytes[UTF8_MAX]);
 // Returns the offset of the first ill-formed byte, or text.len.
-size_t utf8_find_error(Str text) PRIVATE_API(utf8_find_error);
+size_t utf8_find_error(Str text);
 // Returns the number of code points. Each ill-formed byte counts as one.
 size_t utf8_length(Str text);

@@ -1,4 +1,6 @@
 // help.c: help on the language: functions, kinds of nodes with their attributes, numbers as scripts write them.
+#include "schema/help.h"
+
 #include "ast/literal.h"
 #include "base/host_struct.h"
 #include "session/session.h"
@@ -28,7 +30,7 @@ bool petri_node_kind(size_t number, PetriNodeKind *out, size_t size) {
                                  kind->place < PLACE_TOP ? "physics"
                                  : solid                 ? "canvas3d"
                                                          : "canvas",
-                                 kind->help, schema_formula((NodeKind)number)};
+                                 schema_kind_help[number], schema_formula((NodeKind)number)};
     return host_struct_write(out, size, &found, sizeof found);
 }
 
@@ -38,7 +40,7 @@ bool petri_node_attribute(size_t kind, size_t number, PetriNodeAttribute *out, s
         if (row->kind != kind || number-- > 0)
             continue;
         const PetriNodeAttribute found = {schema_names[row->name], schema_types[row->type].text,
-                                          row->default_value.text, row->help, row->unit};
+                                          schema_help[i].default_text, schema_help[i].help, schema_help[i].unit};
         return host_struct_write(out, size, &found, sizeof found);
     }
     return false;

@@ -5,6 +5,7 @@
 #include "base/cpu.h"
 #include "maths/double_bits.h"
 #include "maths/fast.h"
+#include "maths/table.h"
 
 #if defined(__x86_64__) && !defined(__FMA__)
 #define PICK(name) (cpu_detected.fma ? maths_##name##_fma : maths_##name##_plain)
@@ -34,3 +35,6 @@ double maths_hypot(double x, double y) {
     b *= scale;
     return __builtin_sqrt(a * a + b * b) / scale;
 }
+
+#define ENTRY(name) .name = maths_##name,
+const MathsTable maths_table = {MATHS_FUNCTIONS(ENTRY, ENTRY) ENTRY(hypot)};

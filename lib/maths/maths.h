@@ -8,20 +8,18 @@
 // fixed.h.
 #pragma once
 
-#include "base/private_api.h"
-
-double maths_sin(double x) PRIVATE_API(maths_sin);
-double maths_cos(double x) PRIVATE_API(maths_cos);
-double maths_tan(double x) PRIVATE_API(maths_tan);
+double maths_sin(double x);
+double maths_cos(double x);
+double maths_tan(double x);
 double maths_asin(double x);
-double maths_acos(double x) PRIVATE_API(maths_acos);
-double maths_atan2(double y, double x) PRIVATE_API(maths_atan2);
-double maths_exp(double x) PRIVATE_API(maths_exp);
+double maths_acos(double x);
+double maths_atan2(double y, double x);
+double maths_exp(double x);
 double maths_log(double x);
 double maths_log2(double x);
-double maths_log10(double x) PRIVATE_API(maths_log10);
-double maths_pow(double x, double y) PRIVATE_API(maths_pow);
+double maths_log10(double x);
+double maths_pow(double x, double y);
 
 // Returns sqrt(x^2 + y^2) without intermediate overflow. The result is not correctly rounded,
 // but bit-identical on every machine.
-double maths_hypot(double x, double y) PRIVATE_API(maths_hypot);
+double maths_hypot(double x, double y);

@@ -4,9 +4,7 @@
 // it computes whole pairs and drops those that were not requested.
 #include "maths/random.h"
 
-#include "base/number.h"
 #include "maths/arrays.h"
-#include "maths/fast_random.h"
 #include "maths/maths.h"
 
 #include <math.h>
@@ -49,21 +47,6 @@ double turns_sin(double t) {
 
 double turns_cos(double t) {
     return turns_sin(t + 0.25);
-}
-
-uint64_t random_hash_number(double x) {
-    double whole = isfinite(x) ? number_floor(x) : isnan(x) ? (double)NAN : x; // processors differ in the bits of NaN
-    uint64_t bits;
-    memcpy(&bits, &whole, sizeof bits);
-    return bits;
-}
-
-uint64_t random_raw(uint64_t key, uint64_t i) {
-    return raw_lanes(key, i);
-}
-
-double random_uniform(uint64_t key, uint64_t i) {
-    return (double)random_raw(key, i) / 18446744073709551616.0;
 }
 
 double random_beta(uint64_t key, uint64_t i) {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "base/cpu.h"
-#include "base/private_api.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -24,12 +23,12 @@ static inline uint64_t random_hash_step(uint64_t hash, uint64_t y) {
 }
 // Returns the bits that represent a number in a seed hash: those of floor(x), of x itself if it is infinite, or of
 // the name `nan` if it is NaN.
-uint64_t random_hash_number(double x) PRIVATE_API(random_hash_number);
+uint64_t random_hash_number(double x);
 
 // Returns item i of the five-round Squares generator (Widynski, "Squares: A Fast Counter-Based RNG"; spec B9.4).
 uint64_t random_raw(uint64_t key, uint64_t i);
 // Each returns item i of a stream with the distribution that its name states (B9.5).
-double random_uniform(uint64_t key, uint64_t i) PRIVATE_API(random_uniform);
+double random_uniform(uint64_t key, uint64_t i);
 double random_beta(uint64_t key, uint64_t i);
 double random_normal(uint64_t key, uint64_t i);
 // Computes random_normal for items first to first + count - 1, much faster than separate calls. `level` is

@@ -4,7 +4,7 @@
 // or tau is taken for radians. An expression that divides by tau has already been converted.
 #include "builtin/builtin.h"
 #include "program/compile.h"
-#include "schema/table.h"
+#include "schema/help.h"
 
 #include <math.h>
 #include <string.h>
@@ -119,7 +119,8 @@ void lint_call_angles(Compiler *compiler, const Ast *call) {
 }
 
 static bool is_in_turns(const SchemaRow *row) {
-    return row->unit[0] == 't' && strcmp(row->unit, "turns") == 0; // most rows need no call
+    const char *unit = schema_help[row - schema_rows].unit;
+    return unit[0] == 't' && strcmp(unit, "turns") == 0; // most rows need no call
 }
 
 static bool has_name(const SchemaRow *row, Str node, Str attr) {

@@ -201,23 +201,3 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
     }
     return good;
 }
-
-void schema_store(const AttrValue *attr, void *record) {
-    // Size of the field for each shape that a record of a drawing node can have, or a number of a system.
-    static const uint8_t sizes[] = {
-        [SHAPE_NUMBER] = sizeof(double),
-        [SHAPE_INTEGER] = sizeof(double),
-        [SHAPE_TIME] = sizeof(double),
-        [SHAPE_FINITE] = sizeof(double),
-        [SHAPE_TRIPLE] = 3 * sizeof(double),
-        [SHAPE_COLOR] = 4 * sizeof(double),
-        [SHAPE_FLAG] = sizeof(bool),
-        [SHAPE_TEXT] = sizeof(const char *),
-        [SHAPE_WEIGHT] = sizeof(double),
-        [SHAPE_WORD] = sizeof(int),
-        [SHAPE_OTHER] = 0,
-    };
-    const SchemaRow *row = &schema_rows[attr->row];
-    if (row->field != FIELD_NOWHERE)
-        memcpy((char *)record + row->field, &attr->as, sizes[schema_types[row->type].shape]);
-}

@@ -222,28 +222,3 @@ void reader_fill(const Reader *reader, void *record) {
     if (schema->has_vector_default[reader->kind])
         fill_vector_defaults(reader, record);
 }
-
-static void store_default(const SchemaRow *row, char *record) {
-    const AttrDefault *attr_default = &row->default_value;
-    void *field = record + row->field;
-    AttrShape shape = schema_types[row->type].shape;
-    double x = attr_default->value;
-    AttrValue attr = {.row = (uint16_t)(row - schema_rows), .as.numbers = {x, x, x, 1}};
-    if (shape == SHAPE_VALUE || shape == SHAPE_NUMBERS)
-        *(Value *)field = isnan(x) ? VALUE_NULL : value_number(x);
-    else if (shape == SHAPE_VECTOR || shape == SHAPE_NORMAL)
-        *(PhysVector *)field = NULL;
-    else if (shape == SHAPE_TEXT)
-        attr.as.text = str_from(attr_default->string ? attr_default->string : "");
-    else if (shape == SHAPE_WORD)
-        attr.as.word = (int)x;
-    else if (shape == SHAPE_FLAG)
-        attr.as.flag = x != 0;
-    schema_store(&attr, record);
-}
-
-void schema_defaults(NodeKind kind, void *record) {
-    for (int i = 0; i < ROW_COUNT; i++)
-        if (schema_rows[i].kind == kind && schema_rows[i].field != FIELD_NOWHERE)
-            store_default(&schema_rows[i], record);
-}

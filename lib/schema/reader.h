@@ -102,7 +102,7 @@ bool reader_report_not_finite(const Reader *reader, AttrName name, PhysVector ve
                               const char *effect);
 
 // Stores the defaults of a kind in its record. Vectors become NULL.
-void schema_defaults(NodeKind kind, void *record) PRIVATE_API(schema_defaults);
+void schema_defaults(NodeKind kind, void *record);
 // Reads the attributes into a record that contains the defaults. Unknown or malformed attributes are reported and keep
 // the default. Vectors are borrowed from the node or allocated from the reader's arena.
 void reader_fill(const Reader *reader, void *record);
@@ -138,4 +138,4 @@ typedef struct AttrValue {
 // false if a required attribute has numbers that are not finite or outside the limits.
 bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count);
 // Stores an attribute in the record of its kind. Does nothing if its row names no field.
-void schema_store(const AttrValue *attr, void *record) PRIVATE_API(schema_store);
+void schema_store(const AttrValue *attr, void *record);

@@ -3,6 +3,7 @@
 // All reports pass through report(), which names the node by its kind and its id or state, and counts them. A report
 // says what is wrong; if there is a likely remedy, it follows after a semicolon.
 #include "base/number.h"
+#include "schema/help.h"
 #include "schema/reader_internal.h"
 #include "value/format.h"
 #include "value/node_batch.h"
@@ -212,10 +213,11 @@ void reader_report_shape(const Reader *reader, const SchemaRow *row, Value found
 }
 
 void reader_report_ignored(const Reader *reader, const SchemaRow *row) {
-    if (!str_starts_with(str_from(row->help), STR("ignored")))
+    const char *help = schema_help[row - schema_rows].help;
+    if (!str_starts_with(str_from(help), STR("ignored")))
         return;
     const Symbol *attr = reader->schema->slots[row - schema_rows].name;
-    Str text = str_format(reader->arena, "attribute '%s' is %s", schema_names[row->name], row->help);
+    Str text = str_format(reader->arena, "attribute '%s' is %s", schema_names[row->name], help);
     report_symbol(reader, "ignored-attribute", attr, text);
 }
 

@@ -10,7 +10,7 @@
 #include <math.h>
 
 const KindRow schema_kinds[KIND_COUNT] = {
-#define NODE(id, text, place, children, help) {text, help, PLACE_##place, PLACE_##children},
+#define NODE(id, text, place, children, help) {text, PLACE_##place, PLACE_##children},
 #include "schema/schema_list.h"
 };
 
@@ -35,21 +35,21 @@ const TypeRow schema_types[TYPE_COUNT] = {
 #define TO_GRAPHICS3D(field) offsetof(GraphicsState3D, field)
 #define NOWHERE FIELD_NOWHERE
 #define IS(x)                                                                                                          \
-    { x, #x, false, NULL }
+    { x, false, NULL }
 #define DESCRIBED(x, text)                                                                                             \
-    { x, text, false, NULL }
+    { x, false, NULL }
 #define INHERITED(x, text)                                                                                             \
-    { x, "inherited, initially " text, true, NULL }
+    { x, true, NULL }
 #define INHERITED_TEXT(text)                                                                                           \
-    { 0, "inherited, initially \"" text "\"", true, text }
+    { 0, true, text }
 #define NONE                                                                                                           \
-    { NAN, "", false, NULL }
+    { NAN, false, NULL }
 
 const SchemaRow schema_rows[ROW_COUNT] = {
 #define ATTR(kind, name, type, field, default_value, unit, help)                                                       \
-    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_NONE, field, default_value, unit, help},
+    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_NONE, field, default_value},
 #define ALIAS(kind, name, of, of_text, type, field, unit)                                                              \
-    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_##of, field, NONE, unit, "alias; " of_text " takes precedence"},
+    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_##of, field, NONE},
 #include "schema/schema_list.h"
 };
 
@@ -107,15 +107,6 @@ PhysForceKind schema_force(NodeKind kind) {
 #include "schema/schema_list.h"
     };
     return kind < KIND_COUNT ? forces[kind] : PHYS_FORCE_KINDS;
-}
-
-const char *schema_formula(NodeKind kind) {
-    static const char *const formulas[KIND_COUNT] = {
-#define NODE(id, text, place, children, help) [KIND_##id] = "",
-#define FORCE(id, text, help, formula) [KIND_##id] = formula,
-#include "schema/schema_list.h"
-    };
-    return formulas[kind];
 }
 
 // Forces whose reach is INVERSE_SQUARE have an attribute `theta`, and other forces have none.

@@ -1,7 +1,6 @@
 // table.h: the rows of schema_list.h as tables: kinds of nodes, attributes, types and words.
 #pragma once
 
-#include "base/private_api.h"
 #include "base/str.h"
 #include "physics/system.h"
 
@@ -117,7 +116,6 @@ enum {
 
 typedef struct KindRow {
     const char *name;
-    const char *help;
     PlaceKind place;
     PlaceKind children;
 } KindRow;
@@ -132,7 +130,6 @@ typedef struct TypeRow {
 
 typedef struct AttrDefault {
     double value;
-    const char *text;   // description for help; "": none
     bool inherited;     // true: the default is the value of the enclosing node; `value` applies if no such node sets it
     const char *string; // default of a text attribute; NULL: ""
 } AttrDefault;
@@ -146,8 +143,6 @@ typedef struct SchemaRow {
     uint16_t alias; // AttrName of the attribute that this row is an alias for; ATTR_NONE: not an alias
     uint16_t field; // offset of the field in the record of its kind, or FIELD_NOWHERE
     AttrDefault default_value;
-    const char *unit; // unit in words; "": none, or named in `help`
-    const char *help; // description; "": the name of the attribute is self-explanatory
 } SchemaRow;
 
 typedef struct WordRow {
@@ -156,22 +151,20 @@ typedef struct WordRow {
     Str text;
 } WordRow;
 
-extern const KindRow schema_kinds[KIND_COUNT] PRIVATE_API(schema_kinds);
-extern const char *const schema_names[ATTR_COUNT] PRIVATE_API(schema_names);
-extern const TypeRow schema_types[TYPE_COUNT] PRIVATE_API(schema_types);
-extern const SchemaRow schema_rows[ROW_COUNT] PRIVATE_API(schema_rows);
+extern const KindRow schema_kinds[KIND_COUNT];
+extern const char *const schema_names[ATTR_COUNT];
+extern const TypeRow schema_types[TYPE_COUNT];
+extern const SchemaRow schema_rows[ROW_COUNT];
 extern const WordRow schema_words[WORD_COUNT];
 
 // Returns the preferred word with a value, or "" if there is none.
-const char *schema_word(AttrType type, int value) PRIVATE_API(schema_word);
+const char *schema_word(AttrType type, int value);
 // Stores the value of a word in *value. Returns false if the type does not have this word.
-bool schema_find_word(AttrType type, Str word, int *value) PRIVATE_API(schema_find_word);
+bool schema_find_word(AttrType type, Str word, int *value);
 // Returns the row of an attribute, or NULL if the kind has no such attribute.
-const SchemaRow *schema_row(NodeKind kind, AttrName name) PRIVATE_API(schema_row);
+const SchemaRow *schema_row(NodeKind kind, AttrName name);
 // Returns the force that nodes of a kind describe, or PHYS_FORCE_KINDS if the kind is not a force.
 PhysForceKind schema_force(NodeKind kind);
-// Returns the formula of a force, with line breaks; "" for other nodes.
-const char *schema_formula(NodeKind kind);
 // Returns the kind of the nodes that describe a force.
 NodeKind schema_kind_of_force(PhysForceKind force);
 // Returns true if a node of this kind is allowed as a child of a node that accepts `children`.

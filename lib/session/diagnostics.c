@@ -194,10 +194,6 @@ void session_report(PetriSession *session, const Diag *diag) {
     session_report_keyed(session, diag, (Str){0});
 }
 
-void session_report_text(PetriSession *session, DiagLevel level, const char *code, Str text) {
-    session_report(session, &(Diag){.level = level, .text = text, .code = code});
-}
-
 void session_report_all(PetriSession *session, const DiagSink *sink) {
     for (uint32_t i = 0; i < sink->count; i++)
         session_report(session, &sink->items[i]);

@@ -38,8 +38,9 @@ void session_report(PetriSession *session, const Diag *diag) PRIVATE_API(session
 // empty, uses the rendered text.
 void session_report_keyed(PetriSession *session, const Diag *diag, Str key);
 // Reports a diagnostic without a position.
-void session_report_text(PetriSession *session, DiagLevel level, const char *code, Str text)
-    PRIVATE_API(session_report_text);
+static inline void session_report_text(PetriSession *session, DiagLevel level, const char *code, Str text) {
+    session_report(session, &(Diag){.level = level, .text = text, .code = code});
+}
 // Reports all diagnostics of a sink.
 void session_report_all(PetriSession *session, const DiagSink *sink);
 // Reports how many diagnostics a sink has not stored, if any.

@@ -6,6 +6,7 @@
 // host stored, and in real time the clock. Both texts have lines `NAME = VALUE` with values in printed form.
 #pragma once
 
+#include "base/private_api.h"
 #include "base/str.h"
 #include "petri-live.h"
 #include "session/clock.h"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_abi.sh SOURCE_ROOT BUILD_ROOT: checks that the libraries export exactly the functions of abi.txt. Removing a
+# check_abi.sh SOURCE_ROOT BUILD_ROOT SANITIZERS: checks that the libraries export exactly the functions of abi.txt. Removing a
 # function breaks compiled programs, and an added function must be kept in later versions.
 set -eu
 listed=$1/tests/lint/abi.txt
@@ -44,13 +44,30 @@ check petri src/packaging/libpetri.a -g
 check draw src/packaging/libpetri-draw.a -g
 check archive src/packaging/libpetri-archive.a -g
 
-# The private names of libpetri.so are those that the other libraries need. The linker has reported missing ones.
+# The private names of libpetri.so are those that the other libraries need, and at most 40. The linker has reported
+# missing ones. The other libraries have copies of code without state, but export no private names.
 private() { kind=$1; shift; nm -D "$@" | sed -n "s/.* $kind \(_petri_[a-z0-9_]*\)@.*/\1/p" | sort -u; }
 if [ -e lib/cairo/libpetri-draw.so ]; then
     private '[TDRBV]' lib/session/libpetri.so >"$scratch/exported"
     private U lib/cairo/libpetri-draw.so lib/recording/libpetri-archive.so >"$scratch/used"
     if [ ! -s "$scratch/used" ] || { is_complete && ! cmp -s "$scratch/exported" "$scratch/used"; }; then
         echo "PRIVATE_API that the other libraries do not need:" $(comm -23 "$scratch/exported" "$scratch/used")
+        faults=1
+    fi
+    [ "$(wc -l <"$scratch/exported")" -le 40 ] || {
+        echo "libpetri.so exports more than 40 private names"
+        faults=1
+    }
+    private '[TDRBV]' lib/cairo/libpetri-draw.so lib/recording/libpetri-archive.so >"$scratch/exported"
+    [ ! -s "$scratch/exported" ] || {
+        echo "private names that libpetri-draw.so or libpetri-archive.so export:" $(cat "$scratch/exported")
+        faults=1
+    }
+    # Sanitizers add variables.
+    size -A lib/schema/libcopied.a >"$scratch/sections"
+    if [ "$3" = none ] && ! awk '/^\.(data|bss|tdata|tbss) / { state += $2 } /^\.text/ { code += $2 }
+        END { exit state > 0 || code == 0 }' "$scratch/sections"; then
+        echo "libcopied.a has variables, of which each shared library would have its own"
         faults=1
     fi
 fi

@@ -55,7 +55,8 @@ xargs nm -gA <"$scratch/objects" | awk "$component_of"'
         name = $NF
     }
     $(NF - 1) == "U" { used[++count] = object " " name; next }
-    !(name in owner) {
+    # A weak definition is the default of a function that a program may replace.
+    !(name in owner) || $(NF - 1) == "W" {
         owner[name] = component_of(object)
         # Public functions belong to the component of their header.
         if (name in header)

@@ -15,8 +15,8 @@ void *__real_realloc(void *bytes, size_t size);
 void *__wrap_realloc(void *bytes, size_t size);
 void *__real_aligned_alloc(size_t alignment, size_t size);
 void *__wrap_aligned_alloc(size_t alignment, size_t size);
-void *__real__petri_arena_alloc_slow(Arena *arena, size_t size);
-void *__wrap__petri_arena_alloc_slow(Arena *arena, size_t size);
+void *__real_arena_alloc_slow(Arena *arena, size_t size);
+void *__wrap_arena_alloc_slow(Arena *arena, size_t size);
 
 typedef struct Heap {
     bool counts;  // true while allocations are counted; false for the test's own allocations
@@ -60,8 +60,8 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return heap_must_fail() ? NULL : __real_aligned_alloc(alignment, size);
 }
 
-void *__wrap__petri_arena_alloc_slow(Arena *arena, size_t size) {
+void *__wrap_arena_alloc_slow(Arena *arena, size_t size) {
     if (heap_must_fail())
         arena_exhausted(arena);
-    return __real__petri_arena_alloc_slow(arena, size);
+    return __real_arena_alloc_slow(arena, size);
 }

@@ -22,6 +22,7 @@ typedef struct Host {
     atomic_long asked;
     atomic_long blocks; // number of allocated blocks
     atomic_long bytes;
+    atomic_long peak;    // maximum of `bytes`
     atomic_bool strayed; // an unknown block was released, or a size of 0 was requested
     long fail_at;        // number of the call that fails; 0: none
     bool all;            // true if all later calls fail as well
@@ -36,6 +37,8 @@ static bool should_fail(Host *host, size_t bytes) {
 static void *record_allocation(Host *host, Head *head, size_t bytes) {
     *head = (Head){bytes, ALLOCATED};
     host->bytes += (long)bytes;
+    if (host->bytes > host->peak)
+        host->peak = host->bytes;
     return head + 1;
 }
 
@@ -280,6 +283,53 @@ static void test_allocator_in_use_is_not_replaced(void **state) {
     assert_int_equal(other.asked, asked);
 }
 
+// Draws two layers of `side` x `side` pixels, one inside the other. Returns the maximum of the bytes allocated, or 0 if
+// this build has no Cairo. Sets *reported to true if the memory limit was reported.
+static long draw_layers(int side, size_t memory_limit, bool *reported) {
+    static uint32_t pixels[40 * 40];
+    char script[500];
+    Player player;
+    PetriOptions options = player_options(&player);
+    options.memory_limit = memory_limit;
+    use_host();
+    player_open_with(&player, &options);
+    snprintf(script, sizeof script,
+             "!window size=40;40\n    !canvas size=%d;%d\n        !layer size=%d;%d alpha=0.5\n"
+             "            !layer size=%d;%d\n                !rect size=9000 fill=true color=1;0;0\n",
+             side, side, side, side, side, side);
+    player_run(&player, script, 1);
+    PetriPictureOptions wanted = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    PetriPainter *painter = petri_painter_open();
+    assert_int_equal(petri_picture(player.session, &wanted, &picture), PETRI_OK);
+    PetriStatus status = petri_picture_draw(picture, painter, pixels, 40, 40, 160);
+    assert_true(status == PETRI_OK || status == PETRI_UNSUPPORTED);
+    petri_picture_report(player.session, picture);
+    *reported = strstr(player.diagnostics.text, "[memory-limit]") != NULL;
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+    player_close(&player);
+    check_all_released("layers");
+    return status == PETRI_OK ? host.peak : 0;
+}
+
+// The memory limit counts what libpetri-draw allocates, whether it is a static or a shared library.
+static void test_drawing_counts_towards_memory_limit(void **state) {
+    (void)state;
+    bool reported;
+    long peaks[2];
+    for (int i = 0; i < 2; i++) {
+        peaks[i] = draw_layers(1500 * (i + 1), (size_t)1 << 30, &reported);
+        assert_false(reported);
+    }
+    if (peaks[0] == 0)
+        skip();
+    assert_true(peaks[1] > 3 * peaks[0]); // pixels are allocated by the host's functions
+    long limited = draw_layers(3000, (size_t)peaks[1] / 2, &reported);
+    assert_true(reported);
+    assert_true(limited <= peaks[1] / 2);
+}
+
 // Runs a session in a thread. All threads share the heap.
 static void *run_in_thread(void *context) {
     Player player;
@@ -328,6 +378,7 @@ TEST_GROUP(session_allocator) {
         cmocka_unit_test_teardown(test_everything_is_released, restore_heap),
         cmocka_unit_test_teardown(test_failing_allocation_leaks_nothing, restore_heap),
         cmocka_unit_test_teardown(test_allocator_in_use_is_not_replaced, restore_heap),
+        cmocka_unit_test_teardown(test_drawing_counts_towards_memory_limit, restore_heap),
         cmocka_unit_test_teardown(test_threads_share_allocator, restore_heap),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
