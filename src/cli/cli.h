@@ -76,7 +76,7 @@ struct Command {
     const char *no_stdin;             // message if the operand is `-`; NULL: `-` means standard input
     const char *second_operand_error; // message format for a second operand; NULL: it is reported as a second script
     bool accepts_many;                // true if the command accepts several scripts and folders
-    bool accepts_goldens;             // true if scripts in folders are those that have a golden
+    const char *const *suffixes;      // of files in folders that are operands like scripts, then NULL; NULL: none
     bool accepts_two;                 // true if the command accepts a second operand (Options.second)
     bool live;             // true if the command, by default, follows the wall clock and runs until it is stopped
     bool parses_arguments; // true if `run` parses argv itself
@@ -95,6 +95,8 @@ extern const Command CHECK_COMMAND, FMT_COMMAND, LSP_COMMAND, LINK_COMMAND, ARCH
 extern const Command VERIFY_COMMAND, INFO_COMMAND, CITE_COMMAND, UNPACK_COMMAND;
 // Forms of run, render and view: with a link instead of a script, and with --send; and the old name of the latter.
 extern const Command RUN_LINK_COMMAND, VIEW_LINK_COMMAND, SEND_COMMAND, OLD_SEND_COMMAND;
+// The form of test with --new.
+extern const Command TEST_NEW_COMMAND;
 // Commands that help does not list: `petri complete`, for the completion scripts of shells, and the test of a shader.
 extern const Command COMPLETE_COMMAND, SHADER_TEST_COMMAND;
 

@@ -27,7 +27,7 @@ static bool read_operand(const Args *args) {
     if (command->accepts_many && is_stdin) {
         scripts_add(&options->scripts, args->value);
     } else if (command->accepts_many) {
-        options->scripts.goldens = command->accepts_goldens;
+        options->scripts.suffixes = command->suffixes;
         if (!scripts_find(&options->scripts, args->value))
             texts_add(&options->unreadable, args->value);
     } else if (options->script && command->accepts_two && !options->second) {

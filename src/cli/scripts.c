@@ -38,8 +38,9 @@ static bool add_entry(ScriptList *list, const char *path, const char *name, size
         return cannot_read(path);
     if (S_ISDIR(about.st_mode))
         return search_folder(list, path, below);
-    bool wanted =
-        str_ends_with(str_from(name), STR(".fl")) || (list->goldens && str_ends_with(str_from(name), STR(".golden")));
+    bool wanted = str_ends_with(str_from(name), STR(".fl"));
+    for (const char *const *suffix = list->suffixes; suffix && *suffix && !wanted; suffix++)
+        wanted = str_ends_with(str_from(name), str_from(*suffix));
     // Reading a pipe or device could block.
     if (wanted && stat(path, &about) == 0 && S_ISREG(about.st_mode))
         add_script(list, path, below);

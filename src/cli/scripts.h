@@ -13,7 +13,7 @@ typedef struct ScriptList {
     Script *items;
     size_t count;
     size_t capacity;
-    bool goldens; // true: scripts_find also adds files *.golden in folders
+    const char *const *suffixes; // of other files that scripts_find adds in folders, then NULL; NULL: none
 } ScriptList;
 
 // Adds a file, or all files named *.fl below a folder except hidden ones. Returns false after a message if something

@@ -88,15 +88,13 @@ static const OptionSpec *find_option(const char *word, size_t length) {
     return NULL;
 }
 
-// Rejects options that write files, because a golden from another author must not write files on this machine.
-static bool check_options(const Golden *golden, Text *error_text) {
-    for (size_t i = 0; i < golden->options.count; i++) {
-        const char *word = golden->options.items[i];
+bool golden_check_options(const TextList *words, Text *error_text) {
+    for (size_t i = 0; i < words->count; i++) {
+        const char *word = words->items[i];
         size_t length = strcspn(word, "=");
         const OptionSpec *spec = word[0] == '-' && length > 1 ? find_option(word, length) : NULL;
         if (spec && spec->not_in_goldens) {
-            text_add_format(error_text, "line 1: option '--%s' is not allowed in goldens: tests write no files",
-                            spec->name);
+            text_add_format(error_text, "option '--%s' is not allowed in goldens: tests write no files", spec->name);
             return false;
         }
         bool alone = word[length] == '\0' && (word[0] == '-' && (word[1] == '-' || length == 2));
@@ -112,28 +110,34 @@ static bool read_head_line(Golden *golden, const char *line, size_t length, Text
         text_add_format(error_text, "line 1: expected '# run' and the options");
         return false;
     }
-    return split_options(golden, line + 5, length - 5, error_text) && check_options(golden, error_text);
+    SCOPED_TEXT problem = {0};
+    if (!split_options(golden, line + 5, length - 5, error_text))
+        return false;
+    if (!golden_check_options(&golden->options, &problem))
+        text_add_format(error_text, "line 1: %s", problem.bytes);
+    return problem.len == 0;
 }
 
-// Removes a byte-order mark, and converts CR LF to LF: editors and version control on Windows add them.
-static void drop_mark(Text *text) {
+bool golden_read_text(Text *text, const char *path, Text *error_text) {
     static const char mark[] = "\xef\xbb\xbf";
-    size_t skip = text->len >= 3 && memcmp(text->bytes, mark, 3) == 0 ? 3 : 0;
-    if (text->len == 0)
-        return;
-    memmove(text->bytes, text->bytes + skip, text->len - skip);
-    text->len = source_unify_lines(text->bytes, text->len - skip);
-    text->bytes[text->len] = '\0';
-}
-
-bool golden_read(Golden *golden, const char *path, Text *error_text) {
-    *golden = (Golden){.horizon = INT64_MAX, .strict = INT64_MAX, .body_line = 1};
-    const char *problem = text_read_file(&golden->text, path, SIZE_MAX);
+    const char *problem = text_read_file(text, path, SIZE_MAX);
     if (problem) {
         text_add_format(error_text, "cannot read %s: %s", path, problem);
         return false;
     }
-    drop_mark(&golden->text);
+    size_t skip = text->len >= 3 && memcmp(text->bytes, mark, 3) == 0 ? 3 : 0;
+    if (text->len > 0) {
+        memmove(text->bytes, text->bytes + skip, text->len - skip);
+        text->len = source_unify_lines(text->bytes, text->len - skip);
+        text->bytes[text->len] = '\0';
+    }
+    return true;
+}
+
+bool golden_read(Golden *golden, const char *path, Text *error_text) {
+    *golden = (Golden){.horizon = INT64_MAX, .strict = INT64_MAX, .body_line = 1};
+    if (!golden_read_text(&golden->text, path, error_text))
+        return false;
     const char *data = golden->text.bytes;
     while (golden->body < golden->text.len && (golden->body_line == 1 || data[golden->body] == '#')) {
         const char *line = data + golden->body;

@@ -27,6 +27,12 @@ typedef struct Golden {
 // Reads a golden. On failure, returns false and adds the reason to error_text.
 bool golden_read(Golden *golden, const char *path, Text *error_text);
 void golden_free(Golden *golden);
+// Rejects options that write files, because a golden from another author must not write files on this machine. Returns
+// false if there is one and adds the reason to error_text.
+bool golden_check_options(const TextList *words, Text *error_text);
+// Reads a file, without a byte-order mark and with LF instead of CR LF: editors and version control on Windows add
+// them. On failure, returns false and adds the reason to error_text.
+bool golden_read_text(Text *text, const char *path, Text *error_text);
 
 // Returns true if `output` agrees with the golden. Otherwise adds the first difference to error_text.
 bool golden_compare(const Golden *golden, const Text *output, Text *error_text);
@@ -51,13 +57,6 @@ typedef struct LineDifference {
 // be followed by a newline or NUL.
 bool line_same(Str expected, Str got, double tolerance, LineDifference *difference);
 
-// Scripts that must be rejected: NAME.err beside NAME.fl (rejection.c).
-
-// Returns true if petri rejected the script `name` with an error in the line that the .err file at `path` contains:
-// `line N`, or `line *` for any line. `status` is the status from waitpid, and `errors` is the standard error of the
-// run. On failure, adds the reason to error_text.
-bool rejection_check(const char *path, const char *name, int status, const Text *errors, Text *error_text);
-
 // Reports: one line per result, and a file for CI systems (report.c).
 
 typedef struct Result {
@@ -71,4 +70,4 @@ typedef struct Result {
 // Prints `ok NAME`, or `FAIL NAME` and the reason.
 void report_result(Output *output, const Result *result);
 // Writes a JUnit XML file. Returns false after a message.
-bool report_junit(const char *path, Result *const *results, size_t count);
+bool report_junit(const char *path, const Result *const *results, size_t count);

@@ -59,7 +59,7 @@ static void add_result(Text *out, const Result *result) {
     text_add_format(out, "</failure>\n  </testcase>\n");
 }
 
-bool report_junit(const char *path, Result *const *results, size_t count) {
+bool report_junit(const char *path, const Result *const *results, size_t count) {
     size_t failed = 0;
     double seconds = 0;
     for (size_t i = 0; i < count; i++) {

@@ -22,6 +22,7 @@ HIDDEN("run LINK", RUN_LINK, PICTURES)
 HIDDEN("render LINK", RUN_LINK, PICTURES)
 HIDDEN("view LINK", VIEW_LINK, PICTURES)
 HIDDEN("view --send", SEND, PETRI | PICTURES)
+HIDDEN("test --new", TEST_NEW, PETRI | PICTURES)
 // Names of petri 0.2, which still work in this version.
 HIDDEN("open", RUN_LINK, PICTURES)
 HIDDEN("send", OLD_SEND, PETRI | PICTURES)

@@ -55,13 +55,17 @@ static bool is_version(const char *word) {
 
 // Returns the row for a form of the command that the words request, such as `run LINK`, or the command's own row.
 static const CommandRow *find_form(const CommandRow *row, char *const *words) {
-    SCOPED_TEXT name = {0};
-    bool sends = words_have_option(words, "send");
-    if (!sends && !words_name_link(words))
-        return row;
-    text_add_format(&name, "%s %s", row->name, sends ? "--send" : "LINK");
-    const CommandRow *form = command_find(name.bytes);
-    return form ? form : row;
+    const char *const forms[] = {words_have_option(words, "send") ? "--send" : NULL,
+                                 words_have_option(words, "new") ? "--new" : NULL,
+                                 words_name_link(words) ? "LINK" : NULL};
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        SCOPED_TEXT name = {0};
+        text_add_format(&name, "%s %s", row->name, forms[i] ? forms[i] : "");
+        const CommandRow *form = forms[i] ? command_find(name.bytes) : NULL;
+        if (form)
+            return form;
+    }
+    return row;
 }
 
 // Runs the command if this program can. Otherwise executes the program that can.

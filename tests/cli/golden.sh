@@ -176,7 +176,7 @@ check "results come in the order of the paths" out_is "ok g/a.fl
 ok g/b.fl
 FAIL g/below/d.fl frame 0 line 3: expected !n a=1, got !n a=0
 ok g/c.fl
-3 passed, 1 failed"
+3 passed, 1 failed, 1 script without a test"
 check "one failure makes the suite fail" status_is 1
 petri test g/a.fl g/a.fl g/b.fl
 check "a script that is named twice runs once" last_line_is out "2 passed, 0 failed"
@@ -206,8 +206,8 @@ printf '!n\n' | tee lost/new.fl >lost/here/old.fl
 petri test lost
 check "a golden without a script is a failed test" status_is 1
 check "a golden without a script is named" out_is "ok lost/here/old.fl
-FAIL lost/old.golden no such script: lost/old.fl; rename the golden like its script, or delete it
-1 passed, 1 failed"
+FAIL lost/old.golden no such script: lost/old.fl; rename the test file like its script, or delete it
+1 passed, 1 failed, 1 script without a test"
 petri test --junit lost.xml --filter old.golden lost
 check "a golden without a script is in the report" has lost.xml '<testcase classname="lost" name="old.golden" time="'
 petri check lost
@@ -244,7 +244,7 @@ check "--update keeps the head and writes the output" [ "$(cat g/below/d.golden)
 !n a=0" ]
 check "--update keeps the permissions" [ "$(ls -l g/below/d.golden | cut -c 1-10)" = "-rw-r-----" ]
 petri test g
-check "all scripts pass after --update" last_line_is out "4 passed, 0 failed"
+check "all scripts pass after --update" last_line_is out "4 passed, 0 failed, 1 script without a test"
 petri test --update g
 check "--update does not modify goldens that match" lacks out "updated"
 check "--update leaves no other files" [ "$(ls g/below | wc -l)" -eq 2 ]

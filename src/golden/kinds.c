@@ -1,0 +1,30 @@
+// kinds.c: the kinds of tests; see suite.h.
+#include "golden/suite.h"
+
+#include <string.h>
+
+// In the order of execution for one script.
+const TestKind TEST_KINDS[] = {
+    {.suffix = ".golden", .begin = run_kind_begin, .end = run_kind_end},
+    {.suffix = ".err", .begin = rejection_begin, .end = rejection_end},
+    {.suffix = NULL},
+};
+const char *const TEST_SUFFIXES[] = {".golden", ".err", NULL};
+
+const TestKind *kind_of_file(const char *path) {
+    for (const TestKind *kind = TEST_KINDS; kind->suffix; kind++)
+        if (str_ends_with(str_from(path), str_from(kind->suffix)))
+            return kind;
+    return NULL;
+}
+
+char *kind_path(const char *path, const char *suffix) {
+    const TestKind *kind = kind_of_file(path);
+    const char *old = kind ? kind->suffix : ".fl";
+    size_t length = strlen(path);
+    if (length > strlen(old) && str_ends_with(str_from(path), str_from(old)))
+        length -= strlen(old);
+    Text result = {0};
+    text_add_format(&result, "%.*s%s", (int)length, path, suffix);
+    return result.bytes;
+}

@@ -1,0 +1,21 @@
+// options.h: the options of `petri test`.
+#pragma once
+
+#include "cli/options.h"
+
+typedef struct TestOptions {
+    bool new_golden; // create a golden; main then executes another command
+    bool update;
+    const char *filter;        // NULL: none
+    const char *junit;         // file; NULL: none
+    int64_t jobs;              // 0: not given
+    const char *as_threads;    // overrides --threads of goldens; NULL: no override
+    const char *as_neighbours; // overrides --neighbours of goldens; NULL: no override
+} TestOptions;
+
+extern const OptionTable TEST_OPTIONS;
+
+// Returns the values of the options that only `petri test` has.
+static inline TestOptions *test_options(const Options *options) {
+    return options->own;
+}

@@ -1,0 +1,75 @@
+// suite.h: tests of scripts. A test is a file NAME.SUFFIX beside NAME.fl that records what the script does.
+//
+// Each suffix is a kind of test (kinds.c). To add a kind, write its functions in a separate file and add a row there.
+#pragma once
+
+#include "cli/subprocess.h"
+#include "golden/golden.h"
+#include "golden/options.h"
+
+typedef struct TestKind TestKind;
+
+typedef struct TestCase {
+    Result result;
+    const TestKind *kind;
+    char *script;   // path of the script
+    char *name;     // file name of the script, without folders; part of `script`
+    char *recorded; // path of the file that records what the script does
+    Golden golden;  // of kinds that begin with a line of options; valid while the script runs
+    Subprocess child;
+    bool done;
+} TestCase;
+
+// What a child process has left.
+typedef struct RunOutput {
+    int status; // as from waitpid
+    Text output;
+    Text errors;
+} RunOutput;
+
+struct TestKind {
+    const char *suffix; // of the file, such as ".golden"
+    bool own_name;      // true if results have the name of the file, false if they have that of the script
+    // Reads the file and adds the words of the command to execute in the script's folder, after the program. On failure
+    // returns false and adds the reason to result.error_text.
+    bool (*begin)(const Options *options, TestCase *test, TextList *words);
+    // Compares what the command printed with the file or, with --update, records it. Sets the result.
+    void (*end)(const Options *options, TestCase *test, const RunOutput *run);
+};
+
+// kinds.c: all kinds, then one without a suffix; and their suffixes, then NULL.
+extern const TestKind TEST_KINDS[];
+extern const char *const TEST_SUFFIXES[];
+// Returns the kind of a test file, or NULL.
+const TestKind *kind_of_file(const char *path);
+// Returns the path NAME.SUFFIX for a file NAME.fl, or for a test file of this kind. The caller frees it.
+char *kind_path(const char *path, const char *suffix);
+
+// run_kind.c: goldens of `petri run`.
+bool run_kind_begin(const Options *options, TestCase *test, TextList *words);
+void run_kind_end(const Options *options, TestCase *test, const RunOutput *run);
+// Adds the words that all runs have: overrides of options, and the script after `--`.
+void run_kind_add_common(const Options *options, const TestCase *test, TextList *words);
+
+// Returns true if a run computed all frames.
+bool run_is_complete(int status, const Text *errors);
+// Returns true if a run reported that its motion became meaningless, and adds this warning to error_text.
+bool run_has_diverged(const Text *errors, Text *error_text);
+
+// rejection.c: NAME.err, for scripts that must be rejected.
+bool rejection_begin(const Options *options, TestCase *test, TextList *words);
+void rejection_end(const Options *options, TestCase *test, const RunOutput *run);
+// Returns the contents of an .err file for the errors of a run of the script `name`: `line N` and the messages. Empty
+// if no error has a line.
+Text rejection_text(const char *name, const Text *errors);
+
+// find.c: the tests in the operands.
+typedef struct TestList {
+    TestCase *items; // sorted by name
+    size_t count;
+    size_t untested; // number of scripts without a test
+} TestList;
+
+// The caller frees the list with tests_free.
+TestList tests_find(const Options *options);
+void tests_free(TestList *list);
