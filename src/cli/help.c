@@ -74,16 +74,24 @@ static void write_line(Output *output, Str line, size_t width) {
     output_write(output, "\n", 1);
 }
 
-void help_write(Output *output, const Text *text) {
-    enum { COLUMNS = 80, MIN_COLUMNS = 40 };
-    int columns = COLUMNS, rows = 0;
-    const char *wanted = getenv("COLUMNS");
+void help_wrap(Output *output, const Text *text, size_t columns) {
+    enum { MIN_COLUMNS = 40 };
     Str line;
-    terminal_extent(output->fd, &columns, &rows);
+    for (size_t at = 0; text_next_line(text, &at, &line);)
+        write_line(output, line, columns > MIN_COLUMNS ? columns : MIN_COLUMNS);
+}
+
+size_t help_columns(int fd) {
+    int columns = 80, rows = 0;
+    const char *wanted = getenv("COLUMNS");
+    terminal_extent(fd, &columns, &rows);
     if (wanted && atoi(wanted) > 0)
         columns = atoi(wanted);
-    for (size_t at = 0; text_next_line(text, &at, &line);)
-        write_line(output, line, (size_t)(columns > MIN_COLUMNS ? columns : MIN_COLUMNS));
+    return columns > 0 ? (size_t)columns : 0;
+}
+
+void help_write(Output *output, const Text *text) {
+    help_wrap(output, text, help_columns(output->fd));
 }
 
 int help_print(const Text *text) {

@@ -10,9 +10,12 @@
 Output *help_begin(void);
 // Flushes and frees the output. Returns the exit status.
 int help_end(Output *output);
-// Writes text, wrapped at spaces to the width of the terminal. The environment variable COLUMNS overrides this width;
-// without either, it is 80. Two or more spaces within a line separate columns. A wrapped line continues below the start
-// of its last column.
+// Writes text, wrapped at spaces to a width, which is at least 40. Two or more spaces within a line separate columns. A
+// wrapped line continues below the start of its last column.
+void help_wrap(Output *output, const Text *text, size_t columns);
+// Returns the width of the terminal `fd`. The environment variable COLUMNS overrides it; without either, it is 80.
+size_t help_columns(int fd);
+// Writes text like help_wrap, to the width of the output's terminal.
 void help_write(Output *output, const Text *text);
 // Writes text like help_write, to standard output. Returns the exit status.
 int help_print(const Text *text);

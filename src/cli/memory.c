@@ -3,15 +3,9 @@
 
 #include "base/heap.h"
 #include "base/source.h"
-#include "cli/cli.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-void heap_exhausted(void) {
-    message("out of memory");
-    exit(STATUS_FAILED);
-}
 
 static void *exit_if_null(void *block) {
     if (!block)

@@ -1,11 +1,13 @@
-// message.c: messages of the command, signal handlers, and suggestions for mistyped words (cli.h).
+// message.c: messages of the command and signal handlers (cli.h); what happens if memory runs out (base/heap.h).
 #include "base/file.h"
+#include "base/heap.h"
 #include "base/str.h"
 #include "cli/cli.h"
 
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -51,12 +53,7 @@ void message(const char *format, ...) {
     file_write(STDERR_FILENO, line, length);
 }
 
-bool nearest_offer(StrNearest *nearest, const char *name) {
-    // A word that is a prefix of the name counts as similar, such as `def` for `define`.
-    bool shortened = nearest->wanted.len >= 3 && str_starts_with(str_from(name), nearest->wanted);
-    if (!shortened || nearest->limit <= 1)
-        return !shortened && str_try_nearest(nearest, str_from(name));
-    nearest->limit = 1;
-    nearest->found = str_from(name);
-    return true;
+void heap_exhausted(void) {
+    message("out of memory");
+    exit(STATUS_FAILED);
 }

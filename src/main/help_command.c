@@ -7,7 +7,7 @@
 #include "cli/options.h"
 #include "main/commands.h"
 #include "petri.h"
-#include "repl/repl.h"
+#include "prompt/prompt.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -107,7 +107,7 @@ static int unknown_topic(const char *topic) {
 
 // Adds the help for a command of the prompt. Returns false if there is no such command.
 static bool help_prompt(Text *text, const char *name) {
-    const ReplCommand *command = repl_find_command(name, strlen(name));
+    const PromptCommand *command = prompt_find_command(name, strlen(name));
     if (command)
         text_add_format(text, "%s %s\n    at the prompt of petri repl: %s\n", name, command->operands, command->help);
     return command;

@@ -3,7 +3,7 @@
 #include "cli/help.h"
 #include "packaging/packaging.h"
 #include "packaging/roff.h"
-#include "repl/repl.h"
+#include "prompt/prompt.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -90,8 +90,8 @@ static void write_examples(Output *output, const char *examples) {
 }
 
 static void write_prompt_commands(Output *output) {
-    const ReplCommand *command;
-    for (size_t i = 0; (command = repl_command_at(i)); i++) {
+    const PromptCommand *command;
+    for (size_t i = 0; (command = prompt_command_at(i)); i++) {
         char rest[64];
         snprintf(rest, sizeof rest, "%s%s", command->operands[0] == '\0' ? "" : " ", command->operands);
         roff_item(output, command->name, rest);

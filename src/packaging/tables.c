@@ -5,7 +5,7 @@
 #include "cli/memory.h"
 #include "packaging/packaging.h"
 #include "petri.h"
-#include "repl/repl.h"
+#include "prompt/prompt.h"
 
 static void begin_row(JsonWriter *json) {
     json_break(json, "\n");
@@ -39,8 +39,8 @@ static void add_commands(JsonWriter *json) {
 }
 
 static void add_prompt(JsonWriter *json) {
-    const ReplCommand *command;
-    for (size_t i = 0; (command = repl_command_at(i)); i++)
+    const PromptCommand *command;
+    for (size_t i = 0; (command = prompt_command_at(i)); i++)
         ROW(json, "name", command->name, "operands", command->operands, "help", command->help);
 }
 

@@ -206,7 +206,7 @@ static unsigned char complete_word(EditLine *line, wint_t character) {
     if (start > info->buffer && strspn(start, " \t") >= (size_t)(info->cursor - start))
         return el_insertstr(line, "    ") == 0 ? CC_REFRESH : CC_ERROR; // no word before the cursor: indent
     Completion completion;
-    complete_line(editor->repl, start, (size_t)(info->cursor - start), &completion);
+    complete_line(&editor->repl->prompt, start, (size_t)(info->cursor - start), &completion);
     bool inserted = completion.common.len > 0 && el_insertstr(line, completion.common.bytes) == 0;
     unsigned char result = inserted ? CC_REFRESH : CC_ERROR;
     if (!inserted && completion.words.count > 1) {
@@ -353,7 +353,7 @@ LineStatus editor_read(Editor *editor, const char *prompt, Text *lines) {
 #include <stddef.h>
 
 Editor *editor_new(Repl *repl) {
-    repl_note(repl, "petri was built without libedit: lines cannot be edited, completed or recalled");
+    prompt_note(&repl->prompt, "petri was built without libedit: lines cannot be edited, completed or recalled");
     return NULL;
 }
 

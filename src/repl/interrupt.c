@@ -1,12 +1,10 @@
-// interrupt.c: Ctrl-C, notes and messages, which all commands use; see repl.h.
+// interrupt.c: Ctrl-C; see repl.h.
 //
-// Ctrl-C sets a flag. Between repl_busy and repl_idle, it also interrupts the session. An interrupt that comes too late
+// Ctrl-C sets a flag. Between repl_begin and repl_end, it also interrupts the session. An interrupt that comes too late
 // is dropped.
 #include "repl/repl.h"
 
 #include <signal.h>
-#include <stdarg.h>
-#include <stdio.h>
 
 // Globals, because the signal handler needs them.
 static volatile sig_atomic_t interrupted;
@@ -26,18 +24,18 @@ void repl_catch_interrupt(void) {
     sigaction(SIGINT, &action, NULL);
 }
 
-void repl_busy(Repl *repl) {
+void repl_begin(Prompt *prompt) {
     interrupted = 0;
-    petri_clear_interrupt(repl->session);
-    working = repl->session;
+    petri_clear_interrupt(prompt->session);
+    working = prompt->session;
 }
 
-bool repl_idle(Repl *repl) {
+void repl_end(Prompt *prompt) {
+    const Repl *repl = prompt->user_data;
     working = NULL;
-    petri_clear_interrupt(repl->session); // an interrupt that arrived too late must not stop the next input
+    petri_clear_interrupt(prompt->session); // an interrupt that arrived too late must not stop the next input
     if (interrupted && repl->terminal)
-        output_write(&repl->output, "\n", 1); // end the line on which the terminal shows ^C
-    return interrupted != 0;
+        output_write(prompt->output, "\n", 1); // end the line on which the terminal shows ^C
 }
 
 bool repl_interrupted(void) {
@@ -46,46 +44,4 @@ bool repl_interrupted(void) {
 
 void repl_clear_interrupt(void) {
     interrupted = 0;
-}
-
-void repl_note(Repl *repl, const char *format, ...) {
-    SCOPED_TEXT text = {0};
-    char line[1024];
-    va_list list;
-    va_start(list, format);
-    vsnprintf(line, sizeof line, format, list);
-    va_end(list);
-    text_add_format(&text, repl->options->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
-    output_write(&repl->output, text.bytes, text.len);
-}
-
-bool repl_fail(Repl *repl, const char *format, ...) {
-    char line[1024];
-    va_list list;
-    va_start(list, format);
-    vsnprintf(line, sizeof line, format, list);
-    va_end(list);
-    output_flush(&repl->output);
-    message("%s", line);
-    repl->failed = true;
-    return false;
-}
-
-bool repl_status(Repl *repl, PetriStatus status) {
-    repl->failed = repl->failed || status != PETRI_OK;
-    if (status == PETRI_INTERRUPTED)
-        return repl_fail(repl, "interrupted");
-    if (status == PETRI_OUT_OF_MEMORY)
-        return repl_fail(repl, "out of memory");
-    return status == PETRI_OK;
-}
-
-void repl_complete_frame(Repl *repl) {
-    if (!repl->incomplete)
-        return;
-    repl_busy(repl);
-    PetriStatus status = petri_history_recompute(repl->history);
-    repl_idle(repl);
-    repl->incomplete = status != PETRI_OK;
-    repl_status(repl, status);
 }

@@ -152,12 +152,12 @@ bool line_needs_more(Repl *repl, const char *text, size_t length, size_t *consum
     *consumed = length;
     if (text[strspn(text, " \t")] == '.')
         return false;
-    PetriCompleteness above = last == 0 ? PETRI_INCOMPLETE : petri_prompt_check(repl->session, text, last);
+    PetriCompleteness above = last == 0 ? PETRI_INCOMPLETE : petri_prompt_check(repl->prompt.session, text, last);
     if (above != PETRI_INCOMPLETE && (line_is_blank(text + last) || !continues_block(text + last))) {
         *consumed = last;
         return false;
     }
-    return petri_prompt_check(repl->session, text, length) != PETRI_COMPLETE;
+    return petri_prompt_check(repl->prompt.session, text, length) != PETRI_COMPLETE;
 }
 
 // Appends the path of the history file. Returns false if the environment names no folder for it.

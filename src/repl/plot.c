@@ -1,15 +1,11 @@
-// plot.c: .plot, which plots a number over the last frames, and .show, which shows the frame's picture in the terminal.
-#include "cli/progress.h"
+// plot.c: .plot, which plots a number over the last frames.
 #include "repl/repl.h"
-#include "view/still.h"
-#include "view/terminal_picture.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 // Size of the plot in character cells. A braille cell has 2 x 4 dots. Without UTF-8, a cell is one dot.
 enum { MAX_WIDTH = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MAX_FRAMES = 1000000 };
@@ -104,7 +100,7 @@ static void write_canvas(Output *output, const Canvas *canvas, const Range *rang
 static void print_plot(Repl *repl, const double *values, int64_t first, int64_t count) {
     Range range = range_of(values, count);
     if (range.min > range.max) {
-        repl_fail(repl, "nothing to plot: no value is a finite number");
+        prompt_fail(&repl->prompt, "nothing to plot: no value is a finite number");
         return;
     }
     Canvas canvas = {.across = repl->utf8 ? 2 : 1, .down = repl->utf8 ? 4 : 1};
@@ -122,75 +118,51 @@ static void print_plot(Repl *repl, const double *values, int64_t first, int64_t 
 }
 
 // Recomputes `count` frames, ending with the current frame, and evaluates the expression in each of them.
-static PetriStatus evaluate_frames(Repl *repl, const char *expression, int64_t first, int64_t count, double *values) {
+static PetriStatus evaluate_frames(Prompt *prompt, const char *expression, int64_t first, int64_t count,
+                                   double *values) {
     PetriStatus status = PETRI_OK;
     for (int64_t i = 0; i < count && status == PETRI_OK; i++) {
         PetriEvaluation result = {0};
-        status = petri_history_goto(repl->history, first + i);
+        status = prompt_go_to(prompt, first + i);
         if (status == PETRI_OK)
             status =
-                petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
+                petri_evaluate(prompt->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
         values[i] = result.number;
     }
     return status;
 }
 
-static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
-    int64_t now = petri_frame_number(repl->session), first = now - count + 1;
-    PetriHistoryInfo history;
-    petri_history_info(repl->history, &history, sizeof history);
-    int64_t min = history.first + 1;
+static bool plot_frames(Prompt *prompt, const char *expression, int64_t count) {
+    int64_t now = petri_frame_number(prompt->session), first = now - count + 1;
+    int64_t min = prompt_timeline(prompt).first + 1;
     first = first < min ? min : first;
     if (now < first)
-        return repl_fail(repl, "no frames to plot; run .step first");
+        return prompt_fail(prompt, "no frames to plot; run .step first");
     double *values = memory_calloc((size_t)(now - first + 1) * sizeof *values);
-    repl_busy(repl);
-    PetriStatus status = evaluate_frames(repl, expression, first, now - first + 1, values);
-    bool stopped = repl_idle(repl);
+    prompt_busy(prompt);
+    PetriStatus status = evaluate_frames(prompt, expression, first, now - first + 1, values);
+    bool stopped = prompt_idle(prompt);
     if (status == PETRI_OK) {
-        print_plot(repl, values, first, now - first + 1);
+        print_plot(prompt->user_data, values, first, now - first + 1);
     } else {
-        petri_history_goto(repl->history, now);
-        repl_fail(repl, "%s",
-                  stopped                         ? "interrupted"
-                  : status == PETRI_OUT_OF_MEMORY ? "out of memory"
-                                                  : "nothing to plot");
+        prompt_go_to(prompt, now);
+        prompt_fail(prompt, "%s",
+                    stopped                         ? "interrupted"
+                    : status == PETRI_OUT_OF_MEMORY ? "out of memory"
+                                                    : "nothing to plot");
     }
     free(values);
-    return status == PETRI_OK && !repl->failed;
+    return status == PETRI_OK && !prompt->failed;
 }
 
-static bool run_plot(Repl *repl, const char *rest) {
+bool repl_run_plot(Prompt *prompt, const char *rest) {
     SCOPED_STRING expression = memory_strdup(rest);
     int64_t count = DEFAULT_FRAMES;
     argument_last_count(expression, &count);
     if (count > MAX_FRAMES)
-        return repl_fail(repl, "too many frames: the maximum is %d", MAX_FRAMES);
+        return prompt_fail(prompt, "too many frames: the maximum is %d", MAX_FRAMES);
     PetriEvaluation result; // unused: this only checks the expression
-    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result,
-                                            NULL, NULL)) &&
-           plot_frames(repl, expression, count);
+    return prompt_status(prompt, petri_evaluate(prompt->session, expression, PETRI_NUL_TERMINATED, &result,
+                                                sizeof result, NULL, NULL)) &&
+           plot_frames(prompt, expression, count);
 }
-
-enum { LINES_BELOW = 2 }; // terminal rows kept free for the prompt, below the picture
-
-static bool run_show(Repl *repl, const char *rest) {
-    (void)rest;
-    if (!terminal_picture_possible())
-        return repl_fail(repl, "cannot show pictures in the terminal: petri was built without libchafa; on Debian, "
-                               "install libchafa-dev and build petri again");
-    repl_complete_frame(repl);
-    repl_busy(repl);
-    PetriStatus status = petri_preview(repl->session);
-    if (status == PETRI_OK)
-        status = still_show(repl->session, NULL, repl->options->colour, LINES_BELOW, output_write, &repl->output);
-    repl_idle(repl);
-    return repl_status(repl, status);
-}
-
-const ReplCommand PLOT_COMMANDS[] = {
-    {".plot", "EXPR [N]", "an expression", "plot the number EXPR over the last N frames (default: 60)", run_plot,
-     COMPLETE_LANGUAGE},
-    {".show", "", NULL, "show the frame's picture in the terminal", run_show, COMPLETE_LANGUAGE},
-    {0},
-};

@@ -1,6 +1,7 @@
 // repl.c: `petri repl`, which runs a script frame by frame at a prompt.
 #include "repl/repl.h"
 
+#include "cli/help.h"
 #include "cli/option_groups.h"
 #include "cli/options.h"
 #include "cli/parameters.h"
@@ -8,6 +9,7 @@
 #include "repl/line.h"
 
 #include <errno.h>
+#include <glob.h>
 #include <inttypes.h>
 #include <langinfo.h>
 #include <locale.h>
@@ -21,59 +23,19 @@ typedef struct Own {
     int64_t limit; // maximum frames of .run and .until
 } Own;
 
-// Writes to the output; a PetriWriteCallback.
-static bool repl_write(void *host, const char *text, size_t length) {
-    Repl *repl = host;
-    return output_write(&repl->output, text, length);
-}
-
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Repl *repl = host;
     if (diagnostic->code && strcmp(diagnostic->code, "unread-definition") == 0)
         return; // not shown, because an expression that is typed later can still read the definition
     repl->invalid_definition = repl->invalid_definition || is_invalid_definition(diagnostic);
     if (diagnostic->code && strcmp(diagnostic->code, "memory-limit") == 0)
-        repl->failed = repl->any_failed = true;
+        repl->prompt.failed = repl->any_failed = true;
     output_flush(&repl->output);
     fputs(diagnostic->rendered, stderr);
 }
 
-static void execute_statement(Repl *repl, const char *text, size_t length) {
-    PetriPromptResult done;
-    repl_busy(repl);
-    PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done, sizeof done);
-    repl_idle(repl);
-    if (done.shadowed) {
-        SCOPED_STRING name = memory_strdup(done.shadowed);
-        repl_warn_shadowed(repl, name);
-    }
-    if (done.nodes > 0)
-        repl_note(repl, "nodes are added to the scene at the next step; .drop removes them");
-    repl_status(repl, status);
-}
-
-// If the text begins with a dot and is not a number such as .5, executes it as a command. Otherwise tries to execute it
-// as a command without its dot (bare_execute), and then as code.
-static void execute_text(Repl *repl, const char *text, size_t length) {
-    SCOPED_TEXT remark = {0};
-    size_t start = strspn(text, " \t");
-    if (text[start] == '.' && (text[start + 1] < '0' || text[start + 1] > '9') && text[start + 1] != '.')
-        repl_command(repl, text + start);
-    else if (!bare_execute(repl, text, &remark))
-        execute_statement(repl, text, length);
-    if (remark.len > 0 && (repl->failed || bare_alias(text + start, strcspn(text + start, " \t\n"))))
-        repl_note(repl, "%s", remark.bytes);
-}
-
-// Executes one input, which must not be blank: a command, or a statement or expression of the language.
-static void repl_execute(Repl *repl, const char *text, size_t length) {
-    repl->failed = false;
-    execute_text(repl, text, length);
-    repl->any_failed = repl->any_failed || repl->failed;
-}
-
 static void make_prompt(const Repl *repl, char *prompt, size_t size) {
-    int64_t frame = petri_frame_number(repl->session);
+    int64_t frame = petri_frame_number(repl->prompt.session);
     if (frame < 0)
         snprintf(prompt, size, "petri> ");
     else
@@ -102,7 +64,7 @@ static LineStatus execute_input(Repl *repl, LineReader *reader, Text *text, Text
     text_add_c(text, "\n");
     LineStatus status = read_rest(repl, reader, text, next);
     if (status != LINE_INTERRUPTED) // at the end of the input, an incomplete statement is executed as it is
-        repl_execute(repl, text->bytes, text->len);
+        repl->any_failed = !prompt_execute(&repl->prompt, text->bytes, text->len) || repl->any_failed;
     return status;
 }
 
@@ -110,7 +72,7 @@ static void run_prompt(Repl *repl) {
     LineReader *reader = line_reader_new(repl);
     Text next = {0};
     LineStatus status = LINE_READ;
-    while (status != LINE_END && !repl->quit && repl->output.error == 0) {
+    while (status != LINE_END && !repl->prompt.quit && repl->output.error == 0) {
         char prompt[40];
         Text text = next;
         next = (Text){0};
@@ -135,59 +97,133 @@ static bool read_state(Repl *repl, const char *file) {
     if (!file)
         return true;
     if (access(file, F_OK) != 0)
-        return repl_fail(repl, "cannot read '%s': %s", file, strerror(errno));
-    return repl_status(repl, petri_restore(repl->session, file));
+        return prompt_fail(&repl->prompt, "cannot read '%s': %s", file, strerror(errno));
+    return prompt_status(&repl->prompt, petri_restore(repl->prompt.session, file));
 }
 
 // Loads the script and the state. If the script has errors, the prompt starts nevertheless: the script is reloaded when
 // it changes.
 static void start_session(Repl *repl, const char *state) {
-    petri_load_text(repl->session, "prompt", "", 0);
+    Prompt *prompt = &repl->prompt;
+    petri_load_text(prompt->session, "prompt", "", 0);
     if (repl->options->replayed)
         repl_replay(repl);
     else if (repl->script)
         repl_load(repl, repl->script);
     if (!read_state(repl, state))
-        repl->failed = true;
-    repl->history = petri_history_new(repl->session, 0);
-    if (!repl->history)
-        repl_status(repl, PETRI_OUT_OF_MEMORY);
-    repl->any_failed = repl->failed;
+        prompt->failed = true;
+    prompt->history = petri_history_new(prompt->session, 0);
+    if (!prompt->history)
+        prompt_status(prompt, PETRI_OUT_OF_MEMORY);
+    repl->any_failed = prompt->failed;
 }
 
 static int run_session(Repl *repl, const char *state) {
     // Use only the character encoding of the locale, because its number format would break the parsing of scripts.
     setlocale(LC_CTYPE, "");
     repl->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
-    repl->terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
+    repl->prompt.live = repl->terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
     repl->files = file_watch_new();
     repl_catch_interrupt();
     start_session(repl, state);
     if (repl->invalid_definition)
         return STATUS_USAGE;
     if (repl->terminal)
-        repl_note(repl, "petri %s; .help lists the commands, Ctrl-D quits", petri_version());
+        prompt_note(&repl->prompt, "petri %s; .help lists the commands, Ctrl-D quits", petri_version());
     run_prompt(repl);
     return repl->any_failed && !repl->terminal ? STATUS_FAILED : STATUS_DONE;
 }
 
-static int repl_run(const CommandContext *host, Options *options) {
+static void complain(Prompt *prompt, const char *text) {
+    (void)prompt;
+    message("%s", text);
+}
+
+static bool was_interrupted(Prompt *prompt) {
+    (void)prompt;
+    return repl_interrupted();
+}
+
+static void after_frames(Prompt *prompt) {
+    repl_watch_files(prompt->user_data); // the frames may have imported modules
+}
+
+static void show_progress(Prompt *prompt, int64_t done, int64_t total) {
+    Repl *repl = prompt->user_data;
+    if (total == 0 && repl->progresses) {
+        progress_erase(&repl->progress);
+        repl->progresses = false;
+    } else if (total > 0) {
+        if (!repl->progresses)
+            progress_start(&repl->progress, repl->terminal && progress_possible(), total);
+        repl->progresses = true;
+        progress_update(&repl->progress, done);
+    }
+}
+
+static size_t terminal_rows(Prompt *prompt) {
+    const Repl *repl = prompt->user_data;
+    int columns = 0, rows = 24;
+    terminal_extent(STDOUT_FILENO, &columns, &rows);
+    return repl->terminal ? (size_t)rows : SIZE_MAX;
+}
+
+static size_t terminal_columns(Prompt *prompt) {
+    return help_columns(prompt->output->fd);
+}
+
+static void add_files(Prompt *prompt, const char *typed, TextList *names) {
+    SCOPED_TEXT pattern = {0};
+    glob_t found = {0};
+    (void)prompt;
+    text_add_format(&pattern, "%s*", typed);
+    glob(pattern.bytes, 0, NULL, &found);
+    for (size_t i = 0; i < found.gl_pathc; i++)
+        if (str_starts_with(str_from(found.gl_pathv[i]), str_from(typed)))
+            texts_add(names, found.gl_pathv[i]);
+    globfree(&found);
+}
+
+static const PromptHostCommand COMMANDS[] = {
+    {".plot", repl_run_plot, NULL},       {".show", repl_run_show, NULL},     {".load", repl_run_load, NULL},
+    {".reload", repl_run_reload, NULL},   {".save", repl_run_save, NULL},     {".restore", repl_run_restore, NULL},
+    {".archive", repl_run_archive, NULL}, {".record", repl_run_record, NULL}, {0},
+};
+
+static const PromptHost HOST = {
+    .complain = complain,
+    .interrupted = was_interrupted,
+    .commands = COMMANDS,
+    .begin = repl_begin,
+    .end = repl_end,
+    .before_frames = repl_refresh,
+    .after_frames = after_frames,
+    .show_progress = show_progress,
+    .rows = terminal_rows,
+    .columns = terminal_columns,
+    .add_files = add_files,
+    .keys_help = "Indented lines belong to the line above them; Up returns to earlier lines, and an empty line ends "
+                 "the block. Ctrl-C interrupts. ",
+};
+
+static int repl_run(const CommandContext *context, Options *options) {
     const Own *own = options->own;
-    Repl repl = {.options = options, .limit = own->limit, .output.fd = STDOUT_FILENO};
+    Repl repl = {.options = options, .output.fd = STDOUT_FILENO};
+    repl.prompt = (Prompt){
+        .host = &HOST, .user_data = &repl, .output = &repl.output, .limit = own->limit, .colour = options->colour};
     repl.script = !options->script || options->replayed ? NULL : memory_strdup(options->script);
     for (size_t i = 0; i < options->definitions.count; i++)
-        texts_add(&repl.definitions, options->definitions.items[i]);
+        texts_add(&repl.prompt.definitions, options->definitions.items[i]);
     options->prompt = true;
-    int status = options_open(options, host, on_diagnostic, &repl, &repl.session);
+    int status = options_open(options, context, on_diagnostic, &repl, &repl.prompt.session);
     if (status == OPTIONS_READ)
         status = output_finish(&repl.output, run_session(&repl, options->state_file));
     if (!archiving_end(&repl.archiving) && status == STATUS_DONE)
         status = STATUS_FAILED;
-    petri_history_free(repl.history);
-    petri_close(&repl.session);
+    petri_history_free(repl.prompt.history);
+    petri_close(&repl.prompt.session);
     file_watch_free(repl.files);
-    texts_free(&repl.watched);
-    texts_free(&repl.definitions);
+    prompt_end(&repl.prompt);
     free(repl.script);
     text_free(&repl.script_text);
     return status;

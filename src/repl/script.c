@@ -145,7 +145,7 @@ void repl_watch_files(Repl *repl) {
     if (repl->script)
         file_watch_add(repl->files, repl->script);
     const char *path;
-    for (size_t i = 0; (path = petri_source_file(repl->session, i)); i++)
+    for (size_t i = 0; (path = petri_source_file(repl->prompt.session, i)); i++)
         file_watch_add(repl->files, path);
 }
 
@@ -162,17 +162,17 @@ static bool finish_load(Repl *repl, PetriStatus status) {
         store_script_text(repl);
         repl->loaded = true;
     }
-    repl->failed = repl->failed || status != PETRI_OK;
+    repl->prompt.failed = repl->prompt.failed || status != PETRI_OK;
     return status == PETRI_OK;
 }
 
 bool repl_replay(Repl *repl) {
-    return finish_load(repl, options_load(repl->options, repl->session));
+    return finish_load(repl, options_load(repl->options, repl->prompt.session));
 }
 
 bool repl_load(Repl *repl, const char *file) {
-    PetriStatus status = script_load(repl->session, file);
-    repl->rates_changed = repl->rates_changed && status != PETRI_OK;
+    PetriStatus status = script_load(repl->prompt.session, file);
+    repl->prompt.rates_changed = repl->prompt.rates_changed && status != PETRI_OK;
     if (status == PETRI_OK && file != repl->script) {
         free(repl->script);
         repl->script = memory_strdup(file);
@@ -180,28 +180,30 @@ bool repl_load(Repl *repl, const char *file) {
     return finish_load(repl, status);
 }
 
-static bool run_reload(Repl *repl, const char *rest) {
+bool repl_run_reload(Prompt *prompt, const char *rest) {
+    Repl *repl = prompt->user_data;
     (void)rest;
     if (!repl->script)
-        return repl_fail(repl, "no script loaded; run .load FILE");
+        return prompt_fail(prompt, "no script loaded; run .load FILE");
     // A script that has never run has no state to keep.
     PetriStatus status =
-        repl->loaded ? petri_reload(repl->session, repl->script) : petri_load(repl->session, repl->script);
+        repl->loaded ? petri_reload(prompt->session, repl->script) : petri_load(prompt->session, repl->script);
     bool first = !repl->loaded;
     if (!finish_load(repl, status))
         return false;
-    if (first && !repl_status(repl, petri_history_start(repl->history, NULL)))
+    if (first && !prompt_status(prompt, petri_history_start(prompt->history, NULL)))
         return false;
-    repl_note(repl, "%s reloaded", repl->script);
+    prompt_note(prompt, "%s reloaded", repl->script);
     return true;
 }
 
-void repl_refresh(Repl *repl) {
+void repl_refresh(Prompt *prompt) {
+    Repl *repl = prompt->user_data;
     repl_report_changes(repl, false);
     if (repl->changed) {
         repl->changed = false;
-        if (!run_reload(repl, ""))
-            repl_note(repl, repl->loaded ? "the previous script continues" : "no script is running");
+        if (!repl_run_reload(prompt, ""))
+            prompt_note(prompt, repl->loaded ? "the previous script continues" : "no script is running");
     }
 }
 
@@ -216,52 +218,36 @@ bool repl_report_changes(Repl *repl, bool at_prompt) {
         if (at_prompt)
             output_write(&repl->output, "\n", 1);
         // If the text of the script itself is unchanged, a file that it includes or imports has changed.
-        repl_note(repl, "%s%s changed%s%s; it is reloaded before the next step", what.len == 0 ? "a file used by " : "",
-                  repl->script, what.len == 0 ? "" : ": ", what.len == 0 ? "" : what.bytes);
+        prompt_note(&repl->prompt, "%s%s changed%s%s; it is reloaded before the next step",
+                    what.len == 0 ? "a file used by " : "", repl->script, what.len == 0 ? "" : ": ",
+                    what.len == 0 ? "" : what.bytes);
         output_flush(&repl->output);
     }
     return changed;
 }
 
-static bool run_drop(Repl *repl, const char *rest) {
-    if (rest[0] != '\0' && strcmp(rest, "all") != 0)
-        return repl_fail(repl, "invalid argument: '%s'; .drop removes nodes, and .drop all removes nodes and names",
-                         rest);
-    uint32_t count = petri_prompt_clear(repl->session, rest[0] != '\0');
-    repl_note(repl, "%" PRIu32 " statement%s removed", count, count == 1 ? "" : "s");
-    return true;
-}
-
-static bool run_load(Repl *repl, const char *rest) {
+bool repl_run_load(Prompt *prompt, const char *rest) {
+    Repl *repl = prompt->user_data;
     if (script_is_stdin(rest))
-        return repl_fail(repl, "cannot read the script from standard input: the prompt uses it");
+        return prompt_fail(prompt, "cannot read the script from standard input: the prompt uses it");
     if (!repl_load(repl, rest))
         return false;
-    petri_reset(repl->session);
-    return repl_status(repl, petri_history_start(repl->history, NULL));
+    petri_reset(prompt->session);
+    return prompt_status(prompt, petri_history_start(prompt->history, NULL));
 }
 
-static bool run_save(Repl *repl, const char *rest) {
-    if (!repl_status(repl, petri_save(repl->session, rest)))
+bool repl_run_save(Prompt *prompt, const char *rest) {
+    if (!prompt_status(prompt, petri_save(prompt->session, rest)))
         return false;
-    repl_note(repl, "state after frame %" PRId64 " written to %s", petri_frame_number(repl->session), rest);
+    prompt_note(prompt, "state after frame %" PRId64 " written to %s", petri_frame_number(prompt->session), rest);
     return true;
 }
 
-static bool run_restore(Repl *repl, const char *rest) {
+bool repl_run_restore(Prompt *prompt, const char *rest) {
     if (access(rest, R_OK) != 0)
-        return repl_fail(repl, "cannot read '%s': %s", rest, strerror(errno));
-    if (!repl_status(repl, petri_restore(repl->session, rest)))
+        return prompt_fail(prompt, "cannot read '%s': %s", rest, strerror(errno));
+    if (!prompt_status(prompt, petri_restore(prompt->session, rest)))
         return false;
-    repl_note(repl, "restored the state after frame %" PRId64, petri_frame_number(repl->session));
-    return repl_status(repl, petri_history_start(repl->history, "a state was restored"));
+    prompt_note(prompt, "restored the state after frame %" PRId64, petri_frame_number(prompt->session));
+    return prompt_status(prompt, petri_history_start(prompt->history, "a state was restored"));
 }
-
-const ReplCommand SCRIPT_COMMANDS[] = {
-    {".drop", "[all]", NULL, "remove nodes added at the prompt; with `all`, also names", run_drop, COMPLETE_LANGUAGE},
-    {".load", "FILE", "a file", "load another script and start with an empty state", run_load, COMPLETE_FILES},
-    {".reload", "", NULL, "reload the script; keep state and frame number", run_reload, COMPLETE_LANGUAGE},
-    {".save", "FILE", "a file", "write the state to a file", run_save, COMPLETE_FILES},
-    {".restore", "FILE", "a file", "load the state from a file and restart the history", run_restore, COMPLETE_FILES},
-    {0},
-};

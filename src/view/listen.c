@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "cli/json.h"
 #include "petri-edit.h"
+#include "prompt/prompt.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -130,6 +131,41 @@ static bool go_back(LiveScript *live, const char *text, Text *output) {
     return live_script_go_back(live, count, output);
 }
 
+static void complain(Prompt *prompt, const char *text) {
+    output_format(prompt->output, "%s\n", text);
+}
+
+static bool is_never_interrupted(Prompt *prompt) {
+    (void)prompt;
+    return false;
+}
+
+// Executes a command of the prompt that does not move to another frame.
+static bool run_command(LiveScript *live, const char *text, Text *text_out) {
+#define ONLY "works only in 'petri repl'"
+    static const PromptHostCommand commands[] = {
+        {".step", NULL, ONLY "; the view computes frames by itself"},
+        {".run", NULL, ONLY "; the view computes frames by itself"},
+        {".until", NULL, ONLY},
+        {".goto", NULL, ONLY "; .back N and .reset go back in the view"},
+        {".watch", NULL, ONLY},
+        {".unwatch", NULL, ONLY},
+        {".reload", NULL, ONLY "; the view reloads a script that has changed"},
+        {0},
+    };
+#undef ONLY
+    static const PromptHost host = {.complain = complain, .interrupted = is_never_interrupted, .commands = commands};
+    Output *output = memory_calloc(sizeof *output);
+    output_start(output, -1);
+    output->send = text_collect;
+    output->user_data = text_out;
+    Prompt prompt = {.host = &host, .session = live->session, .history = live->history, .output = output};
+    bool done = prompt_execute(&prompt, text, strlen(text));
+    prompt_end(&prompt);
+    free(output);
+    return done;
+}
+
 static ListenerResult execute_command(LiveScript *live, char *text, Text *out) {
     static const char set[] = ".set ", back[] = ".back";
     ListenerResult result = LISTENER_ACCEPTED;
@@ -149,6 +185,8 @@ static ListenerResult execute_command(LiveScript *live, char *text, Text *out) {
         live_script_reset(live);
     } else if (strcmp(text, ".drop") == 0) {
         petri_prompt_clear(live->session, true);
+    } else if (text[0] == '.' && text[1] >= 'a' && text[1] <= 'z') {
+        done = run_command(live, text, &output);
     } else {
         done = petri_prompt(live->session, text, length, text_collect, &output, &prompted, sizeof prompted) == PETRI_OK;
     }

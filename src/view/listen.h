@@ -2,7 +2,8 @@
 //
 // A client connects, writes code or a command, and shuts down its writing side. It then receives lines of JSON until
 // the connection is closed. Code is evaluated as in petri repl. The commands are `.set NAME VALUE`, `.set NAME` (reset
-// to the default), `.back N` (frames), `.drop` (remove everything sent before) and `.reset`. Each line contains output,
+// to the default), `.back N` (frames), `.drop` (remove everything sent before), `.reset`, and those of petri repl that
+// stay in the frame, such as `.why`. Each line contains output,
 // {"text": …}, or a diagnostic as in petri check --format=json. The last line is {"done": true or false, "frame": …,
 // "values": …, "bindings": …, "nodes": …, "shadowed": …}.
 #pragma once

@@ -96,7 +96,9 @@ const Command SEND_COMMAND = {
         "lines of JSON: {\"text\": ...} for values and debug(), diagnostics, and finally {\"done\": true}. TEXT is\n"
         "evaluated as in petri repl: expressions are evaluated once, bindings and nodes in every frame, after the\n"
         "script. '.set NAME VALUE' sets a parameter, '.set NAME' resets it to its default, '.back N' goes back N\n"
-        "frames, '.drop' removes what was sent before, '.reset' restarts the script. Exits with 1 if the text was\n"
+        "frames, '.drop' removes what was sent before, '.reset' restarts the script. Other commands of petri repl "
+        "work\n"
+        "if they stay in the frame: '.particles', '.why ID', '.energy', '.help'. Exits with 1 if the text was "
         "rejected.",
     .examples = "  petri view dish.fl --listen /tmp/dish &\n"
                 "  petri view --send /tmp/dish 'len($)'\n"

@@ -58,6 +58,9 @@ HOST(archive)
 void host_archive(const char *script, const char *command, const char *version, const char *sha256, double first_frame,
                   double last_frame);
 HOST(archived_file) void host_archived_file(const char *name, double frame, const char *bytes, size_t length);
+// Lets the host of a prompt act: "step"; "goTo" a frame; "set" the parameter `name` to `value`; "run" the script;
+// "plot" the expression `name`. Returns the PetriStatus.
+HOST(prompt) int host_prompt(const char *act, double frame, const char *name, const char *value);
 HOST(token) void host_token(int kind, size_t start, size_t end);
 // Receives a row of the help tables.
 HOST(help)

@@ -5,7 +5,7 @@
 #include "cli/hdf5.h"
 #include "petri-draw.h"
 #include "petri-edit.h"
-#include "repl/repl.h"
+#include "prompt/prompt.h"
 
 #include <errno.h>
 #include <math.h>
@@ -90,8 +90,8 @@ static void write_dictionary(void) {
         add_word(file, TOPICS[i]);
     for (size_t i = 0; i < sizeof SIGNS / sizeof SIGNS[0]; i++)
         add_word(file, SIGNS[i]);
-    for (size_t i = 0; repl_command_at(i); i++)
-        fprintf(file, "\"%s \"\n", repl_command_at(i)->name);
+    for (size_t i = 0; prompt_command_at(i); i++)
+        fprintf(file, "\"%s \"\n", prompt_command_at(i)->name);
     for (size_t i = 0; i < sizeof COMMANDS / sizeof COMMANDS[0]; i++)
         for (const OptionSpec *option = command_options(COMMANDS[i]); option->name; option++)
             fprintf(file, "\"--%s\"\n", option->name);
@@ -146,8 +146,8 @@ static void write_nodes(void) {
 }
 
 static void write_commands(void) {
-    for (size_t i = 0; repl_command_at(i); i++) {
-        const char *name = repl_command_at(i)->name;
+    for (size_t i = 0; prompt_command_at(i); i++) {
+        const char *name = prompt_command_at(i)->name;
         if (strcmp(name, ".quit") != 0)
             seed("repl", name + 1, ".step 3\n%s\n%s 2\n%s :cells\n%s SIZE 3\n.step\n%s x.out\n", name, name, name, name,
                  name);

@@ -78,6 +78,16 @@ check ".back beyond the start goes to the first frame" [ "$(number frame)" = 0 ]
 send '.back'
 check ".back at the start reports the reason" has out "cannot go back: this is the start"
 check ".back at the start exits with status 1" status_is 1
+send '.state turns'
+check "a command of the prompt prints to the client" has out '{"text": "$:turns = '
+check "a command of the prompt reports that it is done" done_is true
+send '.parameters'
+check ".parameters lists the parameters" has out '{"text": "SIZE  3  1..9  how large"}'
+send '.why'
+check "a command without its operand fails" has out '{"text": ".why needs the id of a particle"}'
+send '.step 3'
+check "a command that computes frames fails" has out '{"text": ".step works only in '"'petri repl'"
+check "a command that fails exits with status 1" status_is 1
 type_keys Space
 send '1/0;"\x01é"'
 check "any output is valid JSON" sh -c 'python3 -c "import json, sys; [json.loads(line) for line in sys.stdin]" <out'

@@ -263,6 +263,14 @@ export interface Session {
     evaluate(expression: string): { text: string; number: number };
     /** Evaluates a line typed at the prompt and returns its output. Bindings and nodes persist. */
     prompt(text: string): string;
+    /**
+     * Executes an input of the prompt as `petri repl` does: a command or code. Returns its output; `failed` is true after a message. `host`
+     * has the bounds of the timeline and computes its frames; run and plot are called if the input asks for them.
+     */
+    execute(text: string, host: {
+        first: number; last: number; step(): void; goTo(frame: number): void; set(name: string, value: string): void;
+        run(): void; plot(expression: string): void;
+    }): { text: string; failed: boolean };
     /** Removes the nodes that were typed at the prompt and, if `bindings` is true, also the names. Returns the number of statements. */
     clearPrompt(bindings?: boolean): number;
     /** True if the last frame has anything to draw. */

@@ -40,6 +40,7 @@ class Engine {
     constructor(module) {
         this.module = module;
         this.session = null; // the session of the current call
+        this.prompt = null; // the prompt of the page (web_prompt_open)
         this.paint = null; // draws the paint of the current filter (pixels.mjs)
         const text = at => this.memory.text(at);
         const now = () => this.session;
@@ -89,6 +90,7 @@ class Engine {
                 }),
             archived_file: (name, frame, at, length) =>
                 now().results.push({ name: text(name), frame, bytes: this.memory.bytes().slice(at, at + length) }),
+            prompt: (act, frame, name, value) => now().actForPrompt(text(act), frame, text(name), text(value)),
             token: (kind, start, end) => now().results.push({ kind: TOKENS[kind], start, end }),
             help: (kind, name, parameters, defaultValue, unit, help) =>
                 now().results.push({
@@ -330,6 +332,30 @@ export class Session {
     prompt(text) {
         this.check('evaluate the line', this.with(text, (wasm, at, length) => wasm.web_prompt(this.handle, at, length)));
         return this.written.join('');
+    }
+
+    // Executes an input of the prompt as `petri repl` does: a command or code. `host` has `first` and `last`, the bounds of the timeline,
+    // and moves the session: step(), goTo(frame), set(name, value). run() and plot(expression) are requests of the input.
+    execute(text, host) {
+        const { engine } = this;
+        this.host = host;
+        engine.prompt ??= this.run(wasm => wasm.web_prompt_open());
+        const done = this.run(this.with(text, (wasm, at, length) =>
+            wasm.web_prompt_execute(engine.prompt, this.handle, host.first, host.last, at, length)), true);
+        return { text: this.written.join(''), failed: !done };
+    }
+
+    // Calls a function of the prompt's host, which can call the engine. Returns the status.
+    actForPrompt(act, frame, name, value) {
+        const { mayInterrupt, reported, written, results } = this;
+        try {
+            this.host[act](...name === null ? [frame] : [name, value]);
+            return 0;
+        } catch (error) {
+            return Math.max(STATUS.indexOf(error.status), 1);
+        } finally {
+            Object.assign(this, { mayInterrupt, reported, written, results });
+        }
     }
 
     // Removes the nodes that were typed at the prompt and, if `bindings` is true, also the names. Returns the number of statements.

@@ -2,12 +2,6 @@
 
 const LINES = 200; // maximum number of output lines
 
-// Returns what is printed for an error: its diagnostics, each once, or else its message.
-function failed(error) {
-    const reported = new Map([...(error.reported ?? []), ...(error.diagnostics ?? [])].map(one => [one.rendered, one]));
-    return { text: reported.size ? '' : `${error.message}\n`, reported: [...reported.values()] };
-}
-
 export class Prompt {
     // plot: a function that plots an expression.
     constructor(root, dish, plot) {
@@ -36,8 +30,8 @@ export class Prompt {
         this.before = [...this.before.filter(old => old !== text), text];
         this.at = this.before.length;
         this.print(`? ${text}\n`);
-        const isCommand = /^\.(?!\d)/.test(text.trim());
-        const answer = await this.dish.ask(isCommand ? 'command' : 'prompt', { text: isCommand ? text : `${text}\n` }).catch(failed);
+        const answer = await this.dish.ask('prompt', { text: `${text}\n` })
+            .catch(({ message, reported = [] }) => ({ text: `${message}\n`, reported }));
         if (answer.type === 'frame') {
             this.dish.pause();
             this.dish.show(answer);

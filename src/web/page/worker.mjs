@@ -1,6 +1,5 @@
 // worker.mjs: the engine's thread. It answers every message, one at a time, so the page knows when the thread is idle.
 import { loadEngine } from '../engine/petri.mjs';
-import { execute } from './commands.mjs';
 import { makeFilm, makeState, makeTable } from './exports.mjs';
 import { Forces } from './forces.mjs';
 import { addImage, imageOf } from './paint.mjs';
@@ -149,13 +148,18 @@ const handlers = {
         return { type: 'digest', digest: player.session.digest(), changes: player.changes, frame: player.frame };
     },
     hash: () => ({ type: 'hash', hash: player.session.hash() }),
-    prompt({ text }) {
-        return { type: 'printed', text: player.session.prompt(text), reported: take() };
-    },
     task: message => ({ type: 'task', passed: passes(engine, message, { files: player.files, shouldInterrupt }) }),
-    async command({ text }) {
-        const { moved, ...done } = await execute(player, text, shouldInterrupt);
-        return moved ? shown(done) : { type: 'printed', reported: take(), ...done };
+    // Executes an input of the prompt. In the answer, `runs` is true if the page must run the script, and `plot` is an expression to plot.
+    prompt({ text }) {
+        const asked = {}, moves = act => (...given) => {
+            asked.log = ''; // another frame is shown, and the prompt prints its log
+            player[act](...given);
+        };
+        const done = player.session.execute(text, {
+            first: player.first, last: player.lastFrame, step: moves('step'), goTo: moves('seek'), set: moves('set'),
+            run: () => (asked.runs = true), plot: expression => (asked.plot = expression),
+        });
+        return 'log' in asked ? shown({ ...done, ...asked }) : { type: 'printed', reported: take(), ...done, ...asked };
     },
     state: query => ({ type: 'state', ...stateTable.rows(player, query) }),
     choose: ({ x, y }) => ({ type: 'chosen', found: player.frame >= 0 && forces.choose(player, x, y) }),

@@ -2,7 +2,7 @@
 #include "cli/contributions.h"
 #include "cli/text_table.h"
 #include "petri-inspect.h"
-#include "repl/repl.h"
+#include "prompt/prompt.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -91,7 +91,7 @@ static uint32_t add_forces(TextTable *table, const Answer *answer) {
     return count;
 }
 
-static void print_answer(Repl *repl, const Question *question, const Answer *answer) {
+static void print_answer(Prompt *prompt, const Question *question, const Answer *answer) {
     const PetriExplanation *found = &answer->found;
     SCOPED_TEXT_TABLE table = text_table_new(4);
     SCOPED_TEXT sum = {0};
@@ -103,41 +103,41 @@ static void print_answer(Repl *repl, const Question *question, const Answer *ans
         shown = add_forces(&table, answer);
     contribution_add_vector(answer->session, found->sum, answer->system->dimensions, &sum);
     add_cells(&table, "sum", "", sum.bytes, "");
-    text_table_write(&table, &repl->output);
+    text_table_write(&table, prompt->output);
     if (shown < found->count && question->each)
-        repl_note(repl, "%" PRIu32 " more contributions; '.why %s all' shows all", found->count - shown,
-                  question->asked);
+        prompt_note(prompt, "%" PRIu32 " more contributions; '.why %s all' shows all", found->count - shown,
+                    question->asked);
     else if (shown < found->count)
-        repl_note(repl, "'.why %s all' shows the contribution of each particle, in the order of summation",
-                  question->asked);
+        prompt_note(prompt, "'.why %s all' shows the contribution of each particle, in the order of summation",
+                    question->asked);
 }
 
 // Explains the force on one particle in the last step of the frame. Returns false after a message.
-static bool explain_particle(Repl *repl, const Question *question, Answer *answer, uint32_t particle) {
+static bool explain_particle(Prompt *prompt, const Question *question, Answer *answer, uint32_t particle) {
     const PetriSystem *system = answer->system;
-    const char *id = petri_format_value(repl->session, petri_particle_id(repl->session, answer->number, particle));
+    const char *id = petri_format_value(prompt->session, petri_particle_id(prompt->session, answer->number, particle));
     SCOPED_TEXT title = {0};
     text_add_format(&title, "%s;%s", system->name, id ? id : "");
     if (system->anchor[particle * system->anchor_stride] || !system->force.data) {
-        repl_note(repl, "%s %s", title.bytes,
-                  system->force.data ? "is an anchor, which no force moves" : "took no step in this frame");
+        prompt_note(prompt, "%s %s", title.bytes,
+                    system->force.data ? "is an anchor, which no force moves" : "took no step in this frame");
         return true;
     }
-    repl_busy(repl);
-    PetriStatus status = petri_explain_force(repl->session, answer->number, particle, system->steps - 1, &answer->found,
-                                             sizeof answer->found);
-    repl_idle(repl);
-    if (!repl_status(repl, status))
+    prompt_busy(prompt);
+    PetriStatus status = petri_explain_force(prompt->session, answer->number, particle, system->steps - 1,
+                                             &answer->found, sizeof answer->found);
+    prompt_idle(prompt);
+    if (!prompt_status(prompt, status))
         return false;
-    output_format(&repl->output, "%s: %" PRIu32 " contribution%s in step %" PRIu64 " of %" PRIu64 "\n", title.bytes,
+    output_format(prompt->output, "%s: %" PRIu32 " contribution%s in step %" PRIu64 " of %" PRIu64 "\n", title.bytes,
                   answer->found.count, answer->found.count == 1 ? "" : "s", system->steps, system->steps);
-    print_answer(repl, question, answer);
+    print_answer(prompt, question, answer);
     return true;
 }
 
 // Returns true if the wanted value is a particle's id, or its key in the state, such as `:cells;3`.
-static bool is_wanted(Repl *repl, const Question *question, size_t number, const PetriSystem *system, uint32_t i) {
-    const char *id = petri_format_value(repl->session, petri_particle_id(repl->session, number, i));
+static bool is_wanted(Prompt *prompt, const Question *question, size_t number, const PetriSystem *system, uint32_t i) {
+    const char *id = petri_format_value(prompt->session, petri_particle_id(prompt->session, number, i));
     size_t prefix = strlen(system->name);
     if (!id || strcmp(id, question->wanted) == 0)
         return id;
@@ -145,58 +145,58 @@ static bool is_wanted(Repl *repl, const Question *question, size_t number, const
            strcmp(question->wanted + prefix + 1, id) == 0;
 }
 
-static bool find_particle(Repl *repl, const Question *question, size_t number, const PetriSystem *system,
+static bool find_particle(Prompt *prompt, const Question *question, size_t number, const PetriSystem *system,
                           uint32_t *particle) {
     const PetriValue id = {.length = 1, .numbers = &question->number};
-    if (petri_find_particle(repl->session, number, id, particle))
+    if (petri_find_particle(prompt->session, number, id, particle))
         return true;
     for (*particle = 0; *particle < system->particle_count; ++*particle)
-        if (is_wanted(repl, question, number, system, *particle))
+        if (is_wanted(prompt, question, number, system, *particle))
             return true;
     return false;
 }
 
 // Answers the question for each system that has the particle.
-static bool explain_in_systems(Repl *repl, const Question *question) {
+static bool explain_in_systems(Prompt *prompt, const Question *question) {
     PetriSystem system;
     size_t count = 0, found = 0;
     bool good = true;
-    repl_complete_frame(repl);
-    for (; good && petri_system(repl->session, count, &system, sizeof system); count++) {
+    prompt_complete_frame(prompt);
+    for (; good && petri_system(prompt->session, count, &system, sizeof system); count++) {
         uint32_t particle;
-        if (!find_particle(repl, question, count, &system, &particle))
+        if (!find_particle(prompt, question, count, &system, &particle))
             continue;
         found++;
-        good = explain_particle(repl, question, &(Answer){repl->session, count, &system, {0}}, particle);
+        good = explain_particle(prompt, question, &(Answer){prompt->session, count, &system, {0}}, particle);
     }
     if (count == 0)
-        repl_note(repl, petri_frame_number(repl->session) < 0 ? "no particles before the first frame; run .step"
-                                                              : "no particle system was updated in this frame");
+        prompt_note(prompt, petri_frame_number(prompt->session) < 0 ? "no particles before the first frame; run .step"
+                                                                    : "no particle system was updated in this frame");
     else if (found == 0)
-        return repl_fail(repl, "no particle has this id: '%.40s'", question->asked);
+        return prompt_fail(prompt, "no particle has this id: '%.40s'", question->asked);
     return good;
 }
 
-static bool run_why(Repl *repl, const char *rest) {
+static bool run_why(Prompt *prompt, const char *rest) {
     SCOPED_STRING asked = memory_strdup(rest);
     SCOPED_TEXT value = {0};
     PetriEvaluation result;
     Question question = {.asked = asked};
     if (strpbrk(asked, " \t")) // a single number is the id, not the number of contributions
-        question.max_lines = argument_lines(repl, asked, 0);
+        question.max_lines = argument_lines(prompt, asked, 0);
     question.each = strlen(asked) < strlen(rest);
-    repl_busy(repl);
+    prompt_busy(prompt);
     PetriStatus status =
-        petri_evaluate(repl->session, asked, PETRI_NUL_TERMINATED, &result, sizeof result, text_collect, &value);
-    repl_idle(repl);
-    if (!repl_status(repl, status))
+        petri_evaluate(prompt->session, asked, PETRI_NUL_TERMINATED, &result, sizeof result, text_collect, &value);
+    prompt_idle(prompt);
+    if (!prompt_status(prompt, status))
         return false;
     question.wanted = value.bytes;
     question.number = result.number;
-    return explain_in_systems(repl, &question);
+    return explain_in_systems(prompt, &question);
 }
 
-const ReplCommand WHY_COMMANDS[] = {
+const PromptCommand WHY_COMMANDS[] = {
     {".why", "ID [N|all]", "the id of a particle",
      "print the forces on a particle; `all` or N lists single contributions", run_why, COMPLETE_LANGUAGE},
     {0},

@@ -2,7 +2,7 @@
 #include "cli/motion.h"
 #include "cli/text_table.h"
 #include "petri-inspect.h"
-#include "repl/repl.h"
+#include "prompt/prompt.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -15,7 +15,7 @@ enum { RESERVED_LINES = 3 }; // screen lines reserved for the command, the closi
 
 // A filter for the lines of one section of petri_print.
 typedef struct Filter {
-    Repl *repl;
+    Prompt *prompt;
     const char *wanted; // key or node kind to select; "": all
     size_t depth;       // depth of the node whose subtree is being written; SIZE_MAX: none
     size_t found;       // number of matching entries or nodes
@@ -24,36 +24,44 @@ typedef struct Filter {
     void (*handle_line)(struct Filter *filter, const char *line, size_t length);
 } Filter;
 
-static bool collect_unless_stopped(void *bytes, const char *text, size_t length) {
-    return text_collect(bytes, text, length) && !repl_interrupted();
+typedef struct Collector {
+    Prompt *prompt;
+    Text text;
+} Collector;
+
+static bool collect_unless_stopped(void *user_data, const char *text, size_t length) {
+    Collector *collector = user_data;
+    return text_collect(&collector->text, text, length) && !collector->prompt->host->interrupted(collector->prompt);
 }
 
 // Passes each line of a section to the filter, which writes the lines that it selects. Returns filter->found.
-static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
-    SCOPED_TEXT text = {0};
+static size_t print_filtered(Prompt *prompt, unsigned section, Filter *filter) {
+    Collector printed = {.prompt = prompt};
     Str line;
     size_t at = 0;
     filter->depth = SIZE_MAX;
-    repl_busy(repl);
-    petri_print(repl->session, section, collect_unless_stopped, &text);
-    text_next_line(&text, &at, &line); // skip the frame's `@` line
-    while (text_next_line(&text, &at, &line) && filter->repl->output.error == 0 && !repl_interrupted())
+    prompt_busy(prompt);
+    petri_print(prompt->session, section, collect_unless_stopped, &printed);
+    text_next_line(&printed.text, &at, &line); // skip the frame's `@` line
+    while (text_next_line(&printed.text, &at, &line) && prompt->output->error == 0 &&
+           !prompt->host->interrupted(prompt))
         filter->handle_line(filter, line.bytes, line.len + 1);
-    repl_idle(repl);
+    prompt_idle(prompt);
+    text_free(&printed.text);
     return filter->found;
 }
 
 static void write_line(Filter *filter, const char *line, size_t length) {
     if (filter->lines++ < filter->max_lines)
-        output_write(&filter->repl->output, line, length);
+        output_write(filter->prompt->output, line, length);
 }
 
 // Writes a note about the number of omitted lines and how to see them. `asked` is the operand without its number of
 // lines.
 static void note_remaining(const Filter *filter, const char *command, const char *asked) {
     if (filter->lines > filter->max_lines) {
-        repl_note(filter->repl, "%zu more lines; '%s%s%s all' shows all lines", filter->lines - filter->max_lines,
-                  command, asked[0] == '\0' ? "" : " ", asked);
+        prompt_note(filter->prompt, "%zu more lines; '%s%s%s all' shows all lines", filter->lines - filter->max_lines,
+                    command, asked[0] == '\0' ? "" : " ", asked);
     }
 }
 
@@ -71,19 +79,19 @@ static void filter_entry(Filter *filter, const char *line, size_t length) {
     }
 }
 
-static bool run_state(Repl *repl, const char *rest) {
+static bool run_state(Prompt *prompt, const char *rest) {
     SCOPED_STRING asked = memory_strdup(rest);
     // If the operand is only a number, the number is the wanted key, not the number of lines.
     bool counted = strpbrk(asked, " \t") || strcmp(asked, "all") == 0;
-    size_t max_lines = argument_lines(repl, counted ? asked : (char[]){""}, RESERVED_LINES);
+    size_t max_lines = argument_lines(prompt, counted ? asked : (char[]){""}, RESERVED_LINES);
     const char *prefix = asked + (asked[0] == '$');
     bool enclosed = prefix[0] == '(';
     size_t length = strlen(prefix) - enclosed;
     length -= enclosed && length > 0 && prefix[length] == ')';
     SCOPED_STRING wanted = memory_strndup(prefix + enclosed, length);
-    Filter filter = {.wanted = wanted, .repl = repl, .handle_line = filter_entry, .max_lines = max_lines};
-    if (print_filtered(repl, PETRI_PRINT_STATE, &filter) == 0)
-        repl_note(repl, wanted[0] == '\0' ? "the state is empty" : "the state has no entry under %s", wanted);
+    Filter filter = {.wanted = wanted, .prompt = prompt, .handle_line = filter_entry, .max_lines = max_lines};
+    if (print_filtered(prompt, PETRI_PRINT_STATE, &filter) == 0)
+        prompt_note(prompt, wanted[0] == '\0' ? "the state is empty" : "the state has no entry under %s", wanted);
     note_remaining(&filter, ".state", asked);
     return true;
 }
@@ -102,18 +110,18 @@ static void filter_node(Filter *filter, const char *line, size_t length) {
     }
 }
 
-static bool run_tree(Repl *repl, const char *rest) {
+static bool run_tree(Prompt *prompt, const char *rest) {
     SCOPED_STRING asked = memory_strdup(rest);
-    size_t max_lines = argument_lines(repl, asked, RESERVED_LINES);
+    size_t max_lines = argument_lines(prompt, asked, RESERVED_LINES);
     const char *kind = asked + (asked[0] == '!');
-    repl_busy(repl);
-    PetriStatus status = petri_preview(repl->session);
-    repl_idle(repl);
-    Filter filter = {.repl = repl, .wanted = kind, .handle_line = filter_node, .max_lines = max_lines};
-    if (status == PETRI_OK && print_filtered(repl, PETRI_PRINT_TREE, &filter) == 0)
-        repl_note(repl, kind[0] == '\0' ? "the frame has no nodes" : "the frame has no node !%s", kind);
+    prompt_busy(prompt);
+    PetriStatus status = petri_preview(prompt->session);
+    prompt_idle(prompt);
+    Filter filter = {.prompt = prompt, .wanted = kind, .handle_line = filter_node, .max_lines = max_lines};
+    if (status == PETRI_OK && print_filtered(prompt, PETRI_PRINT_TREE, &filter) == 0)
+        prompt_note(prompt, kind[0] == '\0' ? "the frame has no nodes" : "the frame has no node !%s", kind);
     note_remaining(&filter, ".tree", asked);
-    return repl_status(repl, status);
+    return prompt_status(prompt, status);
 }
 
 static bool matches_name(const char *name, const char *wanted) {
@@ -127,23 +135,23 @@ typedef struct SystemRequest {
 } SystemRequest;
 
 // Calls `show` for each requested system.
-static bool print_systems(Repl *repl, const SystemRequest *request,
-                          void (*show)(Repl *, size_t, const PetriSystem *, const SystemRequest *)) {
+static bool print_systems(Prompt *prompt, const SystemRequest *request,
+                          void (*show)(Prompt *, size_t, const PetriSystem *, const SystemRequest *)) {
     PetriSystem system;
     const char *wanted = request->system;
     size_t count = 0, shown = 0;
-    repl_complete_frame(repl);
-    for (; petri_system(repl->session, count, &system, sizeof system); count++) {
+    prompt_complete_frame(prompt);
+    for (; petri_system(prompt->session, count, &system, sizeof system); count++) {
         if (matches_name(system.name, wanted)) {
-            show(repl, count, &system, request);
+            show(prompt, count, &system, request);
             shown++;
         }
     }
     if (count == 0) {
-        repl_note(repl, petri_frame_number(repl->session) < 0 ? "no particles before the first frame; run .step"
-                                                              : "no particle system was updated in this frame");
+        prompt_note(prompt, petri_frame_number(prompt->session) < 0 ? "no particles before the first frame; run .step"
+                                                                    : "no particle system was updated in this frame");
     } else if (shown == 0) {
-        return repl_fail(repl, "no such system: '%.40s'", wanted);
+        return prompt_fail(prompt, "no such system: '%.40s'", wanted);
     }
     return true;
 }
@@ -174,18 +182,18 @@ static uint32_t count_anchors(const PetriSystem *system) {
     return anchors;
 }
 
-static void print_particles(Repl *repl, size_t number, const PetriSystem *system, const SystemRequest *request) {
+static void print_particles(Prompt *prompt, size_t number, const PetriSystem *system, const SystemRequest *request) {
     SCOPED_TEXT_TABLE table = text_table_new(5);
     uint32_t anchors = count_anchors(system), moving = system->particle_count - anchors;
-    output_format(&repl->output, "%s: %" PRIu32 " particle%s", system->name, moving, moving == 1 ? "" : "s");
+    output_format(prompt->output, "%s: %" PRIu32 " particle%s", system->name, moving, moving == 1 ? "" : "s");
     if (anchors > 0)
-        output_format(&repl->output, ", %" PRIu32 " anchor%s", anchors, anchors == 1 ? "" : "s");
-    output_write(&repl->output, "\n", 1);
+        output_format(prompt->output, ", %" PRIu32 " anchor%s", anchors, anchors == 1 ? "" : "s");
+    output_write(prompt->output, "\n", 1);
     const char *const heads[] = {"id", "position", "velocity", "speed", "force"};
     for (size_t i = 0; i < 5; i++)
         text_table_add(&table, heads[i]);
     for (uint32_t i = 0; i < request->max_lines && i < system->particle_count; i++) {
-        const char *id = petri_format_value(repl->session, petri_particle_id(repl->session, number, i));
+        const char *id = petri_format_value(prompt->session, petri_particle_id(prompt->session, number, i));
         text_table_add(&table, !id ? "" : id);
         add_vector(&table, particle_row(system->position, i), system->dimensions);
         add_vector(&table, particle_row(system->velocity, i), system->dimensions);
@@ -195,19 +203,20 @@ static void print_particles(Repl *repl, size_t number, const PetriSystem *system
         else
             add_vector(&table, particle_row(system->force, i), system->dimensions);
     }
-    text_table_write(&table, &repl->output);
+    text_table_write(&table, prompt->output);
     if (system->particle_count > request->max_lines) {
-        repl_note(repl, "%zu more particles; '.particles%s%s all' shows all",
-                  system->particle_count - request->max_lines, request->system[0] == '\0' ? "" : " ", request->system);
+        prompt_note(prompt, "%zu more particles; '.particles%s%s all' shows all",
+                    system->particle_count - request->max_lines, request->system[0] == '\0' ? "" : " ",
+                    request->system);
     }
 }
 
-static bool run_particles(Repl *repl, const char *rest) {
+static bool run_particles(Prompt *prompt, const char *rest) {
     // Screen lines reserved for the command, title, column heads, closing note and prompt.
     enum { RESERVED_TABLE_LINES = 5 };
     SCOPED_STRING system = memory_strdup(rest);
-    SystemRequest request = {.system = system, .max_lines = argument_lines(repl, system, RESERVED_TABLE_LINES)};
-    bool good = print_systems(repl, &request, print_particles);
+    SystemRequest request = {.system = system, .max_lines = argument_lines(prompt, system, RESERVED_TABLE_LINES)};
+    bool good = print_systems(prompt, &request, print_particles);
     return good;
 }
 
@@ -218,49 +227,49 @@ static void add_motion_row(void *user_data, const char *name, const char *value)
     text_table_add(user_data, value);
 }
 
-static void print_energy(Repl *repl, size_t number, const PetriSystem *system, const SystemRequest *request) {
+static void print_energy(Prompt *prompt, size_t number, const PetriSystem *system, const SystemRequest *request) {
     enum { DIGITS = 6 };
     (void)request;
     SCOPED_TEXT_TABLE table = text_table_new(2);
     uint32_t moving = motion_count(system);
-    output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, moving,
+    output_format(prompt->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, moving,
                   moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
-    motion_rows(repl->session, number, system, DIGITS, UINT32_MAX, add_motion_row, &table);
-    text_table_write(&table, &repl->output);
+    motion_rows(prompt->session, number, system, DIGITS, UINT32_MAX, add_motion_row, &table);
+    text_table_write(&table, prompt->output);
 }
 
-static bool run_energy(Repl *repl, const char *wanted) {
-    return print_systems(repl, &(SystemRequest){.system = wanted}, print_energy);
+static bool run_energy(Prompt *prompt, const char *wanted) {
+    return print_systems(prompt, &(SystemRequest){.system = wanted}, print_energy);
 }
 
-static bool run_watch(Repl *repl, const char *rest) {
+static bool run_watch(Prompt *prompt, const char *rest) {
     PetriEvaluation result;
-    for (size_t i = 0; i < repl->watched.count && rest[0] == '\0'; i++)
-        repl_note(repl, "%s", repl->watched.items[i]);
+    for (size_t i = 0; i < prompt->watched.count && rest[0] == '\0'; i++)
+        prompt_note(prompt, "%s", prompt->watched.items[i]);
     if (rest[0] == '\0')
         return true;
     SCOPED_TEXT value = {0};
-    if (!repl_status(repl, petri_evaluate(repl->session, rest, PETRI_NUL_TERMINATED, &result, sizeof result,
-                                          text_collect, &value)))
+    if (!prompt_status(prompt, petri_evaluate(prompt->session, rest, PETRI_NUL_TERMINATED, &result, sizeof result,
+                                              text_collect, &value)))
         return false;
-    output_format(&repl->output, "%s = %s\n", rest, value.bytes);
-    if (!texts_contain(&repl->watched, rest))
-        texts_add(&repl->watched, rest);
+    output_format(prompt->output, "%s = %s\n", rest, value.bytes);
+    if (!texts_contain(&prompt->watched, rest))
+        texts_add(&prompt->watched, rest);
     return true;
 }
 
-static bool run_unwatch(Repl *repl, const char *rest) {
-    size_t kept = 0, count = repl->watched.count;
+static bool run_unwatch(Prompt *prompt, const char *rest) {
+    size_t kept = 0, count = prompt->watched.count;
     for (size_t i = 0; i < count; i++)
-        if (rest[0] == '\0' || strcmp(rest, repl->watched.items[i]) == 0)
-            free(repl->watched.items[i]);
+        if (rest[0] == '\0' || strcmp(rest, prompt->watched.items[i]) == 0)
+            free(prompt->watched.items[i]);
         else
-            repl->watched.items[kept++] = repl->watched.items[i];
-    repl->watched.count = kept;
-    return rest[0] == '\0' || kept < count || repl_fail(repl, "not watched: '%s'", rest);
+            prompt->watched.items[kept++] = prompt->watched.items[i];
+    prompt->watched.count = kept;
+    return rest[0] == '\0' || kept < count || prompt_fail(prompt, "not watched: '%s'", rest);
 }
 
-const ReplCommand PRINT_COMMANDS[] = {
+const PromptCommand PRINT_COMMANDS[] = {
     {".state", "[KEY] [N|all]", NULL, "print the state, or its entries under KEY, such as :cells; at most N lines",
      run_state, COMPLETE_KEYS},
     {".tree", "[KIND] [N|all]", NULL, "print the frame's nodes, or only those of KIND; at most N lines", run_tree,

@@ -1,10 +1,9 @@
 // complete.c: completion of words at the prompt.
 #include "cli/help.h"
 #include "petri-inspect.h"
-#include "repl/repl.h"
+#include "prompt/prompt.h"
 
 #include <ctype.h>
-#include <glob.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +11,7 @@ enum { MAX_SHOWN = 100, LINE_WIDTH = 78 };
 
 // A word being completed. Candidates that begin with the typed text are added to `found`.
 typedef struct Search {
-    Repl *repl;
+    Prompt *prompt;
     const char *typed;
     size_t length;
     Completion *found;
@@ -34,8 +33,8 @@ static bool is_word(char c) {
 }
 
 static void offer_commands(Search *search) {
-    const ReplCommand *command;
-    for (size_t i = 0; (command = repl_command_at(i)); i++)
+    const PromptCommand *command;
+    for (size_t i = 0; (command = prompt_command_at(i)); i++)
         add_candidate(search, command->name);
 }
 
@@ -49,7 +48,7 @@ static void offer_names(Search *search) {
     static const char *const words[] = {"let", "func", "import", "for", "if"};
     PetriBuiltin builtin;
     const char *name;
-    for (size_t i = 0; (name = petri_visible_name(search->repl->session, i)); i++)
+    for (size_t i = 0; (name = petri_visible_name(search->prompt->session, i)); i++)
         add_candidate(search, name);
     for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++)
         add_candidate(search, builtin.name);
@@ -70,7 +69,7 @@ static void offer_keys(Search *search) {
     SCOPED_TEXT state = {0};
     Str line;
     size_t at = 0;
-    petri_print(search->repl->session, PETRI_PRINT_STATE, text_collect, &state);
+    petri_print(search->prompt->session, PETRI_PRINT_STATE, text_collect, &state);
     while (text_next_line(&state, &at, &line)) {
         const char *end = line.bytes[0] == '$' ? strstr(line.bytes, " = ") : NULL;
         if (end) {
@@ -82,18 +81,13 @@ static void offer_keys(Search *search) {
 
 static void offer_systems(Search *search) {
     PetriSystem system;
-    for (size_t i = 0; petri_system(search->repl->session, i, &system, sizeof system); i++)
+    for (size_t i = 0; petri_system(search->prompt->session, i, &system, sizeof system); i++)
         add_candidate(search, system.name);
 }
 
 static void offer_files(Search *search) {
-    SCOPED_TEXT pattern = {0};
-    glob_t found = {0};
-    text_add_format(&pattern, "%s*", search->typed);
-    glob(pattern.bytes, 0, NULL, &found);
-    for (size_t i = 0; i < found.gl_pathc; i++)
-        add_candidate(search, found.gl_pathv[i]);
-    globfree(&found);
+    if (search->prompt->host->add_files)
+        search->prompt->host->add_files(search->prompt, search->typed, &search->found->words);
 }
 
 // Returns the kind of the node to which an attribute at `at` would belong, and sets *length to the length of the kind.
@@ -156,7 +150,7 @@ static void search_language(Search *search, const char *line, size_t length) {
 
 static void offer_parameters(Search *search) {
     PetriParameter parameter;
-    for (size_t i = 0; petri_parameter(search->repl->session, i, &parameter, sizeof parameter) && parameter.settable;
+    for (size_t i = 0; petri_parameter(search->prompt->session, i, &parameter, sizeof parameter) && parameter.settable;
          i++)
         add_candidate(search, parameter.name);
 }
@@ -179,7 +173,7 @@ static void search_operand(Search *search, const char *line, size_t name, size_t
     };
     size_t start = name + strspn(line + name, " \t");
     begin_search(search, line, start < length ? start : length, length);
-    const ReplCommand *command = repl_find_command(line, name);
+    const PromptCommand *command = prompt_find_command(line, name);
     if (command && command->complete != COMPLETE_LANGUAGE)
         offers[command->complete](search);
     else
@@ -214,9 +208,9 @@ static void find_common(Completion *completion, size_t typed) {
     text_add(&completion->common, (Str){first + typed, length - typed});
 }
 
-void complete_line(Repl *repl, const char *line, size_t length, Completion *completion) {
+void complete_line(Prompt *prompt, const char *line, size_t length, Completion *completion) {
     SCOPED_STRING text = memory_strndup(line, length);
-    Search search = {.repl = repl, .found = completion};
+    Search search = {.prompt = prompt, .found = completion};
     *completion = (Completion){0};
     size_t name = strcspn(text, " \t");
     if (text[0] != '.') {

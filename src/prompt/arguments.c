@@ -1,13 +1,12 @@
 // arguments.c: parsing the operands of commands.
-#include "cli/progress.h"
-#include "repl/repl.h"
+#include "prompt/prompt.h"
 
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char BLANKS[] = " \t\r\n";
 
@@ -39,37 +38,39 @@ static bool read_count(const char *text, int64_t *count) {
 
 // Parses a number or evaluates an expression. *number may be infinite or NaN. On failure, writes a message and returns
 // false.
-static bool evaluate_number(Repl *repl, const char *text, double *number) {
+static bool evaluate_number(Prompt *prompt, const char *text, double *number) {
     PetriEvaluation result;
     if (petri_parse_number(text, number) && isfinite(*number))
         return true;
-    repl_busy(repl);
-    PetriStatus status = petri_evaluate(repl->session, text, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
-    repl_idle(repl);
-    if (!repl_status(repl, status))
+    prompt_busy(prompt);
+    PetriStatus status =
+        petri_evaluate(prompt->session, text, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
+    prompt_idle(prompt);
+    if (!prompt_status(prompt, status))
         return false;
     *number = result.number;
     return true;
 }
 
-bool argument_number(Repl *repl, const char *text, double *number) {
-    return evaluate_number(repl, text, number) && (isfinite(*number) || repl_fail(repl, "not a number: '%.40s'", text));
+bool argument_number(Prompt *prompt, const char *text, double *number) {
+    return evaluate_number(prompt, text, number) &&
+           (isfinite(*number) || prompt_fail(prompt, "not a number: '%.40s'", text));
 }
 
-bool argument_count(Repl *repl, const char *text, int64_t min, int64_t *count) {
+bool argument_count(Prompt *prompt, const char *text, int64_t min, int64_t *count) {
     static const double max = 9007199254740992; // 2^53: above it, doubles cannot represent every integer
     double value = 0;
     if (text[0] == '\0' || (read_count(text, count) && *count >= min))
         return true;
-    if (!evaluate_number(repl, text, &value))
+    if (!evaluate_number(prompt, text, &value))
         return false;
     if (!(value == floor(value) && value >= (double)min && value <= max))
-        return repl_fail(repl, "not an integer >= %" PRId64 ": '%.40s'", min, text);
+        return prompt_fail(prompt, "not an integer >= %" PRId64 ": '%.40s'", min, text);
     *count = (int64_t)value;
     return true;
 }
 
-bool argument_limit(Repl *repl, char *text, int64_t *limit) {
+bool argument_limit(Prompt *prompt, char *text, int64_t *limit) {
     static const char option[] = "--limit";
     char *at = text;
     while ((at = strstr(at, option))) {
@@ -78,8 +79,8 @@ bool argument_limit(Repl *repl, char *text, int64_t *limit) {
         char *after = end + strspn(end, BLANKS);
         if ((at == text || is_blank(at[-1])) && (at == text || *after == '\0')) {
             SCOPED_STRING number = memory_strndup(word, (size_t)(end - word));
-            bool good = number[0] != '\0' ? argument_count(repl, number, 1, limit)
-                                          : repl_fail(repl, "--limit needs a number of frames");
+            bool good = number[0] != '\0' ? argument_count(prompt, number, 1, limit)
+                                          : prompt_fail(prompt, "--limit needs a number of frames");
             memmove(at, after, strlen(after) + 1);
             trim_end(text);
             return good;
@@ -106,14 +107,13 @@ void argument_last_count(char *text, int64_t *count) {
     }
 }
 
-static size_t screen_lines(const Repl *repl, size_t around) {
-    enum { MIN_LINES = 5, DEFAULT_LINES = 24 };
-    int columns = 0, rows = DEFAULT_LINES;
-    terminal_extent(STDOUT_FILENO, &columns, &rows);
-    return !repl->terminal ? SIZE_MAX : (size_t)rows > around + MIN_LINES ? (size_t)rows - around : MIN_LINES;
+static size_t screen_lines(Prompt *prompt, size_t around) {
+    enum { MIN_LINES = 5 };
+    size_t rows = prompt->host->rows ? prompt->host->rows(prompt) : SIZE_MAX;
+    return rows == SIZE_MAX ? rows : rows > around + MIN_LINES ? rows - around : MIN_LINES;
 }
 
-size_t argument_lines(const Repl *repl, char *text, size_t around) {
+size_t argument_lines(Prompt *prompt, char *text, size_t around) {
     char *last = last_word(text), *before = last;
     while (before > text && is_blank(before[-1]))
         before--;
@@ -121,7 +121,7 @@ size_t argument_lines(const Repl *repl, char *text, size_t around) {
     // After a semicolon, a number is part of a key, as in `:p; 2`.
     bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';';
     if (open || (!all && !(read_count(last, &count) && count > 0)))
-        return screen_lines(repl, around);
+        return screen_lines(prompt, around);
     *before = '\0';
     return all ? SIZE_MAX : (size_t)count;
 }

@@ -1,0 +1,43 @@
+// prompt.c: executes inputs of the prompt; see prompt.h.
+#include "prompt/prompt.h"
+
+#include <string.h>
+
+static void execute_statement(Prompt *prompt, const char *text, size_t length) {
+    PetriPromptResult done;
+    prompt_busy(prompt);
+    PetriStatus status = petri_prompt(prompt->session, text, length, output_write, prompt->output, &done, sizeof done);
+    prompt_idle(prompt);
+    if (done.shadowed) {
+        SCOPED_STRING name = memory_strdup(done.shadowed);
+        prompt_warn_shadowed(prompt, name);
+    }
+    if (done.nodes > 0)
+        prompt_note(prompt, "nodes are added to the scene at the next step; .drop removes them");
+    prompt_status(prompt, status);
+}
+
+// If the text begins with a dot and is not a number such as .5, executes it as a command. Otherwise tries to execute it
+// as a command without its dot (bare_execute), and then as code.
+static void execute_text(Prompt *prompt, const char *text, size_t length) {
+    SCOPED_TEXT remark = {0};
+    size_t start = strspn(text, " \t");
+    if (text[start] == '.' && (text[start + 1] < '0' || text[start + 1] > '9') && text[start + 1] != '.')
+        prompt_command(prompt, text + start);
+    else if (!bare_execute(prompt, text, &remark))
+        execute_statement(prompt, text, length);
+    if (remark.len > 0 && (prompt->failed || bare_alias(text + start, strcspn(text + start, " \t\n"))))
+        prompt_note(prompt, "%s", remark.bytes);
+}
+
+bool prompt_execute(Prompt *prompt, const char *text, size_t length) {
+    prompt->failed = false;
+    execute_text(prompt, text, length);
+    output_flush(prompt->output);
+    return !prompt->failed;
+}
+
+void prompt_end(Prompt *prompt) {
+    texts_free(&prompt->watched);
+    texts_free(&prompt->definitions);
+}

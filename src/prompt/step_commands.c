@@ -1,0 +1,234 @@
+// step_commands.c: commands that move forward and back by frames, and their output.
+#include "petri-inspect.h"
+#include "prompt/prompt.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// A request to compute frames. Computing ends after `count` frames, when `until` is true, or on Ctrl-C.
+typedef struct StepRequest {
+    int64_t count;
+    const char *until; // expression; NULL: none
+    bool limited;      // true if `count` is the limit that --limit sets; a note then reports that the limit was reached
+} StepRequest;
+
+// Appends `EXPR = value` for each watched expression.
+static void add_watched(Prompt *prompt, Text *text) {
+    for (size_t i = 0; i < prompt->watched.count; i++) {
+        PetriEvaluation result;
+        SCOPED_TEXT value = {0};
+        const char *expression = prompt->watched.items[i];
+        PetriStatus status = petri_evaluate(prompt->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result,
+                                            text_collect, &value);
+        text_add_format(text, "%s = ", expression);
+        text_add(text, (Str){status == PETRI_OK ? value.bytes : "?", status == PETRI_OK ? value.len : 1});
+        text_add_c(text, "\n");
+    }
+}
+
+// Appends the frame's text. Returns true if other lines follow its `@` line.
+static bool format_frame(Prompt *prompt, Text *text) {
+    petri_print(prompt->session, PETRI_PRINT_LOG, text_collect, text);
+    add_watched(prompt, text);
+    return memchr(text->bytes, '\n', text->len) != text->bytes + text->len - 1;
+}
+
+// Writes the current frame's `@` line, its log and the watched expressions.
+static void show_frame(Prompt *prompt) {
+    SCOPED_TEXT text = {0};
+    if (petri_frame_number(prompt->session) < 0) {
+        prompt_note(prompt, "this is before the first frame");
+        return;
+    }
+    petri_preview(prompt->session); // recomputes the log if a change of settings has discarded it
+    format_frame(prompt, &text);
+    output_write(prompt->output, text.bytes, text.len);
+}
+
+static void show_progress(Prompt *prompt, int64_t done, int64_t total) {
+    if (prompt->host->show_progress)
+        prompt->host->show_progress(prompt, done, total);
+}
+
+// Writes the frame if it is the last frame or has a log or watched expressions. Returns true if it was written.
+static bool show_step(Prompt *prompt, bool last) {
+    SCOPED_TEXT text = {0};
+    bool shown = format_frame(prompt, &text) || last;
+    if (shown) {
+        show_progress(prompt, 0, 0);
+        output_write(prompt->output, text.bytes, text.len);
+        if (prompt->live)
+            output_flush(prompt->output);
+    }
+    return shown;
+}
+
+typedef enum Outcome { RUNNING, REACHED, ABORTED } Outcome;
+
+static Outcome step_once(Prompt *prompt, const StepRequest *request) {
+    PetriEvaluation result = {0};
+    PetriStatus status = prompt->host->step ? prompt->host->step(prompt) : petri_history_step(prompt->history);
+    if (status == PETRI_OK && request->until)
+        status =
+            petri_evaluate(prompt->session, request->until, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
+    if (status != PETRI_OK && status != PETRI_INTERRUPTED) {
+        prompt_status(prompt, status);
+        return ABORTED;
+    }
+    return result.is_true ? REACHED : RUNNING;
+}
+
+static void report_outcome(Prompt *prompt, const StepRequest *request, int64_t frames, Outcome outcome) {
+    prompt->incomplete = prompt->host->interrupted(prompt);
+    if (prompt->incomplete)
+        prompt_fail(prompt, "interrupted after %" PRId64 " frame%s", frames, frames == 1 ? "" : "s");
+    else if (outcome == RUNNING && request->until)
+        prompt_fail(prompt, "the condition was not true within %" PRId64 " frame%s; --limit sets this maximum", frames,
+                    frames == 1 ? "" : "s");
+    else if (outcome == RUNNING && request->limited)
+        prompt_note(prompt, "stopped after %" PRId64 " frames; --limit sets this maximum", frames);
+}
+
+static void refresh(Prompt *prompt) {
+    if (prompt->host->before_frames)
+        prompt->host->before_frames(prompt);
+    prompt->failed = false; // a failed reload is not a failure of the step, because the old script continues
+}
+
+static bool step_frames(Prompt *prompt, const StepRequest *request) {
+    Outcome outcome = RUNNING;
+    int64_t frames = 0;
+    refresh(prompt);
+    prompt_busy(prompt);
+    bool shown = true;
+    while (frames < request->count && outcome == RUNNING && !prompt->host->interrupted(prompt) &&
+           prompt->output->error == 0) {
+        int64_t before = petri_frame_number(prompt->session);
+        outcome = step_once(prompt, request);
+        if (petri_frame_number(prompt->session) == before)
+            break;
+        frames++;
+        shown = show_step(prompt, frames == request->count || outcome != RUNNING);
+        show_progress(prompt, frames, request->count);
+    }
+    show_progress(prompt, 0, 0);
+    prompt_idle(prompt);
+    if (!shown)
+        show_step(prompt, true);
+    report_outcome(prompt, request, frames, outcome);
+    if (prompt->host->after_frames)
+        prompt->host->after_frames(prompt);
+    return !prompt->failed;
+}
+
+// Goes to a frame. Within the history, goes there directly. Beyond its end, computes frame by frame and shows a
+// progress line. `last` is the last frame of the history.
+static PetriStatus seek_frame(Prompt *prompt, int64_t frame, int64_t last) {
+    int64_t frames = 0;
+    PetriStatus status = prompt_go_to(prompt, frame < last ? frame : last);
+    while (status == PETRI_OK && petri_frame_number(prompt->session) < frame) {
+        status = prompt_go_to(prompt, last + ++frames);
+        show_progress(prompt, frames, frame - last);
+    }
+    show_progress(prompt, 0, 0);
+    return status;
+}
+
+static bool go_to(Prompt *prompt, int64_t frame) {
+    refresh(prompt);
+    prompt_busy(prompt);
+    PetriHistoryInfo history = prompt_timeline(prompt);
+    PetriStatus status = seek_frame(prompt, frame, history.last);
+    bool stopped = prompt_idle(prompt);
+    prompt->incomplete = stopped;
+    if (stopped)
+        prompt_fail(prompt, "interrupted");
+    else if (status == PETRI_INVALID && frame < history.first)
+        prompt_fail(prompt, "cannot go to frame %" PRId64 ": the history starts at frame %" PRId64 "%s%s", frame,
+                    history.first, !history.reason ? "" : ": ", !history.reason ? "" : history.reason);
+    else if (status == PETRI_INVALID)
+        prompt_fail(prompt, "cannot go to that frame");
+    else
+        prompt_status(prompt, status);
+    if (status == PETRI_OK || stopped)
+        show_frame(prompt);
+    return status == PETRI_OK;
+}
+
+static bool run_step(Prompt *prompt, const char *rest) {
+    int64_t count = 1;
+    return argument_count(prompt, rest, 1, &count) && step_frames(prompt, &(StepRequest){.count = count});
+}
+
+static bool run_run(Prompt *prompt, const char *rest) {
+    double seconds = 0;
+    if (rest[0] == '\0')
+        return step_frames(prompt, &(StepRequest){.count = prompt->limit, .limited = true});
+    if (!argument_number(prompt, rest, &seconds))
+        return false;
+    if (seconds < 0)
+        return prompt_fail(prompt, "not a time: '%s'; use seconds or a time code such as 1:30", rest);
+    PetriFrame frame;
+    petri_frame(prompt->session, &frame, sizeof frame);
+    double frames = ceil(seconds * frame.fps - 1e-9);
+    bool limited = frames > (double)prompt->limit;
+    return step_frames(prompt, &(StepRequest){.count = limited ? prompt->limit : (int64_t)frames, .limited = limited});
+}
+
+static bool run_until(Prompt *prompt, const char *rest) {
+    SCOPED_STRING expression = memory_strdup(rest);
+    int64_t limit = prompt->limit;
+    if (!argument_limit(prompt, expression, &limit))
+        return false;
+    if (expression[0] == '\0')
+        return prompt_fail(prompt, ".until needs an expression");
+    PetriEvaluation result; // unused: this only checks the expression
+    return prompt_status(prompt, petri_evaluate(prompt->session, expression, PETRI_NUL_TERMINATED, &result,
+                                                sizeof result, NULL, NULL)) &&
+           step_frames(prompt, &(StepRequest){.count = limit, .until = expression});
+}
+
+static bool run_back(Prompt *prompt, const char *rest) {
+    PetriHistoryInfo history = prompt_timeline(prompt);
+    int64_t count = 1, ago = petri_frame_number(prompt->session) - history.first;
+    if (!argument_count(prompt, rest, 1, &count))
+        return false;
+    if (count <= ago)
+        return go_to(prompt, petri_frame_number(prompt->session) - count);
+    SCOPED_TEXT start = {0}; // the reason why the history does not start earlier
+    text_add_format(&start, !history.reason ? "this is the start" : "the history starts here (%s)", history.reason);
+    if (ago > 0)
+        prompt_note(prompt, "went back only %" PRId64 " frame%s: %s", ago, ago == 1 ? "" : "s", start.bytes);
+    else
+        prompt_fail(prompt, "cannot go back: %s", start.bytes);
+    return ago > 0 && go_to(prompt, history.first);
+}
+
+static bool run_go(Prompt *prompt, const char *rest) {
+    int64_t frame = -1;
+    return argument_count(prompt, rest, -1, &frame) && go_to(prompt, frame);
+}
+
+static bool run_reset(Prompt *prompt, const char *rest) {
+    (void)rest;
+    if (prompt->host->go_to)
+        return go_to(prompt, prompt_timeline(prompt).first);
+    if (!prompt_status(prompt, petri_history_reset(prompt->history)))
+        return false;
+    show_frame(prompt);
+    return true;
+}
+
+const PromptCommand STEP_COMMANDS[] = {
+    {".step", "[N]", NULL, "compute N frames (default: 1)", run_step, COMPLETE_LANGUAGE},
+    {".run", "[T]", NULL, "compute frames for T seconds of script time, or until Ctrl-C", run_run, COMPLETE_LANGUAGE},
+    {".until", "EXPR [--limit N]", "an expression", "compute frames until EXPR is true, at most N", run_until,
+     COMPLETE_LANGUAGE},
+    {".back", "[N]", NULL, "go back N frames (default: 1), at most to the start", run_back, COMPLETE_LANGUAGE},
+    {".goto", "FRAME", "the number of a frame", "go to a frame, back or forward; -1: before frame 0", run_go,
+     COMPLETE_LANGUAGE},
+    {".reset", "", NULL, "go back to the start of the session", run_reset, COMPLETE_LANGUAGE},
+    {0},
+};
