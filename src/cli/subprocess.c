@@ -34,8 +34,13 @@ int subprocess_default_jobs(void) {
     return host_processors();
 }
 
-bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv) {
+bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv, unsigned seconds) {
     (void)program;
+    (void)seconds;
+    if (strcmp(argv[0], "petri") != 0) {
+        errno = ENOSYS;
+        return false;
+    }
     *child = (Subprocess){.output = subprocess_temporary_file(), .errors = subprocess_temporary_file()};
     child->pid = child->output < 0 || child->errors < 0 ? -1 : host_start(folder, argv, child->output, child->errors);
     return child->pid > 0;
@@ -68,22 +73,23 @@ int subprocess_default_jobs(void) {
 
 // Runs in the child after fork. Must not take locks or allocate memory, because another thread may have
 // held a lock during fork.
-static void exec_program(const Subprocess *child, const char *program, const char *folder, char **argv) {
+static void exec_program(const Subprocess *child, const char *program, const char *folder, char **argv,
+                         unsigned seconds) {
     int nothing = open("/dev/null", O_RDONLY);
     if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(child->output, STDOUT_FILENO) < 0 ||
         dup2(child->errors, STDERR_FILENO) < 0 || chdir(folder) != 0)
         _exit(STATUS_FAILED);
     // Ends a script that hangs. The alarm remains set after exec.
-    alarm(SUBPROCESS_MAX_SECONDS);
+    alarm(seconds);
     execvp(program, argv);
     _exit(STATUS_FAILED);
 }
 
-bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv) {
+bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv, unsigned seconds) {
     *child = (Subprocess){.output = subprocess_temporary_file(), .errors = subprocess_temporary_file()};
     child->pid = child->output < 0 || child->errors < 0 ? -1 : fork();
     if (child->pid == 0)
-        exec_program(child, program, folder, argv);
+        exec_program(child, program, folder, argv, seconds);
     if (child->pid < 0) {
         int error = errno;
         close(child->output);
@@ -147,6 +153,14 @@ static const char *read_output(int fd, Text *text) {
 const char *subprocess_collect(Subprocess *child, Text *output, Text *errors) {
     const char *problem = read_output(child->output, output), *second = read_output(child->errors, errors);
     return problem ? problem : second;
+}
+
+int subprocess_run(const char *program, const char *folder, char **argv, unsigned seconds, Text *output, Text *errors) {
+    Subprocess child;
+    if (!subprocess_start(&child, program, folder, argv, seconds))
+        return -1;
+    int status = subprocess_wait_for(child.pid);
+    return subprocess_collect(&child, output, errors) ? -1 : status;
 }
 
 void subprocess_describe(int status, const Text *errors, Text *error_text) {

@@ -19,9 +19,12 @@ int subprocess_default_jobs(void);
 // Returns the descriptor of a file that is deleted when it is closed, or -1. Unlike a pipe, the file never blocks a
 // process that writes to it.
 int subprocess_temporary_file(void);
-// Starts a program with `folder` as its working directory. `argv` is as for execv. Returns false and sets errno on
-// failure. The program is killed after SUBPROCESS_MAX_SECONDS.
-bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv);
+// Starts a program, which is searched in PATH, with `folder` as its working directory. `argv` is as for execv. Returns
+// false and sets errno on failure. The program is killed after `seconds`.
+bool subprocess_start(Subprocess *child, const char *program, const char *folder, char **argv, unsigned seconds);
+// Starts a program in the same way and waits until it ends. Adds its output and its messages to the texts, and returns
+// its status as waitpid does. Returns -1 with errno set on failure.
+int subprocess_run(const char *program, const char *folder, char **argv, unsigned seconds, Text *output, Text *errors);
 // Starts a program, which is searched in PATH, with the default signal mask and action for SIGPIPE. files[i] becomes
 // its descriptor i; -1 means /dev/null. If `own_group` is true, Ctrl-C in the terminal does not reach it. `words` are
 // as for execv. Returns the process id, or -1 with errno set.

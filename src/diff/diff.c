@@ -251,14 +251,16 @@ const Command DIFF_COMMAND = {
     .details =
         "Compares two runs frame by frame, to the last bit. Prints the first frame that differs: the first value of\n"
         "its state that differs, and for a particle the first force whose contribution differs, with its position in\n"
-        "the script. A and B are scripts, archives, goldens or state files; a golden is compared with its script if\n"
-        "B is not given. Exits with 0 if the runs are the same, 1 if they differ, and 2 after an error.\n"
+        "the script. A and B are scripts, archives, goldens or state files, or REVISION:SCRIPT for a script in git; a\n"
+        "golden is compared with its script if B is not given. Exits with 0 if the runs are the same, 1 if they\n"
+        "differ, and 2 after an error.\n"
         "\n"
         "Options apply to both runs, those after --against only to the second one. If there is an --against, -D\n"
         "before it sets parameters of the first run only.",
     .examples = "  petri diff old.fl new.fl --frames 1000          compare two scripts\n"
                 "  petri diff dish.fl -D N=10 --against -D N=11    compare two values of a parameter\n"
                 "  petri diff run.petri dish.fl                    compare an archive with the script as it is now\n"
+                "  petri diff HEAD:dish.fl dish.fl                 compare a script with the one in git\n"
                 "  petri diff dish.golden                          compare a golden with its script\n"
                 "  petri diff dish.fl --with ./old/petri           compare two builds of petri\n",
     .missing_operand = "no script given",

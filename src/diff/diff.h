@@ -12,6 +12,7 @@
 #include <sys/types.h>
 
 typedef struct Side Side;
+typedef struct CommittedFile CommittedFile;
 
 typedef struct SideKind {
     // Goes to the next frame. Returns false if there is none, or after a message if it failed (Side.failed).
@@ -37,6 +38,8 @@ struct Side {
     PetriSession *session;        // NULL: only printed frames are known
     int64_t computed;             // number of computed frames
     struct PetriArchive *archive; // archive that is replayed; NULL: none
+    char *revision;               // of git that the script is read from; NULL: none
+    CommittedFile *committed;     // files read from this revision
     TextList *reported;           // diagnostics of both sides, each of which is shown once
     // A side that is read as text:
     FILE *stream;
@@ -52,6 +55,14 @@ void side_close(Side *side);
 // Computes frames up to a frame number in another process and returns its answer to a command of the prompt, or NULL
 // after a failure. The caller frees the answer.
 char *side_ask(const Side *side, int64_t frame, const char *command);
+
+// committed.c: scripts as git has them, REVISION:FILE.
+bool committed_is(const char *source);
+// Loads the script into the session. Returns false after a message.
+bool committed_load(Side *side);
+// Options.unsaved with a Side as its host: returns a file of the revision, or NULL if git does not have it.
+const char *committed_read(void *context, const char *path, size_t *length);
+void committed_free(Side *side);
 
 // printed.c: opens a golden, or starts the program `with`, and reads the frames that it prints.
 bool printed_open_golden(Side *side);

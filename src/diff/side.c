@@ -66,6 +66,16 @@ static bool open_script(Side *side) {
     return open_session(side) && script_load(side->session, side->source) == PETRI_OK;
 }
 
+// Opens a script as it is in git.
+static bool open_committed(Side *side) {
+    Options options = *side->options;
+    side->kind = &SCRIPT_SIDE;
+    options.unsaved = committed_read;
+    options.unsaved_host = side;
+    return options_open(&options, side->host, on_diagnostic, side, &side->session) == OPTIONS_READ &&
+           committed_load(side);
+}
+
 // --- archives
 
 // Compares archived frames by computing them.
@@ -137,6 +147,8 @@ bool side_is_golden(const char *source) {
 bool side_open(Side *side) {
     if (side_is_golden(side->source))
         return printed_open_golden(side);
+    if (!side->with && committed_is(side->source))
+        return open_committed(side);
     if (!script_is_stdin(side->source) && is_state_file(side->source))
         return open_state(side);
     if (!side->with && !script_is_stdin(side->source) && petri_archive_is(side->source))
@@ -147,6 +159,7 @@ bool side_open(Side *side) {
 void side_close(Side *side) {
     if (side->kind)
         side->kind->close(side);
+    committed_free(side);
     text_free(&side->label);
     text_free(&side->current);
     text_free(&side->ahead);

@@ -13,6 +13,7 @@ static void add_test(TestList *list, const TestKind *kind, const char *script, c
     *test = (TestCase){.kind = kind, .script = memory_strdup(script), .recorded = recorded};
     test->name = test->script + path_directory(str_from(test->script)).len;
     test->result.name = kind->own_name ? recorded : test->script;
+    test->result.file = recorded;
 }
 
 // Adds a test file. If its script is missing, the test has failed: the script may have been renamed.
@@ -51,6 +52,7 @@ static void free_test(TestCase *test) {
     free(test->script);
     free(test->recorded);
     text_free(&test->result.error_text);
+    text_free(&test->result.details);
 }
 
 // Sorts the tests and removes those that are there twice: from a script and from its test file.

@@ -76,10 +76,11 @@ static bool read_remark(Golden *golden, const char *line, size_t length, Text *e
     return false;
 }
 
-// Returns the option of `petri run` that `word` names, such as `--frames`. Returns NULL if there is no such
-// option; `petri run` then reports the error.
-static const OptionSpec *find_option(const char *word, size_t length) {
-    for (const OptionSpec *spec = RUN_OPTIONS.rows; spec->name; spec++) {
+const OptionSpec *golden_option(const OptionSpec *rows, const char *word) {
+    size_t length = strcspn(word, "=");
+    if (word[0] != '-' || length < 2)
+        return NULL;
+    for (const OptionSpec *spec = rows; spec->name; spec++) {
         bool same = word[1] == '-' ? strlen(spec->name) == length - 2 && memcmp(spec->name, word + 2, length - 2) == 0
                                    : spec->letter == word[1];
         if (same)
@@ -88,17 +89,20 @@ static const OptionSpec *find_option(const char *word, size_t length) {
     return NULL;
 }
 
+bool golden_option_is_alone(const char *word) {
+    size_t length = strcspn(word, "=");
+    return word[length] == '\0' && (word[1] == '-' || length == 2);
+}
+
 bool golden_check_options(const TextList *words, Text *error_text) {
     for (size_t i = 0; i < words->count; i++) {
         const char *word = words->items[i];
-        size_t length = strcspn(word, "=");
-        const OptionSpec *spec = word[0] == '-' && length > 1 ? find_option(word, length) : NULL;
+        const OptionSpec *spec = golden_option(RUN_OPTIONS.rows, word);
         if (spec && spec->not_in_goldens) {
             text_add_format(error_text, "option '--%s' is not allowed in goldens: tests write no files", spec->name);
             return false;
         }
-        bool alone = word[length] == '\0' && (word[0] == '-' && (word[1] == '-' || length == 2));
-        i += spec && spec->value && alone ? 1 : 0;
+        i += spec && spec->value && golden_option_is_alone(word) ? 1 : 0;
     }
     return true;
 }

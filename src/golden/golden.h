@@ -9,6 +9,7 @@
 // horizon is ignored.
 #pragma once
 
+#include "cli/cli.h"
 #include "cli/memory.h"
 #include "cli/output.h"
 
@@ -24,9 +25,26 @@ typedef struct Golden {
     int64_t strict;     // last frame that is compared with `tolerance`; later frames get a larger tolerance
 } Golden;
 
+// The result of a test.
+typedef struct Result {
+    const char *name;
+    bool passed;
+    bool updated;     // true if the test file was rewritten
+    const char *file; // that a failure is in, for editors; NULL: the test file
+    uint32_t line;    // of a failure, in `file`; 0: not known
+    Text error_text;  // reason of a failure, in one line
+    Text details;     // further lines about a failure
+    bool differs;     // true if the recorded output differs, so that it can be updated
+    double seconds;
+} Result;
+
 // Reads a golden. On failure, returns false and adds the reason to error_text.
 bool golden_read(Golden *golden, const char *path, Text *error_text);
 void golden_free(Golden *golden);
+// Returns the option that a word of a golden's first line names, or NULL.
+const OptionSpec *golden_option(const OptionSpec *rows, const char *word);
+// Returns true if the value of the option, if it has one, is the next word.
+bool golden_option_is_alone(const char *word);
 // Rejects options that write files, because a golden from another author must not write files on this machine. Returns
 // false if there is one and adds the reason to error_text.
 bool golden_check_options(const TextList *words, Text *error_text);
@@ -34,8 +52,9 @@ bool golden_check_options(const TextList *words, Text *error_text);
 // them. On failure, returns false and adds the reason to error_text.
 bool golden_read_text(Text *text, const char *path, Text *error_text);
 
-// Returns true if `output` agrees with the golden. Otherwise adds the first difference to error_text.
-bool golden_compare(const Golden *golden, const Text *output, Text *error_text);
+// Returns true if `output` agrees with the golden. Otherwise puts the first difference and a unified diff into
+// `result`.
+bool golden_compare(const Golden *golden, const Text *output, Result *result);
 // Replaces the recorded output in the file and keeps the lines above it. Sets *changed to true if the output differed,
 // else to false. On failure, returns false and adds the reason to error_text.
 bool golden_update(const Golden *golden, const char *path, const Text *output, bool *changed, Text *error_text);
@@ -57,17 +76,9 @@ typedef struct LineDifference {
 // be followed by a newline or NUL.
 bool line_same(Str expected, Str got, double tolerance, LineDifference *difference);
 
-// Reports: one line per result, and a file for CI systems (report.c).
+// Reports (report.c).
 
-typedef struct Result {
-    const char *name;
-    bool passed;
-    bool updated;    // true if the golden was rewritten
-    Text error_text; // reason for a failure
-    double seconds;
-} Result;
-
-// Prints `ok NAME`, or `FAIL NAME` and the reason.
-void report_result(Output *output, const Result *result);
+// Prints `ok NAME`, or `FAIL NAME`, a line that begins with the position of the failure, and details.
+void report_result(Output *output, const Result *result, bool colour);
 // Writes a JUnit XML file. Returns false after a message.
 bool report_junit(const char *path, const Result *const *results, size_t count);

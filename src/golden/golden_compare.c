@@ -1,6 +1,7 @@
 // golden_compare.c: comparison of two outputs, frame by frame (golden.h).
 #include "cli/state_text.h"
 #include "golden/golden.h"
+#include "golden/line_diff.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -33,6 +34,8 @@ typedef enum Section { HEAD, BODY, LOGS, ERRORS, SECTION_COUNT } Section;
 typedef struct Reader {
     const char *at;
     const char *end;
+    const char *start;                // of the last frame that was read
+    bool more;                        // false: there was no other frame
     uint32_t number;                  // line number of the next line
     LineList sections[SECTION_COUNT]; // lines of the last frame that was read
 } Reader;
@@ -53,9 +56,9 @@ static Str read_line(Reader *reader) {
     return (Str){start, !end ? rest : (size_t)(end - start)};
 }
 
-// Reads the next frame. Returns false at the end of the output.
-static bool read_frame(Reader *reader) {
-    const char *start = reader->at;
+// Reads the next frame. At the end of the output, sets `more` to false.
+static void read_frame(Reader *reader) {
+    const char *start = reader->start = reader->at;
     for (int i = 0; i < SECTION_COUNT; i++)
         reader->sections[i].count = 0;
     while (reader->at < reader->end && (reader->at == start || *reader->at != '@')) {
@@ -70,7 +73,7 @@ static bool read_frame(Reader *reader) {
         }
         add_line(&reader->sections[section], text, number);
     }
-    return reader->at > start;
+    reader->more = reader->at > start;
 }
 
 static void free_reader(Reader *reader) {
@@ -103,17 +106,19 @@ static void add_excerpt(Text *error_text, Str line, size_t at) {
 typedef struct Comparison {
     int64_t frame;
     double tolerance;
-    Text *error_text;
+    Result *result; // NULL: only the answer is wanted
 } Comparison;
 
-// Adds a description of a difference to the error text. `expected` is a line of the golden; if it is NULL, the golden
+// Describes a difference in the result. `expected` is a line of the golden; if it is NULL, the golden
 // has no such line and the difference is reported at line number `line`. `got` is the line of the current output, or
 // NULL if there is none. Always returns false.
 static bool report_difference(const Comparison *comparison, const Line *expected, const Line *got, uint32_t line,
                               LineDifference where) {
-    Text *error_text = comparison->error_text;
-    text_add_format(error_text, "frame %" PRId64 " line %" PRIu32 ": expected ", comparison->frame,
-                    !expected ? line : expected->number);
+    if (!comparison->result)
+        return false;
+    Text *error_text = &comparison->result->error_text;
+    comparison->result->line = !expected ? line : expected->number;
+    text_add_format(error_text, "frame %" PRId64 ": expected ", comparison->frame);
     if (!expected)
         text_add_format(error_text, "nothing more");
     else
@@ -188,62 +193,74 @@ static bool compare_frames(const Golden *golden, Comparison *comparison, const R
 
 // Returns the text of the last frame that was read.
 static Str frame_text(const Reader *reader) {
-    const LineList *head = &reader->sections[HEAD];
-    const char *start = head->count > 0 ? head->items[0].text.bytes : reader->at;
-    return (Str){start, (size_t)(reader->at - start)};
+    return (Str){reader->start, (size_t)(reader->at - reader->start)};
 }
 
-static double frame_time(const Reader *reader) {
-    const char *line = frame_text(reader).bytes, *time = strstr(line, " time=");
-    return time && time < strchr(line, '\n') ? strtod(time + 6, NULL) : NAN;
-}
-
-// Adds a report of the entries of the state that differ in a frame, with indented lines.
-static void report_state(const Reader *expected, const Reader *got, Text *error_text) {
-    static const char *const labels[] = {"recorded", "now"};
-    SCOPED_TEXT report = {0};
+// Adds the number of entries of the state that differ in a frame, and the distance of the first one.
+static void report_state(const Reader *expected, const Reader *got, Text *text) {
     StateText a = state_text_read(frame_text(expected)), b = state_text_read(frame_text(got));
     StateDifferences differences = state_text_compare(&a, &b);
-    size_t at = 0;
-    if (differences.count > 0)
-        state_add_report(&report, labels, frame_number(expected), frame_time(expected), &differences,
-                         state_first_difference(&differences));
-    for (Str line; text_next_line(&report, &at, &line);)
-        text_add_format(error_text, "\n    %.*s", STR_ARGS(line));
+    const StateDifference *first = state_first_difference(&differences);
+    SCOPED_TEXT ulps = {0};
+    if (first && first->values[0].bytes && first->values[1].bytes)
+        value_add_ulps(&ulps, first->values[0], first->values[1]);
+    if (first)
+        text_add_format(text, "frame %" PRId64 ": %zu of %zu entries of the state differ\n", frame_number(expected),
+                        differences.count, differences.total);
+    if (ulps.len > 0)
+        text_add_format(text, "distance of the first one in ulps: %s\n", ulps.bytes);
     state_differences_free(&differences);
     state_text_free(&a);
     state_text_free(&b);
 }
 
-static bool compare_readers(const Golden *golden, Reader *expected, Reader *got, Text *error_text) {
-    for (;;) {
-        bool more_expected = read_frame(expected);
-        bool more_got = read_frame(got);
-        if (!more_expected && !more_got)
-            return true;
-        Comparison comparison = {
-            .frame = frame_number(more_expected ? expected : got),
-            .tolerance = golden->tolerance,
-            .error_text = error_text,
-        };
-        if (compare_frames(golden, &comparison, expected, got))
-            continue;
+// Adds the frames that both readers have read to the diff, and reads the next ones. If only one has such a frame, the
+// other one waits. The first difference is put into the result, and the entries of the state that differ there into
+// `state`.
+static void compare_pair(const Golden *golden, Reader *expected, Reader *got, LineDiff *diff, Result *result,
+                         Text *state) {
+    Reader none = {.number = expected->number};
+    bool only_expected = !got->more || (expected->more && frame_number(expected) < frame_number(got));
+    bool only_got = !expected->more || (got->more && frame_number(got) < frame_number(expected));
+    Reader *first = only_got ? &none : expected, *second = only_expected ? &none : got;
+    Comparison comparison = {
+        .frame = frame_number(only_got ? got : expected),
+        .tolerance = golden->tolerance,
+        .result = result->line == 0 ? result : NULL,
+    };
+    bool reported = result->line > 0;
+    if (compare_frames(golden, &comparison, first, second)) {
+        line_diff_skip(diff, frame_text(first), comparison.frame);
+    } else {
+        line_diff_add(diff, frame_text(first), frame_text(second), comparison.tolerance, comparison.frame);
         // With a tolerance, numbers may differ.
-        if (more_expected && more_got && golden->tolerance == 0)
-            report_state(expected, got, error_text);
-        return false;
+        if (!reported && first == expected && second == got && golden->tolerance == 0)
+            report_state(expected, got, state);
     }
+    if (!only_got)
+        read_frame(expected);
+    if (!only_expected)
+        read_frame(got);
 }
 
-bool golden_compare(const Golden *golden, const Text *output, Text *error_text) {
+bool golden_compare(const Golden *golden, const Text *output, Result *result) {
     const char *recorded = golden->text.bytes + golden->body;
     size_t length = golden->text.len - golden->body;
     if (length == output->len && memcmp(recorded, output->bytes, length) == 0)
         return true;
     Reader expected = {.at = recorded, .end = recorded + length, .number = golden->body_line};
     Reader got = {.at = output->bytes, .end = output->bytes + output->len, .number = 1};
-    bool same = compare_readers(golden, &expected, &got, error_text);
+    LineDiff diff = {0};
+    SCOPED_TEXT state = {0};
+    result->line = 0;
+    for (read_frame(&expected), read_frame(&got); expected.more || got.more;)
+        compare_pair(golden, &expected, &got, &diff, result, &state);
+    if (result->line > 0) {
+        line_diff_print(&diff, golden->body_line, "frame", &result->details);
+        text_add(&result->details, text_str(&state));
+    }
+    free(diff.edits);
     free_reader(&expected);
     free_reader(&got);
-    return same;
+    return result->line == 0;
 }

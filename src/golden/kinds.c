@@ -5,7 +5,7 @@
 
 // In the order of execution for one script.
 const TestKind TEST_KINDS[] = {
-    {.suffix = ".golden", .begin = run_kind_begin, .end = run_kind_end},
+    {.suffix = ".golden", .begin = run_kind_begin, .end = run_kind_end, .follows_runs = true},
     {.suffix = ".err", .begin = rejection_begin, .end = rejection_end},
     {.suffix = NULL},
 };

@@ -34,7 +34,6 @@ static const char *script_name(const NewGolden *new) {
 static bool run_script(NewGolden *new) {
     SCOPED_STRING folder = memory_folder(new->script);
     TextList words = {0};
-    Subprocess child;
     texts_add(&words, "petri");
     texts_add(&words, "run");
     for (size_t i = 0; i < new->options.count; i++)
@@ -43,13 +42,10 @@ static bool run_script(NewGolden *new) {
     texts_add(&words, script_name(new));
     text_free(&new->run.output);
     text_free(&new->run.errors);
-    bool started = subprocess_start(&child, new->host->program, folder, words.items);
+    new->run.status = subprocess_run(new->host->program, folder, words.items, SUBPROCESS_MAX_SECONDS, &new->run.output,
+                                     &new->run.errors);
     texts_free(&words);
-    if (!started)
-        return fail("start", new->host->program, strerror(errno));
-    new->run.status = subprocess_wait_for(child.pid);
-    const char *problem = subprocess_collect(&child, &new->run.output, &new->run.errors);
-    return !problem || fail("read the output of", new->script, problem);
+    return new->run.status >= 0 || fail("run", new->script, strerror(errno));
 }
 
 static void add_option(NewGolden *new, const char *name, const char *value) {

@@ -14,6 +14,7 @@ static const OptionSpec ROWS[] = {
     OWN("jobs", 0, "N", WHOLE(1, 256), jobs, "run N scripts at a time (default: number of CPUs)")
     OWN("threads", 0, "N", option_text, as_threads, "run all scripts with --threads N")
     OWN("neighbours", 0, "WHEN", option_text, as_neighbours, "run all scripts with --neighbours WHEN")
+    OWN("color", 0, "WHEN", ONE_OF(option_choice, "auto", "always", "never"), colour, "use colours in differences: auto, always or never")
     NOSIMPLIFY_OPTION NO_BATCHES_OPTION NO_MORE_OPTIONS
 };
 // clang-format on

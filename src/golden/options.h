@@ -3,6 +3,8 @@
 
 #include "cli/options.h"
 
+typedef enum Colour { AUTO, ALWAYS, NEVER } Colour;
+
 typedef struct TestOptions {
     bool new_golden; // create a golden; main then executes another command
     bool update;
@@ -11,6 +13,7 @@ typedef struct TestOptions {
     int64_t jobs;              // 0: not given
     const char *as_threads;    // overrides --threads of goldens; NULL: no override
     const char *as_neighbours; // overrides --neighbours of goldens; NULL: no override
+    int colour;                // a Colour
 } TestOptions;
 
 extern const OptionTable TEST_OPTIONS;

@@ -3,10 +3,10 @@
 // NAME.err begins with `line N`, or `line *` for any line. The messages of the run follow, which are also compared if
 // there are any.
 #include "base/file.h"
+#include "golden/line_diff.h"
 #include "golden/suite.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 
@@ -38,30 +38,6 @@ static Rejection read_rejection(const char *path, Text *error_text) {
     return found;
 }
 
-// Finds the next `NAME:LINE:` at or after *at, in the error messages of a run. Returns LINE and moves *at to the colon
-// after it. Returns NO_LINE if there is none.
-static long next_reported_line(const char **at, const char *name) {
-    size_t length = strlen(name);
-    for (const char *found = strstr(*at, name); found; found = strstr(found + 1, name)) {
-        char *end = NULL;
-        long line = found[length] == ':' ? strtol(found + length + 1, &end, 10) : NO_LINE;
-        if (line > 0 && *end == ':') {
-            *at = end;
-            return line;
-        }
-    }
-    return NO_LINE;
-}
-
-// Returns the first line with an error, or `wanted` if that line also has one; NO_LINE: none has.
-static long reported_line(const char *name, const Text *errors, long wanted) {
-    const char *at = errors->bytes;
-    long first = next_reported_line(&at, name), line = first;
-    while (line != NO_LINE && line != wanted)
-        line = next_reported_line(&at, name);
-    return line == NO_LINE ? first : line;
-}
-
 static void add_place(Text *text, long line) {
     if (line == ANY_LINE)
         text_add_c(text, "line *");
@@ -77,7 +53,7 @@ static void add_contents(Text *text, long line, const Text *errors) {
 
 Text rejection_text(const char *name, const Text *errors) {
     Text text = {0};
-    long line = reported_line(name, errors, NO_LINE);
+    long line = run_message_line(name, errors, NO_LINE);
     if (line != NO_LINE)
         add_contents(&text, line, errors);
     return text;
@@ -102,34 +78,30 @@ static void record(TestCase *test, const Rejection *recorded, long line, const T
     test->result.passed = !problem;
 }
 
-// Compares the messages line by line.
-static bool compare_messages(Str recorded, const Text *errors, Text *error_text) {
-    const Text first = {.bytes = (char *)recorded.bytes, .len = recorded.len};
-    size_t a = 0, b = 0;
-    for (long number = 2;; number++) {
-        Str expected = {0}, got = {0};
-        bool more_expected = text_next_line(&first, &a, &expected), more_got = text_next_line(errors, &b, &got);
-        if (!more_expected && !more_got)
-            return true;
-        if (more_expected && more_got && str_equal(expected, got))
-            continue;
-        text_add_format(error_text, "line %ld of the .err file: expected %.*s, got %.*s", number,
-                        STR_ARGS(more_expected ? expected : STR("the end")), STR_ARGS(more_got ? got : STR("the end")));
-        return false;
-    }
+// Compares the messages with the recorded ones.
+static void compare_messages(TestCase *test, Str recorded, const Text *errors) {
+    Result *result = &test->result;
+    LineDiff diff = {0};
+    result->passed = recorded.len == 0 || str_equal(recorded, text_str(errors));
+    if (result->passed)
+        return;
+    line_diff_add(&diff, recorded, text_str(errors), 0, -1);
+    line_diff_print(&diff, 2, "messages", &result->details);
+    text_add_format(&result->error_text, "the messages differ, but the error is in the same line");
+    result->line = 2;
+    result->differs = true;
 }
 
 static void check(const Options *options, TestCase *test, const Rejection *recorded, const RunOutput *run) {
     Text *error_text = &test->result.error_text;
-    long line = WIFEXITED(run->status) ? reported_line(test->name, &run->errors, recorded->line) : NO_LINE;
+    long line = WIFEXITED(run->status) ? run_message_line(test->name, &run->errors, recorded->line) : NO_LINE;
     if (!WIFEXITED(run->status)) {
         subprocess_describe(run->status, &run->errors, error_text);
     } else if (WEXITSTATUS(run->status) != 0 && line != NO_LINE && test_options(options)->update) {
         record(test, recorded, line, &run->errors);
     } else if (WEXITSTATUS(run->status) != 0 && line != NO_LINE &&
                (recorded->line == ANY_LINE || line == recorded->line)) {
-        test->result.passed =
-            recorded->messages.len == 0 || compare_messages(recorded->messages, &run->errors, error_text);
+        compare_messages(test, recorded->messages, &run->errors);
     } else {
         text_add_c(error_text, "expected an error in ");
         if (recorded->line == ANY_LINE)
@@ -143,6 +115,7 @@ static void check(const Options *options, TestCase *test, const Rejection *recor
             subprocess_describe(run->status, &run->errors, error_text);
         else
             text_add_format(error_text, "one in line %ld", line);
+        test->result.differs = WEXITSTATUS(run->status) != 0 && line != NO_LINE;
     }
 }
 

@@ -4,15 +4,39 @@
 #include "cli/cli.h"
 #include "golden/golden.h"
 
+#include <inttypes.h>
 #include <string.h>
 
-void report_result(Output *output, const Result *result) {
+#define RED "\033[31m"
+#define GREEN "\033[32m"
+#define CYAN "\033[36m"
+#define PLAIN "\033[0m"
+
+static const char *colour_of(Str line) {
+    return line.len == 0          ? NULL
+           : line.bytes[0] == '-' ? RED
+           : line.bytes[0] == '+' ? GREEN
+           : line.bytes[0] == '@' ? CYAN
+                                  : NULL;
+}
+
+static void report_details(Output *output, const Text *details, bool colour) {
+    size_t at = 0;
+    for (Str line; text_next_line(details, &at, &line);) {
+        const char *start = colour ? colour_of(line) : NULL;
+        output_format(output, "    %s%.*s%s\n", start ? start : "", STR_ARGS(line), start ? PLAIN : "");
+    }
+}
+
+void report_result(Output *output, const Result *result, bool colour) {
     if (result->passed) {
         output_format(output, "ok %s%s\n", result->name, result->updated ? " (updated)" : "");
-    } else {
-        const char *trouble = !result->error_text.bytes ? "" : result->error_text.bytes;
-        output_format(output, "FAIL %s %s\n", result->name, trouble);
+        return;
     }
+    const char *reason = result->error_text.bytes ? result->error_text.bytes : "";
+    output_format(output, "%sFAIL%s %s\n", colour ? RED : "", colour ? PLAIN : "", result->name);
+    output_format(output, "%s:%" PRIu32 ": error: %s\n", result->file, result->line > 0 ? result->line : 1, reason);
+    report_details(output, &result->details, colour);
 }
 
 // Adds text escaped for XML. Control characters become `?`, because XML does not allow them even escaped.

@@ -1,6 +1,7 @@
 // run_kind.c: goldens of `petri run`; see suite.h.
 #include "golden/suite.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 
@@ -48,15 +49,45 @@ bool run_has_diverged(const Text *errors, Text *error_text) {
     return line;
 }
 
+// Finds the next `NAME:LINE:` at or after *at, in the messages of a run. Returns LINE and moves *at to the colon after
+// it. Returns 0 if there is none.
+static long next_line(const char **at, const char *name) {
+    size_t length = strlen(name);
+    for (const char *found = strstr(*at, name); found; found = strstr(found + 1, name)) {
+        char *end = NULL;
+        long line = found[length] == ':' ? strtol(found + length + 1, &end, 10) : 0;
+        if (line > 0 && *end == ':') {
+            *at = end;
+            return line;
+        }
+    }
+    return 0;
+}
+
+long run_message_line(const char *name, const Text *errors, long wanted) {
+    const char *at = errors->bytes;
+    long first = next_line(&at, name), line = first;
+    while (line != 0 && line != wanted)
+        line = next_line(&at, name);
+    return line == 0 ? first : line;
+}
+
+void run_kind_describe(TestCase *test, const RunOutput *run) {
+    test->result.file = test->script;
+    test->result.line = (uint32_t)run_message_line(test->name, &run->errors, 0);
+    subprocess_describe(run->status, &run->errors, &test->result.error_text);
+}
+
 void run_kind_end(const Options *options, TestCase *test, const RunOutput *run) {
     Result *result = &test->result;
     if (!run_is_complete(run->status, &run->errors))
-        subprocess_describe(run->status, &run->errors, &result->error_text);
+        run_kind_describe(test, run);
     else if (run_has_diverged(&run->errors, &result->error_text))
         result->passed = false;
     else if (test_options(options)->update)
         result->passed =
             golden_update(&test->golden, test->recorded, &run->output, &result->updated, &result->error_text);
     else
-        result->passed = golden_compare(&test->golden, &run->output, &result->error_text);
+        result->passed = golden_compare(&test->golden, &run->output, result);
+    result->differs = !result->passed && result->details.len > 0;
 }

@@ -29,6 +29,7 @@ typedef struct RunOutput {
 
 struct TestKind {
     const char *suffix; // of the file, such as ".golden"
+    bool follows_runs;  // true if a difference can be followed with `petri diff`
     bool own_name;      // true if results have the name of the file, false if they have that of the script
     // Reads the file and adds the words of the command to execute in the script's folder, after the program. On failure
     // returns false and adds the reason to result.error_text.
@@ -51,6 +52,11 @@ void run_kind_end(const Options *options, TestCase *test, const RunOutput *run);
 // Adds the words that all runs have: overrides of options, and the script after `--`.
 void run_kind_add_common(const Options *options, const TestCase *test, TextList *words);
 
+// Returns the first line of the script `name` in the messages of a run, or `wanted` if they name that line too; 0: they
+// name none.
+long run_message_line(const char *name, const Text *errors, long wanted);
+// Puts the reason why a run failed, and the line of its error, into the result.
+void run_kind_describe(TestCase *test, const RunOutput *run);
 // Returns true if a run computed all frames.
 bool run_is_complete(int status, const Text *errors);
 // Returns true if a run reported that its motion became meaningless, and adds this warning to error_text.
@@ -62,6 +68,14 @@ void rejection_end(const Options *options, TestCase *test, const RunOutput *run)
 // Returns the contents of an .err file for the errors of a run of the script `name`: `line N` and the messages. Empty
 // if no error has a line.
 Text rejection_text(const char *name, const Text *errors);
+
+// cause.c: why a run differs, from `petri diff` of the script as it was when the output was recorded, and now.
+
+// Adds the cause to the details of a test whose output differs, if it can be found within two seconds and git has the
+// old script. Otherwise adds the command that finds it, if there is one.
+void cause_add(const CommandContext *host, TestCase *test);
+// Adds the command that accepts the new output.
+void hint_add(const CommandContext *host, TestCase *test);
 
 // find.c: the tests in the operands.
 typedef struct TestList {

@@ -1,6 +1,7 @@
 // test.c: the command `petri test`, which runs scripts and compares their output with recorded output.
 #include "base/clock.h"
 #include "cli/memory.h"
+#include "cli/option_groups.h"
 #include "cli/output.h"
 #include "golden/suite.h"
 
@@ -16,6 +17,8 @@ typedef struct Suite {
     const Options *options;
     TestList tests;
     size_t reported; // number of tests whose result was printed
+    size_t causes;   // number of tests whose cause was sought
+    bool colour;
     Output output;
 } Suite;
 
@@ -25,7 +28,8 @@ static void start_test(const Suite *suite, TestCase *test) {
     texts_add(&words, "petri");
     test->result.seconds = clock_seconds();
     test->done = !test->kind->begin(suite->options, test, &words);
-    if (!test->done && !subprocess_start(&test->child, suite->host->program, folder, words.items)) {
+    if (!test->done &&
+        !subprocess_start(&test->child, suite->host->program, folder, words.items, SUBPROCESS_MAX_SECONDS)) {
         text_add_format(&test->result.error_text, "cannot start a process: %s", strerror(errno));
         test->done = true;
     }
@@ -55,10 +59,21 @@ static TestCase *find_running(const Suite *suite, size_t started, pid_t pid) {
     return NULL;
 }
 
+// Prints the result of a test. If its output differs, adds the cause and the command that accepts the output.
+static void report_test(Suite *suite, TestCase *test) {
+    enum { MAX_CAUSES = 5 }; // each can take a few seconds
+    if (test->result.differs) {
+        if (suite->causes++ < MAX_CAUSES)
+            cause_add(suite->host, test);
+        hint_add(suite->host, test);
+    }
+    report_result(&suite->output, &test->result, suite->colour);
+}
+
 // Prints results in the order of the tests, up to the first test that is not done.
 static void report_done(Suite *suite, size_t started) {
     while (suite->reported < started && suite->tests.items[suite->reported].done)
-        report_result(&suite->output, &suite->tests.items[suite->reported++].result);
+        report_test(suite, &suite->tests.items[suite->reported++]);
     output_flush(&suite->output);
 }
 
@@ -110,8 +125,10 @@ static int run_suite(Suite *suite) {
         return STATUS_FAILED;
     suite->tests = tests_find(options);
     if (suite->tests.count == 0) {
-        message("no script found with a .golden or .err file%s",
-                !own->filter ? "; to create a golden, run: petri test --new SCRIPT" : " that matches --filter");
+        const char *script = options->scripts.count == 1 ? options->scripts.items[0].path : "SCRIPT";
+        message("no script found with a .golden or .err file%s%s",
+                !own->filter ? "; to create a golden, run: petri test --new " : " that matches --filter",
+                !own->filter ? script : "");
         return STATUS_FAILED;
     }
     run_tests(suite);
@@ -129,6 +146,7 @@ static int run_suite(Suite *suite) {
 static int test_run(const CommandContext *context, Options *options) {
     TestOptions *own = test_options(options);
     Suite suite = {.host = context, .options = options, .output.fd = STDOUT_FILENO};
+    suite.colour = own->colour == ALWAYS || (own->colour == AUTO && isatty(STDOUT_FILENO) && option_default_colour());
     if (own->jobs == 0) {
         int jobs = subprocess_default_jobs();
         own->jobs = jobs > MAX_CPUS ? MAX_CPUS : jobs;

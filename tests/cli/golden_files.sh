@@ -50,7 +50,7 @@ check "an .err file is an operand like its script" last_line_is out "1 passed, 0
 printf '!n a=1\n!n b=+\n' >made/wrong.fl
 petri test made/wrong.fl
 check "another message in the same line fails" status_is 1
-check "another message is reported" has out "expected wrong.fl:2:6: error: unexpected '*' [syntax], got"
+check "another message is reported" has out "    -wrong.fl:2:6: error: unexpected '*' [syntax]"
 petri test --update made/wrong.fl
 check "--update records the message" out_is "ok made/wrong.fl (updated)
 1 passed, 0 failed"
@@ -74,8 +74,8 @@ mv made/turns.fl made/moved.fl
 mv made/wrong.fl made/mended.fl
 petri test made
 check "test files without a script fail" status_is 1
-check "a golden without a script is reported" has out "FAIL made/turns.golden no such script: made/turns.fl"
-check "an .err file without a script is reported" has out "FAIL made/wrong.err no such script: made/wrong.fl"
+check "a golden without a script is reported" has out "made/turns.golden:1: error: no such script: made/turns.fl"
+check "an .err file without a script is reported" has out "made/wrong.err:1: error: no such script: made/wrong.fl"
 check "the last line has the number of scripts without a test" last_line_is out \
     "2 passed, 2 failed, 2 scripts without a test"
 petri test made/wrong.err

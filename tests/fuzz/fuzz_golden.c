@@ -11,12 +11,15 @@ FUZZ_HARNESS(golden) {
     size_t length = part ? (size_t)(part - data) : size;
     Golden golden;
     Text error_text = {0}, output = {0};
+    Result result = {0};
     fuzz_put("fuzz.golden", data, length);
     text_add(&output, (Str){part ? (const char *)part + 1 : "", part ? size - length - 1 : 0});
     if (golden_read(&golden, fuzz_file("fuzz.golden"), &error_text))
-        golden_compare(&golden, &output, &error_text);
+        golden_compare(&golden, &output, &result);
     golden_free(&golden);
     text_free(&error_text);
+    text_free(&result.error_text);
+    text_free(&result.details);
     text_free(&output);
     return 0;
 }

@@ -52,17 +52,20 @@ static void test_tolerance_is_relative_to_the_largest_number(void **state) {
 // Compares output with a golden of the given tolerance and limits. Returns the error text, "" if they agree.
 static const char *compare(Golden *golden, const char *recorded, const char *output) {
     static char text[600];
-    Text got = {0}, error_text = {0};
+    Text got = {0};
+    Result result = {0};
     text_add_c(&golden->text, recorded);
     text_add_c(&got, output);
-    text_add_c(&error_text, "");
     golden->body_line = 1;
-    bool agree = golden_compare(golden, &got, &error_text);
-    assert_int_equal(agree, error_text.len == 0);
-    snprintf(text, sizeof text, "%s", error_text.bytes);
+    bool agree = golden_compare(golden, &got, &result);
+    assert_int_equal(agree, result.error_text.len == 0);
+    text[0] = '\0';
+    if (!agree)
+        snprintf(text, sizeof text, "line %u: %s", (unsigned)result.line, result.error_text.bytes);
     text_free(&golden->text);
     text_free(&got);
-    text_free(&error_text);
+    text_free(&result.error_text);
+    text_free(&result.details);
     return text;
 }
 
@@ -71,18 +74,18 @@ static void test_logs_are_compared_as_sets(void **state) {
     Golden golden = {.horizon = INT64_MAX, .strict = INT64_MAX};
     assert_string_equal(compare(&golden, "@0\n!a\n> one\n> two\n", "@0\n> two\n> one\n!a\n"), "");
     assert_string_equal(compare(&golden, "@0\n> one\n", "@0\n> one\n> one\n"),
-                        "frame 0 line 3: expected nothing more, got > one");
+                        "line 3: frame 0: expected nothing more, got > one");
     assert_string_equal(compare(&golden, "@3\n> one\n> two\n", "@3\n> two\n"),
-                        "frame 3 line 2: expected > one, got nothing");
+                        "line 2: frame 3: expected > one, got nothing");
     assert_string_equal(compare(&golden, "> one\n  more\n", "> one\n  less\n"),
-                        "frame 0 line 1: expected > one\\n  more, got > one\\n  less");
+                        "line 1: frame 0: expected > one\\n  more, got > one\\n  less");
 }
 
 static void test_errors_are_compared_only_if_recorded(void **state) {
     (void)state;
     Golden golden = {.horizon = INT64_MAX, .strict = INT64_MAX};
     assert_string_equal(compare(&golden, "@0\n!a\n", "@0\n!a\n? error\n"), "");
-    assert_string_equal(compare(&golden, "@0\n? one\n", "@0\n? two\n"), "frame 0 line 2: expected ? one, got ? two");
+    assert_string_equal(compare(&golden, "@0\n? one\n", "@0\n? two\n"), "line 2: frame 0: expected ? one, got ? two");
 }
 
 static void test_frames_after_the_horizon_are_not_compared(void **state) {
@@ -91,13 +94,13 @@ static void test_frames_after_the_horizon_are_not_compared(void **state) {
     static const char recorded[] = "@1\nx=1\n@2\nx=1\n@3\nx=1\n";
     assert_string_equal(compare(&golden, recorded, "@1\nx=1\n@2\nx=1.00005\n@3\nx=9\n"), "");
     assert_string_equal(compare(&golden, recorded, "@1\nx=1.00005\n@2\nx=1\n@3\nx=1\n"),
-                        "frame 1 line 2: expected x=1, got x=1.00005");
+                        "line 2: frame 1: expected x=1, got x=1.00005");
     assert_string_equal(compare(&golden, recorded, "@1\nx=1\n@2\nx=1.001\n@3\nx=1\n"),
-                        "frame 2 line 4: expected x=1, got x=1.001");
+                        "line 4: frame 2: expected x=1, got x=1.001");
     golden = (Golden){.strict = 1, .horizon = 2}; // without a tolerance, the horizon does not matter
     assert_string_equal(compare(&golden, recorded, "@1\nx=1\n@2\nx=1\n@3\nx=9\n"),
-                        "frame 3 line 6: expected x=1, got x=9");
-    assert_string_equal(compare(&golden, recorded, "@1\nx=1\n@2\nx=1\n"), "frame 3 line 5: expected @3, got nothing");
+                        "line 6: frame 3: expected x=1, got x=9");
+    assert_string_equal(compare(&golden, recorded, "@1\nx=1\n@2\nx=1\n"), "line 5: frame 3: expected @3, got nothing");
 }
 
 static void test_long_lines_are_shortened_at_characters(void **state) {
@@ -110,7 +113,7 @@ static void test_long_lines_are_shortened_at_characters(void **state) {
     }
     strcat(expected, " x\n");
     strcat(got, " x\n");
-    assert_string_equal(compare(&golden, expected, got) + strlen("frame 0 line 1: "),
+    assert_string_equal(compare(&golden, expected, got) + strlen("line 1: frame 0: "),
                         "expected ääääääääääääääääääääääääääääääääääääääääääääääääää..., got "
                         "ääääääääääääääääääääääääääääääääääääääääääääääääää...");
     snprintf(expected, sizeof expected, "%s%060d\n", "ääääääääääääääääääää 1;2;3;4;5;", 7);
