@@ -11,7 +11,6 @@
 
 #include "cli/cli.h"
 #include "cli/memory.h"
-#include "cli/output.h"
 
 #include <stdint.h>
 
@@ -75,10 +74,3 @@ typedef struct LineDifference {
 // Returns true if two lines agree. A tolerance of 0 means exact; nan equals nan, and -0 equals 0. Both lines must
 // be followed by a newline or NUL.
 bool line_same(Str expected, Str got, double tolerance, LineDifference *difference);
-
-// Reports (report.c).
-
-// Prints `ok NAME`, or `FAIL NAME`, a line that begins with the position of the failure, and details.
-void report_result(Output *output, const Result *result, bool colour);
-// Writes a JUnit XML file. Returns false after a message.
-bool report_junit(const char *path, const Result *const *results, size_t count);

@@ -10,6 +10,7 @@ static const OptionSpec ROWS[] = {
     OWN("new", 0, NULL, option_flag, new_golden, "create a golden: petri test --new SCRIPT [options of petri run]")
     OWN("update", 0, NULL, option_flag, update, "update goldens and .err files to the current output")
     OWN("filter", 0, "TEXT", option_text, filter, "run only scripts whose path relative to PATH contains TEXT")
+    OWN("format", 0, "FORMAT", ONE_OF(option_choice, "text", "junit", "tap", "github"), format, "print the results as text, JUnit XML, TAP, or text with annotations for GitHub (default: text)")
     OWN("junit", 0, "FILE", option_text, junit, "also write the results to FILE as JUnit XML, for CI")
     OWN("jobs", 0, "N", WHOLE(1, 256), jobs, "run N scripts at a time (default: number of CPUs)")
     OWN("threads", 0, "N", option_text, as_threads, "run all scripts with --threads N")

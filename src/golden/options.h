@@ -10,6 +10,7 @@ typedef struct TestOptions {
     bool update;
     const char *filter;        // NULL: none
     const char *junit;         // file; NULL: none
+    int format;                // a ReportFormat
     int64_t jobs;              // 0: not given
     const char *as_threads;    // overrides --threads of goldens; NULL: no override
     const char *as_neighbours; // overrides --neighbours of goldens; NULL: no override

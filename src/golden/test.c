@@ -3,6 +3,7 @@
 #include "cli/memory.h"
 #include "cli/option_groups.h"
 #include "cli/output.h"
+#include "golden/report.h"
 #include "golden/suite.h"
 
 #include <errno.h>
@@ -21,6 +22,10 @@ typedef struct Suite {
     bool colour;
     Output output;
 } Suite;
+
+static ReportFormat format_of(const Suite *suite) {
+    return (ReportFormat)test_options(suite->options)->format;
+}
 
 static void start_test(const Suite *suite, TestCase *test) {
     SCOPED_STRING folder = memory_folder(test->script);
@@ -67,7 +72,7 @@ static void report_test(Suite *suite, TestCase *test) {
             cause_add(suite->host, test);
         hint_add(suite->host, test);
     }
-    report_result(&suite->output, &test->result, suite->colour);
+    report_result(&suite->output, format_of(suite), suite->reported, &test->result, suite->colour);
 }
 
 // Prints results in the order of the tests, up to the first test that is not done.
@@ -108,14 +113,29 @@ static void run_tests(Suite *suite) {
     report_done(suite, started);
 }
 
-static bool write_junit(const Suite *suite) {
+// Writes JUnit XML to the file of --junit, and to standard output if this is the format. Returns false after a message.
+static bool write_junit(Suite *suite) {
     const TestList *tests = &suite->tests;
+    const char *file = test_options(suite->options)->junit;
+    if (!file && format_of(suite) != REPORT_JUNIT)
+        return true;
     const Result **results = memory_calloc(tests->count * sizeof *results);
+    SCOPED_TEXT text = {0};
     for (size_t i = 0; i < tests->count; i++)
         results[i] = &tests->items[i].result;
-    bool done = report_junit(test_options(suite->options)->junit, results, tests->count);
+    report_junit(&text, results, tests->count);
     free(results);
-    return done;
+    if (format_of(suite) == REPORT_JUNIT)
+        output_write(&suite->output, text.bytes, text.len);
+    return !file || output_file(file, text_str(&text));
+}
+
+static void report_totals(Suite *suite, size_t passed) {
+    size_t count = suite->tests.count, untested = suite->tests.untested;
+    output_format(&suite->output, "%zu passed, %zu failed", passed, count - passed);
+    if (untested > 0)
+        output_format(&suite->output, ", %zu %s without a test", untested, untested == 1 ? "script" : "scripts");
+    output_format(&suite->output, "\n");
 }
 
 static int run_suite(Suite *suite) {
@@ -131,15 +151,14 @@ static int run_suite(Suite *suite) {
                 !own->filter ? script : "");
         return STATUS_FAILED;
     }
+    report_begin(&suite->output, format_of(suite), suite->tests.count);
     run_tests(suite);
-    size_t passed = 0, count = suite->tests.count, untested = suite->tests.untested;
+    size_t passed = 0, count = suite->tests.count;
     for (size_t i = 0; i < count; i++)
         passed += suite->tests.items[i].result.passed ? 1 : 0;
-    output_format(&suite->output, "%zu passed, %zu failed", passed, count - passed);
-    if (untested > 0)
-        output_format(&suite->output, ", %zu %s without a test", untested, untested == 1 ? "script" : "scripts");
-    output_format(&suite->output, "\n");
-    bool reported = !own->junit || write_junit(suite);
+    if (format_of(suite) == REPORT_TEXT || format_of(suite) == REPORT_GITHUB)
+        report_totals(suite, passed);
+    bool reported = write_junit(suite);
     return passed == count && reported && options->unreadable.count == 0 ? STATUS_DONE : STATUS_FAILED;
 }
 
