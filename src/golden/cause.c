@@ -7,14 +7,18 @@
 #include <string.h>
 #include <sys/wait.h>
 
-// The time that `git` and `petri diff` may take, in seconds.
-enum { PATIENCE = 2 };
+typedef struct Search {
+    const CommandContext *host;
+    const Golden *golden;
+    TestCase *test;
+    unsigned seconds; // that git and `petri diff` may take
+} Search;
 
 // Runs a program in the folder of the script. Returns its exit status, or -1.
-static int run_there(const char *program, const TestCase *test, const TextList *words, Text *output) {
-    SCOPED_STRING folder = memory_folder(test->script);
+static int run_there(const Search *search, const char *program, const TextList *words, Text *output) {
+    SCOPED_STRING folder = memory_folder(search->test->script);
     SCOPED_TEXT errors = {0};
-    int status = subprocess_run(program, folder, words->items, PATIENCE, output, &errors);
+    int status = subprocess_run(program, folder, words->items, search->seconds, output, &errors);
     return status >= 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -35,34 +39,33 @@ static void add_options(const Golden *golden, TextList *words) {
 }
 
 // Adds the words of `petri diff REVISION:NAME NAME`. `folder` is put before the names.
-static void add_diff(const Golden *golden, const TestCase *test, const char *revision, const char *folder,
-                     TextList *words) {
+static void add_diff(const Search *search, const char *revision, const char *folder, TextList *words) {
     texts_add(words, "diff");
-    texts_add_format(words, "%s:%s%s", revision, folder, test->name);
-    texts_add_format(words, "%s%s", folder, test->name);
-    add_options(golden, words);
+    texts_add_format(words, "%s:%s%s", revision, folder, search->test->name);
+    texts_add_format(words, "%s%s", folder, search->test->name);
+    add_options(search->golden, words);
 }
 
 // Finds the cause of the difference between the script of a revision and now. Returns the exit status of `petri diff`.
-static int try_revision(const CommandContext *host, const Golden *golden, const TestCase *test, const char *revision,
-                        Text *output) {
+static int try_revision(const Search *search, const char *revision, Text *output) {
     TextList words = {0};
     texts_add(&words, "petri");
-    add_diff(golden, test, revision, test->name[0] == '-' ? "./" : "", &words);
-    int status = run_there(host->program, test, &words, output);
+    add_diff(search, revision, search->test->name[0] == '-' ? "./" : "", &words);
+    int status = run_there(search, search->host->program, &words, output);
     texts_free(&words);
     return status;
 }
 
 // Returns the commit that last changed the golden, or an empty text if git does not know any.
-static Text recording_commit(const TestCase *test) {
+static Text recording_commit(const Search *search) {
+    static const char *const parts[] = {"git", "--no-pager", "log", "-1", "--format=%h", "--"};
+    const char *golden = search->test->recorded;
     TextList words = {0};
     Text commit = {0};
-    static const char *const parts[] = {"git", "--no-pager", "log", "-1", "--format=%h", "--"};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
         texts_add(&words, parts[i]);
-    texts_add(&words, test->recorded + path_directory(str_from(test->recorded)).len);
-    if (run_there("git", test, &words, &commit) != 0)
+    texts_add(&words, golden + path_directory(str_from(golden)).len);
+    if (run_there(search, "git", &words, &commit) != 0)
         commit.len = 0;
     while (commit.len > 0 && commit.bytes[commit.len - 1] == '\n')
         commit.bytes[--commit.len] = '\0';
@@ -80,39 +83,43 @@ static void add_command(const CommandContext *host, const TextList *words, Text 
 }
 
 // Adds the command that finds the cause if there is more time.
-static void add_diff_command(const CommandContext *host, const Golden *golden, TestCase *test, const char *revision) {
+static void add_diff_command(const Search *search, const char *revision) {
+    TestCase *test = search->test;
     SCOPED_STRING folder = memory_strndup(test->script, (size_t)(test->name - test->script));
     TextList words = {0};
-    add_diff(golden, test, revision, folder, &words);
+    add_diff(search, revision, folder, &words);
     text_add_c(&test->result.details, "to find the cause: ");
-    add_command(host, &words, &test->result.details);
+    add_command(search->host, &words, &test->result.details);
     texts_free(&words);
 }
 
-static void search(const CommandContext *host, const Golden *golden, TestCase *test) {
+static bool find_cause(const Search *search) {
     enum { SAME = 0, DIFFERS = 1, TROUBLE = 2 };
     SCOPED_TEXT output = {0}, commit = {0};
     const char *revision = "HEAD";
-    int status = try_revision(host, golden, test, revision, &output);
+    int status = try_revision(search, revision, &output);
     if (status == SAME) { // the script was committed, but perhaps not recorded again
-        commit = recording_commit(test);
+        commit = recording_commit(search);
         output.len = 0;
         revision = commit.bytes;
-        status = commit.len == 0 ? TROUBLE : try_revision(host, golden, test, revision, &output);
+        status = commit.len == 0 ? TROUBLE : try_revision(search, revision, &output);
     }
     if (status == DIFFERS)
-        text_add_format(&test->result.details, "cause, from the script as git has it:\n%s", output.bytes);
+        text_add_format(&search->test->result.details, "cause, from the script as git has it:\n%s", output.bytes);
     else if (status != TROUBLE && status != SAME)
-        add_diff_command(host, golden, test, revision);
+        add_diff_command(search, revision);
+    return status != TROUBLE && status != SAME;
 }
 
-void cause_add(const CommandContext *host, TestCase *test) {
+bool cause_add(const CommandContext *host, TestCase *test, unsigned seconds) {
     Golden golden;
     SCOPED_TEXT problem = {0};
-    if (test->kind->follows_runs && golden_read(&golden, test->recorded, &problem)) {
-        search(host, &golden, test);
-        golden_free(&golden);
-    }
+    if (!test->kind->follows_runs || !golden_read(&golden, test->recorded, &problem))
+        return false;
+    const Search search = {host, &golden, test, seconds};
+    bool found = find_cause(&search);
+    golden_free(&golden);
+    return found;
 }
 
 void hint_add(const CommandContext *host, TestCase *test) {

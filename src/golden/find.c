@@ -48,13 +48,6 @@ static int compare_tests(const void *a, const void *b) {
     return order != 0 ? order : strcmp(first->recorded, second->recorded);
 }
 
-static void free_test(TestCase *test) {
-    free(test->script);
-    free(test->recorded);
-    text_free(&test->result.error_text);
-    text_free(&test->result.details);
-}
-
 // Sorts the tests and removes those that are there twice: from a script and from its test file.
 static void sort_tests(TestList *list) {
     size_t kept = 0;
@@ -62,7 +55,7 @@ static void sort_tests(TestList *list) {
         qsort(list->items, list->count, sizeof *list->items, compare_tests);
     for (size_t i = 0; i < list->count; i++)
         if (kept > 0 && strcmp(list->items[i].recorded, list->items[kept - 1].recorded) == 0)
-            free_test(&list->items[i]);
+            test_free(&list->items[i]);
         else
             list->items[kept++] = list->items[i];
     list->count = kept;
@@ -87,7 +80,7 @@ TestList tests_find(const Options *options) {
 
 void tests_free(TestList *list) {
     for (size_t i = 0; i < list->count; i++)
-        free_test(&list->items[i]);
+        test_free(&list->items[i]);
     free(list->items);
     *list = (TestList){0};
 }

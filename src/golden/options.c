@@ -9,6 +9,8 @@ typedef TestOptions Own;
 static const OptionSpec ROWS[] = {
     OWN("new", 0, NULL, option_flag, new_golden, "create a golden: petri test --new SCRIPT [options of petri run]")
     OWN("update", 0, NULL, option_flag, update, "update goldens and .err files to the current output")
+    OWN("review", 0, NULL, option_flag, review, "ask about each difference: accept, reject, skip, show the cause or both pictures")
+    OWN("watch", 0, NULL, option_flag, watch, "run tests again when a file changes on which they depend")
     OWN("filter", 0, "TEXT", option_text, filter, "run only scripts whose path relative to PATH contains TEXT")
     OWN("format", 0, "FORMAT", ONE_OF(option_choice, "text", "junit", "tap", "github"), format, "print the results as text, JUnit XML, TAP, or text with annotations for GitHub (default: text)")
     OWN("junit", 0, "FILE", option_text, junit, "also write the results to FILE as JUnit XML, for CI")

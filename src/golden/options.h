@@ -8,6 +8,8 @@ typedef enum Colour { AUTO, ALWAYS, NEVER } Colour;
 typedef struct TestOptions {
     bool new_golden; // create a golden; main then executes another command
     bool update;
+    bool review;               // ask about each difference
+    bool watch;                // run tests again when their files change
     const char *filter;        // NULL: none
     const char *junit;         // file; NULL: none
     int format;                // a ReportFormat

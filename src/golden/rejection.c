@@ -63,7 +63,7 @@ bool rejection_begin(const Options *options, TestCase *test, TextList *words) {
     texts_add(words, "run");
     texts_add(words, "--threads=1");
     texts_add(words, "--frames=1");
-    run_kind_add_common(options, test, words);
+    run_add_common(options, test, words);
     return true;
 }
 

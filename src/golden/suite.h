@@ -3,9 +3,12 @@
 // Each suffix is a kind of test (kinds.c). To add a kind, write its functions in a separate file and add a row there.
 #pragma once
 
+#include "cli/output.h"
 #include "cli/subprocess.h"
 #include "golden/golden.h"
 #include "golden/options.h"
+
+#include <sys/stat.h>
 
 typedef struct TestKind TestKind;
 
@@ -36,6 +39,10 @@ struct TestKind {
     bool (*begin)(const Options *options, TestCase *test, TextList *words);
     // Compares what the command printed with the file or, with --update, records it. Sets the result.
     void (*end)(const Options *options, TestCase *test, const RunOutput *run);
+    // Shows what was recorded and what there is now, as pictures. Returns false if there are none. NULL: never
+    // possible.
+    bool (*show)(const CommandContext *host, Output *output, TestCase *test);
+    void (*discard)(TestCase *test); // deletes files that a failure has left; NULL: there are none
 };
 
 // kinds.c: all kinds, then one without a suffix; and their suffixes, then NULL.
@@ -49,14 +56,16 @@ char *kind_path(const char *path, const char *suffix);
 // run_kind.c: goldens of `petri run`.
 bool run_kind_begin(const Options *options, TestCase *test, TextList *words);
 void run_kind_end(const Options *options, TestCase *test, const RunOutput *run);
-// Adds the words that all runs have: overrides of options, and the script after `--`.
-void run_kind_add_common(const Options *options, const TestCase *test, TextList *words);
 
+// run_output.c: what a run of `petri` has left.
+
+// Adds the words that all runs have: overrides of options, and the script after `--`.
+void run_add_common(const Options *options, const TestCase *test, TextList *words);
 // Returns the first line of the script `name` in the messages of a run, or `wanted` if they name that line too; 0: they
 // name none.
 long run_message_line(const char *name, const Text *errors, long wanted);
 // Puts the reason why a run failed, and the line of its error, into the result.
-void run_kind_describe(TestCase *test, const RunOutput *run);
+void run_describe(TestCase *test, const RunOutput *run);
 // Returns true if a run computed all frames.
 bool run_is_complete(int status, const Text *errors);
 // Returns true if a run reported that its motion became meaningless, and adds this warning to error_text.
@@ -69,11 +78,22 @@ void rejection_end(const Options *options, TestCase *test, const RunOutput *run)
 // if no error has a line.
 Text rejection_text(const char *name, const Text *errors);
 
+// execute.c: execution of one test.
+
+// Starts the command of the test, or sets `done` if that is not possible.
+void execute_start(const CommandContext *host, const Options *options, TestCase *test);
+// Sets the result of a test whose process has ended with this status.
+void execute_end(const Options *options, TestCase *test, int status);
+// Frees what a test owns.
+void test_free(TestCase *test);
+// Executes a test whose process has ended once more, from start to end.
+void execute_again(const CommandContext *host, const Options *options, TestCase *test);
+
 // cause.c: why a run differs, from `petri diff` of the script as it was when the output was recorded, and now.
 
-// Adds the cause to the details of a test whose output differs, if it can be found within two seconds and git has the
-// old script. Otherwise adds the command that finds it, if there is one.
-void cause_add(const CommandContext *host, TestCase *test);
+// Adds the cause to the details of a test whose output differs, if it can be found within `seconds` and git has the old
+// script. If there is not enough time, adds the command that finds it. Returns false if nothing is added.
+bool cause_add(const CommandContext *host, TestCase *test, unsigned seconds);
 // Adds the command that accepts the new output.
 void hint_add(const CommandContext *host, TestCase *test);
 
@@ -87,3 +107,38 @@ typedef struct TestList {
 // The caller frees the list with tests_free.
 TestList tests_find(const Options *options);
 void tests_free(TestList *list);
+
+// review.c: decisions about differences, which the user types.
+typedef struct Review {
+    const CommandContext *host;
+    const Options *options;
+    size_t asked;
+    size_t accepted;
+    size_t rejected;
+    bool ended; // true: ask no more
+} Review;
+
+// Asks what to do with a test whose output differs and has been shown.
+void review_ask(Review *review, Output *output, TestCase *test);
+void review_report(const Review *review, Output *output);
+
+// watch.c: the files on which tests depend.
+typedef struct WatchedFile {
+    char *path;
+    struct stat version;
+    bool changed; // before the end of the last watch_wait
+} WatchedFile;
+
+typedef struct Watch {
+    struct FileWatch *watch;
+    WatchedFile *files;
+    size_t count;
+} Watch;
+
+// The caller frees the watch with watch_free.
+Watch *watch_new(const TestList *tests);
+void watch_free(Watch *watch);
+// Waits until a file has changed.
+void watch_wait(Watch *watch);
+// Removes the tests that no changed file affects. Watches the files of the others, which may depend on more files now.
+void watch_select(Watch *watch, TestList *tests);

@@ -19,42 +19,14 @@ typedef struct Suite {
     TestList tests;
     size_t reported; // number of tests whose result was printed
     size_t causes;   // number of tests whose cause was sought
+    Review review;
+    Watch *watch; // NULL: the tests run once
     bool colour;
     Output output;
 } Suite;
 
 static ReportFormat format_of(const Suite *suite) {
     return (ReportFormat)test_options(suite->options)->format;
-}
-
-static void start_test(const Suite *suite, TestCase *test) {
-    SCOPED_STRING folder = memory_folder(test->script);
-    TextList words = {0};
-    texts_add(&words, "petri");
-    test->result.seconds = clock_seconds();
-    test->done = !test->kind->begin(suite->options, test, &words);
-    if (!test->done &&
-        !subprocess_start(&test->child, suite->host->program, folder, words.items, SUBPROCESS_MAX_SECONDS)) {
-        text_add_format(&test->result.error_text, "cannot start a process: %s", strerror(errno));
-        test->done = true;
-    }
-    if (test->done)
-        golden_free(&test->golden);
-    texts_free(&words);
-}
-
-static void end_test(const Suite *suite, TestCase *test, int status) {
-    RunOutput run = {.status = status};
-    test->result.seconds = clock_seconds() - test->result.seconds;
-    const char *problem = subprocess_collect(&test->child, &run.output, &run.errors);
-    if (problem)
-        text_add_format(&test->result.error_text, "cannot read the output of the run: %s", problem);
-    else
-        test->kind->end(suite->options, test, &run);
-    text_free(&run.output);
-    text_free(&run.errors);
-    golden_free(&test->golden);
-    test->done = true;
 }
 
 static TestCase *find_running(const Suite *suite, size_t started, pid_t pid) {
@@ -66,13 +38,15 @@ static TestCase *find_running(const Suite *suite, size_t started, pid_t pid) {
 
 // Prints the result of a test. If its output differs, adds the cause and the command that accepts the output.
 static void report_test(Suite *suite, TestCase *test) {
-    enum { MAX_CAUSES = 5 }; // each can take a few seconds
+    enum { MAX_CAUSES = 5, PATIENCE = 2 }; // seconds for each cause
     if (test->result.differs) {
         if (suite->causes++ < MAX_CAUSES)
-            cause_add(suite->host, test);
+            cause_add(suite->host, test, PATIENCE);
         hint_add(suite->host, test);
     }
     report_result(&suite->output, format_of(suite), suite->reported, &test->result, suite->colour);
+    if (test_options(suite->options)->review && test->result.differs)
+        review_ask(&suite->review, &suite->output, test);
 }
 
 // Prints results in the order of the tests, up to the first test that is not done.
@@ -94,7 +68,7 @@ static void run_tests(Suite *suite) {
         if (started < count && running < test_options(suite->options)->jobs && is_wanted(suite)) {
             TestCase *test = &suite->tests.items[started++];
             if (!test->done)
-                start_test(suite, test);
+                execute_start(suite->host, suite->options, test);
             running += test->done ? 0 : 1;
             continue;
         }
@@ -102,7 +76,7 @@ static void run_tests(Suite *suite) {
         pid_t pid = subprocess_wait(&status);
         TestCase *test = pid < 0 ? NULL : find_running(suite, started, pid);
         if (test) {
-            end_test(suite, test, status);
+            execute_end(suite->options, test, status);
             running--;
         } else if (pid < 0) {
             message("cannot wait for a process: %s", strerror(errno));
@@ -144,7 +118,9 @@ static int run_suite(Suite *suite) {
     if (options->scripts.count == 0 && options->unreadable.count > 0)
         return STATUS_FAILED;
     suite->tests = tests_find(options);
-    if (suite->tests.count == 0) {
+    if (suite->watch)
+        watch_select(suite->watch, &suite->tests);
+    if (suite->tests.count == 0 && !suite->watch) {
         const char *script = options->scripts.count == 1 ? options->scripts.items[0].path : "SCRIPT";
         message("no script found with a .golden or .err file%s%s",
                 !own->filter ? "; to create a golden, run: petri test --new " : " that matches --filter",
@@ -156,21 +132,52 @@ static int run_suite(Suite *suite) {
     size_t passed = 0, count = suite->tests.count;
     for (size_t i = 0; i < count; i++)
         passed += suite->tests.items[i].result.passed ? 1 : 0;
+    if (own->review)
+        review_report(&suite->review, &suite->output);
     if (format_of(suite) == REPORT_TEXT || format_of(suite) == REPORT_GITHUB)
         report_totals(suite, passed);
     bool reported = write_junit(suite);
     return passed == count && reported && options->unreadable.count == 0 ? STATUS_DONE : STATUS_FAILED;
 }
 
+// Runs tests again when their files change, until a signal ends the process.
+static void watch_tests(Suite *suite) {
+    suite->watch = watch_new(&suite->tests);
+    while (suite->output.error == 0) {
+        output_flush(&suite->output);
+        message("waiting for changes; Ctrl-C ends");
+        watch_wait(suite->watch);
+        tests_free(&suite->tests);
+        suite->reported = suite->causes = 0;
+        run_suite(suite);
+    }
+    watch_free(suite->watch);
+}
+
+static bool check_options(const TestOptions *own) {
+    const char *problem = own->review && own->update   ? "--review and --update exclude each other"
+                          : own->review && own->watch  ? "--review and --watch exclude each other"
+                          : own->review && own->format ? "--review needs --format text"
+                                                       : NULL;
+    if (problem)
+        message("%s", problem);
+    return !problem;
+}
+
 static int test_run(const CommandContext *context, Options *options) {
     TestOptions *own = test_options(options);
-    Suite suite = {.host = context, .options = options, .output.fd = STDOUT_FILENO};
+    Suite suite = {.host = context, .options = options, .output.fd = STDOUT_FILENO, .review = {context, options}};
     suite.colour = own->colour == ALWAYS || (own->colour == AUTO && isatty(STDOUT_FILENO) && option_default_colour());
+    if (!check_options(own))
+        return STATUS_USAGE;
     if (own->jobs == 0) {
         int jobs = subprocess_default_jobs();
         own->jobs = jobs > MAX_CPUS ? MAX_CPUS : jobs;
     }
-    int status = output_finish(&suite.output, run_suite(&suite));
+    int status = run_suite(&suite);
+    if (own->watch && suite.tests.count > 0)
+        watch_tests(&suite);
+    status = output_finish(&suite.output, status);
     tests_free(&suite.tests);
     return status;
 }

@@ -1,0 +1,83 @@
+// review.c: `petri test --review`, which asks what to do with each difference; see suite.h.
+#include "golden/report.h"
+#include "golden/suite.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { PATIENCE = 60 }; // seconds for the search of a cause
+
+static void accept_output(Review *review, Output *output, TestCase *test) {
+    TestOptions *own = test_options(review->options);
+    own->update = true;
+    execute_again(review->host, review->options, test);
+    own->update = false;
+    review->accepted += test->result.passed ? 1 : 0;
+    report_result(output, REPORT_TEXT, 0, &test->result, false);
+}
+
+static void show_cause(const Review *review, Output *output, TestCase *test) {
+    Text details = test->result.details;
+    test->result.details = (Text){0};
+    if (!cause_add(review->host, test, PATIENCE))
+        text_add_c(&test->result.details, "no cause found: git has no script with other frames\n");
+    output_write(output, test->result.details.bytes, test->result.details.len);
+    text_free(&test->result.details);
+    test->result.details = details;
+}
+
+static void show_pictures(const Review *review, Output *output, TestCase *test) {
+    if (!test->kind->show || !test->kind->show(review->host, output, test))
+        output_format(output, "this test has no pictures\n");
+}
+
+// Carries out one answer. Returns true if the next difference can be shown.
+static bool answer(Review *review, Output *output, TestCase *test, char letter) {
+    switch (letter) {
+    case 'a':
+        accept_output(review, output, test);
+        return true;
+    case 'r':
+        review->rejected++;
+        if (test->kind->discard)
+            test->kind->discard(test);
+        return true;
+    case 'q':
+        review->ended = true;
+        return true;
+    case 's':
+        return true;
+    case 'c':
+        show_cause(review, output, test);
+        return false;
+    case 'p':
+        show_pictures(review, output, test);
+        return false;
+    default:
+        output_format(output,
+                      "a: record this output; r: reject it; s: decide later; c: show why it differs; p: show both "
+                      "pictures; q: end the review\n");
+        return false;
+    }
+}
+
+void review_ask(Review *review, Output *output, TestCase *test) {
+    char line[80] = "";
+    bool decided = review->ended;
+    while (!decided) {
+        output_format(output, "accept, reject, skip, cause, pictures or quit? [a/r/s/c/p/q] ");
+        output_flush(output);
+        if (!fgets(line, sizeof line, stdin)) {
+            output_format(output, "\n");
+            review->ended = decided = true;
+        } else {
+            decided = answer(review, output, test, line[0]);
+        }
+    }
+    review->asked++;
+}
+
+void review_report(const Review *review, Output *output) {
+    size_t skipped = review->asked - review->accepted - review->rejected;
+    output_format(output, "%zu accepted, %zu rejected, %zu left\n", review->accepted, review->rejected, skipped);
+}
