@@ -1,6 +1,7 @@
 #!/bin/sh
 # samples.sh PETRI ROOT: checks all samples: `petri check` prints nothing, every parameter has a comment and a range, and
-# the sample runs without messages at both ends of the range.
+# the sample runs without messages at both ends of the range. Each step of the tutorial has a task, whose answer in tasks.txt
+# runs, too.
 set -u
 LC_ALL=C.UTF-8
 export LC_ALL
@@ -46,6 +47,22 @@ for script in samples/*.fl; do
                 BEGIN { split(range, end, /\.\./); exit !(end[1] <= value && value <= end[2]) }'
     done <"$work/parameters"
 done
+
+# Writes the script of each step to N.fl, and the numbers of the steps that end with a task.
+awk -v work="$work" '/^## [0-9]+\. / { step = $2 + 0 }
+    /^```flitter cells\.fl$/ { file = work "/" step ".fl"; next }
+    /^```$/ { file = "" }
+    file { print >file }
+    /^\*\*Task:\*\* / { print step }' samples/TUTORIAL.md >"$work/tasks"
+check "each step of the tutorial has one task and an answer" \
+    [ "$(tr '\n' ' ' <"$work/tasks")-$(sed '/^#/d; s/ .*//' tests/docs/tasks.txt | tr '\n' ' ')" = "$(seq -s ' ' 10) -$(seq -s ' ' 10) " ]
+sed '/^#/d' tests/docs/tasks.txt >"$work/answers"
+while read -r step answer; do
+    sed "$answer" "$work/$step.fl" >"$work/answer.fl"
+    check "step $step: the answer changes the script" [ "$(cat "$work/answer.fl")" != "$(cat "$work/$step.fl")" ]
+    check "step $step: petri check accepts the answer" "$petri" check --werror "$work/answer.fl"
+    check "step $step: the answer runs silently" silent "$petri" run --frames 61 "$work/answer.fl" --print error
+done <"$work/answers"
 
 [ $passed -ge 100 ] || check "at least 100 checks were made, not $passed" false
 echo "$passed passed, $failed failed"

@@ -20,6 +20,10 @@ export const GROUPS = [
             parts: [['samples/TROUBLESHOOTING.md']] },
         { name: 'flitter', title: 'For Flitter users', about: 'What runs the same, what is missing, what differs',
             parts: [['src/manual/flitter.md']] },
+        { name: 'from-p5', title: 'From p5 or Processing', about: 'Ten idioms of p5, and the same in petri',
+            parts: [['src/manual/from-p5.md']] },
+        { name: 'from-netlogo', title: 'From NetLogo', about: 'Ten idioms of NetLogo, and the same in petri',
+            parts: [['src/manual/from-netlogo.md']] },
     ]],
     ['Reference', [
         { name: 'language', title: 'The language', about: 'Vectors, names, nodes, functions, the state; with editable examples',
