@@ -30,7 +30,8 @@ bool petri_node_kind(size_t number, PetriNodeKind *out, size_t size) {
                                  kind->place < PLACE_TOP ? "physics"
                                  : solid                 ? "canvas3d"
                                                          : "canvas",
-                                 schema_kind_help[number], schema_formula((NodeKind)number)};
+                                 schema_kind_help[number], schema_formula((NodeKind)number),
+                                 schema_synonyms((NodeKind)number)};
     return host_struct_write(out, size, &found, sizeof found);
 }
 

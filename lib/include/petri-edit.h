@@ -111,6 +111,7 @@ typedef struct PetriNodeKind {
     // v: radius, mass, charge and velocity of the particle; with index 1 or 2, those of the first or second particle of
     // the pair.
     const char *formula;
+    const char *synonyms; // names that other programs have for it, separated by spaces, such as "circle disc"; or ""
 } PetriNodeKind;
 
 // An attribute of a kind of node. The strings are static.

@@ -14,3 +14,5 @@ extern const char *const schema_kind_help[KIND_COUNT];
 
 // Returns the formula of a force, with line breaks; "" for other nodes.
 const char *schema_formula(NodeKind kind);
+// Returns names that other programs have for the kind, separated by spaces, or "" (reports.c).
+const char *schema_synonyms(NodeKind kind);

@@ -94,18 +94,27 @@ void reader_report_unknown(const Reader *reader, const Symbol *name) {
     report_symbol(reader, "unknown-attribute", name, text_str(&out));
 }
 
-// Returns the kind of node for which other programs have another name, or an empty string.
-static Str find_synonym(Str kind) {
-    static const struct {
-        const char *names;
-        const char *kind;
-    } synonyms[] = {
+static const struct {
+    const char *names;
+    const char *kind;
+} SYNONYMS[] = {
 #define SYNONYM(names, kind) {names, kind},
 #include "schema/synonym_list.h"
-    };
-    for (size_t i = 0; i < sizeof synonyms / sizeof synonyms[0]; i++)
-        if (str_word_number(kind, synonyms[i].names) >= 0)
-            return str_from(synonyms[i].kind);
+};
+enum { SYNONYM_COUNT = sizeof SYNONYMS / sizeof SYNONYMS[0] };
+
+const char *schema_synonyms(NodeKind kind) {
+    for (size_t i = 0; i < SYNONYM_COUNT; i++)
+        if (strcmp(SYNONYMS[i].kind, schema_kinds[kind].name) == 0)
+            return SYNONYMS[i].names;
+    return "";
+}
+
+// Returns the kind of node for which other programs have another name, or an empty string.
+static Str find_synonym(Str kind) {
+    for (size_t i = 0; i < SYNONYM_COUNT; i++)
+        if (str_word_number(kind, SYNONYMS[i].names) >= 0)
+            return str_from(SYNONYMS[i].kind);
     return (Str){0};
 }
 

@@ -36,6 +36,14 @@ typedef struct Topic {
 } Topic;
 extern const Topic TOPICS[]; // all topics, then one with word NULL
 
+// Words for things that have other names in petri.
+typedef struct EverydayWord {
+    const char *words; // separated by spaces
+    const char *names; // separated by spaces: names that the help knows, and words of the manual
+    const char *note;  // or ""
+} EverydayWord;
+extern const EverydayWord EVERYDAY_WORDS[]; // all rows, then one with words NULL
+
 // Find a name in petri's tables. topic_find_kind finds the first kind with this name at or after index *number, and
 // sets *number to its index, because several areas may have kinds with the same name. topic_find returns NULL if there
 // is no such word.
@@ -50,7 +58,8 @@ extern const char FORMULA_LETTERS[]; // explains the symbols in formulas
 // Help on words of the language, for `petri help` and `.help` at the prompt (topics.c).
 
 // Adds the help for all functions, nodes and words with this name. If there are none, adds the help for attributes with
-// this name. `!name` matches only nodes. Returns false if nothing has this name.
+// this name. `!name` matches only nodes. Then adds what petri calls this everyday word. Returns false if it knows
+// neither such a name nor such a word.
 bool topics_print(Text *text, const char *topic);
 // Passes all names that topics_print knows to nearest_offer.
 void topics_offer(StrNearest *nearest);

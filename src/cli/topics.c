@@ -35,6 +35,12 @@ const Topic *topic_find(Str word) {
     return NULL;
 }
 
+const EverydayWord EVERYDAY_WORDS[] = {
+#define EVERYDAY(words, names, note) {words, names, note},
+#include "cli/everyday_list.h"
+    {0},
+};
+
 static bool print_word(Text *text, const char *word) {
     const Topic *topic = topic_find(str_from(word));
     if (topic)
@@ -126,12 +132,70 @@ static bool print_owners(Text *text, const char *name) {
     return found;
 }
 
-bool topics_print(Text *text, const char *topic) {
+// Adds the help for everything that has this name in petri.
+static bool print_name(Text *text, const char *topic) {
     bool node_only = topic[0] == '!';
     bool found = !node_only && print_builtin(text, topic); // a name such as random can be a function and a node
     found = print_node(text, topic) || found;
     found = (!node_only && print_word(text, topic)) || found;
     return found || (!node_only && print_owners(text, topic));
+}
+
+// Returns the next word of a list and moves *list behind it. At the end, the word is empty.
+static Str next_word(const char **list) {
+    Str word = {*list, strcspn(*list, " ")};
+    *list += word.len + ((*list)[word.len] == ' ');
+    return word;
+}
+
+// Adds the names that are neither in the list nor the word itself.
+static void add_names(Text *list, const char *names, Str word) {
+    for (Str name; (name = next_word(&names)).len > 0;)
+        if (!str_equal(name, word) && str_word_number(name, list->len > 0 ? list->bytes : "") < 0)
+            text_add_format(list, "%s%.*s", list->len > 0 ? " " : "", STR_ARGS(name));
+}
+
+// Adds the names of an everyday word in petri, separated by spaces, and its notes. `!word` has only names of nodes.
+static void find_everyday(Text *names, Text *notes, const char *topic) {
+    bool node_only = topic[0] == '!';
+    Str word = str_from(topic + node_only);
+    PetriNodeKind kind;
+    for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++)
+        if (str_word_number(word, kind.synonyms) >= 0)
+            add_names(names, kind.name, word);
+    for (const EverydayWord *row = EVERYDAY_WORDS; row->words && !node_only; row++) {
+        if (str_word_number(word, row->words) >= 0) {
+            add_names(names, row->names, word);
+            text_add_format(notes, "%s%s%s", row->note[0] ? "    " : "", row->note, row->note[0] ? "\n" : "");
+        }
+    }
+}
+
+// Adds what petri calls an everyday word: the notes and the help for its names, or only the names if `known`. Returns
+// false if the help knows nothing about it.
+static bool print_everyday(Text *text, const char *topic, bool known) {
+    SCOPED_TEXT names = {0}, notes = {0}, list = {0}, bodies = {0};
+    find_everyday(&names, &notes, topic);
+    const char *at = names.len > 0 ? names.bytes : "";
+    for (Str word; (word = next_word(&at)).len > 0;) {
+        char name[64];
+        snprintf(name, sizeof name, "%.*s", STR_ARGS(word));
+        if (print_name(&bodies, name)) // the help does not know words of the manual
+            text_add_format(&list, "%s%s", list.len > 0 ? ", " : "", name);
+    }
+    if (list.len > 0)
+        text_add_format(text, "%s: %s%s\n", known ? "see also" : topic, known ? "" : "see ", list.bytes);
+    else if (notes.len > 0)
+        text_add_format(text, "%s\n", topic);
+    text_add(text, text_str(&notes));
+    if (!known)
+        text_add(text, text_str(&bodies));
+    return list.len + notes.len > 0;
+}
+
+bool topics_print(Text *text, const char *topic) {
+    bool found = print_name(text, topic);
+    return print_everyday(text, topic, found) || found;
 }
 
 void topics_offer(StrNearest *nearest) {

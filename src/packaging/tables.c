@@ -49,6 +49,11 @@ static void add_words(JsonWriter *json) {
         ROW(json, "word", topic->word, "form", topic->form, "help", topic->help);
 }
 
+static void add_everyday(JsonWriter *json) {
+    for (const EverydayWord *row = EVERYDAY_WORDS; row->words; row++)
+        ROW(json, "words", row->words, "names", row->names);
+}
+
 static void add_functions(JsonWriter *json) {
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin, sizeof builtin); i++)
@@ -58,7 +63,8 @@ static void add_functions(JsonWriter *json) {
 static void add_nodes(JsonWriter *json) {
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind, sizeof kind); i++) {
-        OPEN_ROW(json, "name", kind.name, "area", kind.area, "help", kind.help, "formula", kind.formula);
+        OPEN_ROW(json, "name", kind.name, "area", kind.area, "help", kind.help, "formula", kind.formula, "synonyms",
+                 kind.synonyms);
         json_open(json, "attributes", "[");
         PetriNodeAttribute attribute;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute, sizeof attribute); k++) {
@@ -91,9 +97,9 @@ void tables_as_json(Output *output) {
     static const struct {
         const char *name;
         void (*add)(JsonWriter *json);
-    } lists[] = {{"commands", add_commands},   {"prompt", add_prompt}, {"words", add_words},
-                 {"functions", add_functions}, {"nodes", add_nodes},   {"statuses", add_statuses},
-                 {"variables", add_variables}};
+    } lists[] = {{"commands", add_commands}, {"prompt", add_prompt},       {"words", add_words},
+                 {"everyday", add_everyday}, {"functions", add_functions}, {"nodes", add_nodes},
+                 {"statuses", add_statuses}, {"variables", add_variables}};
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
         json_open(json, lists[i].name, "[");
         lists[i].add(json);

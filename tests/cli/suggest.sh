@@ -79,6 +79,54 @@ petri help random
 check "help shows a name that is only a node" has out "!random (physics)"
 petri help no-such-thing
 check "help on an unknown topic is a usage error" status_is 2
+# everyday words
+helps '!ellipse (canvas)' circle
+helps 'circle: see ellipse' circle
+helps '!ellipse (canvas)' '!circle'
+helps '!distance (physics)' spring
+helps '!barrier (physics)' wall
+helps '!rect (canvas)' background
+helps 'quad(x)' easing
+helps 'map(xs, ys, zs)' lerp
+helps 'RECIPES.md' keyframe
+helps 'petri test' golden
+helps 'RECIPES.md' trail
+helps '!pointer (canvas)' mouse
+helps 'see also: uniform, normal, beta' random
+helps '!drag (physics)' temperature
+helps 'no Lennard-Jones force' lennard
+helps 'semi-implicit Euler' verlet
+helps '    !particle' boids
+petri help '!random'
+check "help !random is only about nodes" lacks out uniform
+petri help '!easing'
+check "a word for functions is not a node" status_is 2
+petri help mosue
+check "an unknown topic like an everyday word does not suggest what has no help" status_is 2
+# Each word of both lists has help, whose notes name topics that exist. The search compares words in small letters.
+sed -n 's/^EVERYDAY("\([^"]*\)".*/\1/p; s/^SYNONYM("\([^"]*\)".*/\1/p' "$here/../../src/cli/everyday_list.h" \
+    "$here/../../lib/schema/synonym_list.h" >rows
+check "there are everyday words" [ "$(wc -w <rows)" -gt 150 ]
+check "everyday words are in small letters" [ "$(grep -c '[A-Z]' rows)" -eq 0 ]
+for word in $(cat rows); do
+    petri help "$word"
+    check "help $word explains the word" status_is 0
+    grep -o "petri help [a-z]*" out >>named
+    sed -n "s/.*see '\(.*\)' in samples\/RECIPES.md.*/## \1/p" out >>recipes
+done
+check "notes name recipes that exist" [ -z "$(sort -u recipes | grep -vxFf "$here/../../samples/RECIPES.md")" ]
+check "there are such notes" [ "$(wc -l <recipes)" -gt 10 ]
+sed 's/^petri help //' named | sort -u >topics
+for topic in $(cat topics); do
+    petri help "$topic"
+    check "notes name a topic that exists: $topic" status_is 0
+done
+awk -F'"' '/^SYNONYM/ { count = split($2, word, " "); for (i = 1; i <= count; i++) print word[i], $4 }' \
+    "$here/../../lib/schema/synonym_list.h" >synonyms
+while read -r word kind; do
+    petri help "!$word"
+    check "help !$word shows !$kind" has out "!$kind ("
+done <synonyms
 # names contain no blanks
 for name in $(sed -n 's/^ENGINE_NAME([A-Z_]*, *"\([a-z_]*\)".*/\1/p' "$here/../../lib/program/engine_names.h"); do
     petri help "$name"

@@ -79,8 +79,17 @@ ${body}</main>
 </html>
 `;
 
-// The search index: pages as [address, title], and sections as [index of the page, title, id, text].
-const index = { pages: [], sections: [] };
+// Returns a map from each everyday word to the words that the manual uses.
+function synonymsOf({ nodes, everyday }) {
+    const map = new Map();
+    for (const { words, names } of [...nodes.map(({ name, synonyms }) => ({ words: synonyms, names: name })), ...everyday])
+        for (const word of words.split(' ').filter(Boolean))
+            map.set(word, new Set([...map.get(word) ?? [], ...names.split(' ')].filter(name => name !== word)));
+    return Object.fromEntries([...map].map(([word, names]) => [word, [...names]]));
+}
+
+// The search index: pages as [address, title], sections as [index of the page, title, id, text], and synonyms.
+const index = { pages: [], sections: [], synonyms: synonymsOf(site.tables) };
 const words = text => text.replaceAll(/<\/?(span|code|a|em|strong)\b[^>]*>/g, '').replaceAll(/<[^>]*>/g, ' ')
     .replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&amp;', '&').replaceAll(/\s+/g, ' ').trim();
 

@@ -451,9 +451,10 @@ static void test_node_kinds_and_attributes(void **state) {
     (void)state;
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
-    size_t kinds = 0, rects = 0, groups = 0;
+    size_t kinds = 0, rects = 0, groups = 0, circles = 0;
     for (; petri_node_kind(kinds, &kind, sizeof kind); kinds++) {
         assert_true(kind.name[0] && kind.help[0]);
+        circles += strncmp(kind.synonyms, "circle ", strlen("circle ")) == 0 && strcmp(kind.name, "ellipse") == 0;
         groups += strcmp(kind.name, "group") == 0;
         for (size_t i = 0; petri_node_attribute(kinds, i, &attribute, sizeof attribute); i++) {
             assert_true(attribute.name[0] && attribute.type[0] && attribute.default_value && attribute.help);
@@ -462,6 +463,7 @@ static void test_node_kinds_and_attributes(void **state) {
     }
     assert_int_equal(groups, 3); // the groups physics, canvas and canvas3d
     assert_int_equal(rects, 1);
+    assert_int_equal(circles, 1);
     assert_false(petri_node_kind(kinds + 1000, &kind, sizeof kind));
     assert_false(petri_node_attribute(kinds, 0, &attribute, sizeof attribute));
 }
