@@ -20,8 +20,7 @@ mkdir "$folder/$name/grammar/generated"
 for file in parser.c parser.h lexer.c; do
     cp "$build/grammar/$file" "$folder/$name/grammar/generated"
 done
-src/packaging/fill.sh src/packaging/CITATION.cff >"$folder/$name/CITATION.cff"
-src/packaging/fill.sh src/packaging/zenodo.json >"$folder/$name/.zenodo.json"
+src/packaging/hosts.sh "$folder/$name"
 tar -c -C "$folder" --sort=name --owner=0 --group=0 --numeric-owner --mode=u=rwX,go=rX --mtime="@$SOURCE_DATE_EPOCH" "$name" |
     xz -6 -T2 >"$folder/$name.tar.xz"
 rm -r "${folder:?}/$name"

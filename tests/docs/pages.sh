@@ -29,7 +29,8 @@ min_examples=600
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 root=$(cd "$2" && pwd)
 pages="$pages $(cd "$root" && echo src/manual/*.md)"
-linked="CHANGELOG.md src/python/TUTORIAL.md src/editors/vscode/README.md src/web/engine/README.md
+linked="CHANGELOG.md .github/SECURITY.md .github/CODE_OF_CONDUCT.md src/python/TUTORIAL.md
+    src/editors/vscode/README.md src/web/engine/README.md
     $(cd "$root" && echo grammar/README.md lib/*/*.md)"
 update=${3:-}
 whole=${update:+yes}

@@ -1,6 +1,7 @@
 #!/bin/sh
-# check_identity.sh SOURCE_ROOT: names of people and hosts are in src/packaging/identity.ini only, LICENSE names the same
-# authors, templates contain only names that fill.sh knows, and no text tells people to get petri from a registry, where
+# check_identity.sh SOURCE_ROOT: names of people and hosts are in src/packaging/identity.ini only and in the files that
+# hosts.sh writes, which are up to date; LICENSE names the same authors, templates contain only names that fill.sh knows,
+# and no text tells people to get petri from a registry, where
 # the name may belong to another project.
 set -eu
 cd "$1"
@@ -12,10 +13,20 @@ git rev-parse --git-dir >/dev/null 2>&1 || {
     echo "skipped: not a git checkout"
     exit 77
 }
-values=$(mktemp)
-trap 'rm -f "$values"' EXIT
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+values=$scratch/values
 sed -n 's/^[a-z_]* = \(.*[^0-9].*\)/\1/p' $identity | sort -u >"$values"
-if git grep --untracked -niF -f "$values" -- . ":!$identity" ':!LICENSE'; then
+src/packaging/hosts.sh "$scratch/hosts"
+written=$(cd "$scratch/hosts" && find . -type f | sed 's|^\./||')
+for file in $written; do
+    cmp "$scratch/hosts/$file" "$file" || {
+        echo "$file is not what hosts/$file, $identity and the version give; run src/packaging/hosts.sh"
+        bad=1
+    }
+done
+# shellcheck disable=SC2046 # names of files without spaces
+if git grep --untracked -niF -f "$values" -- . ":!$identity" ':!LICENSE' $(printf ' :!%s' $written); then
     echo "these names belong in $identity only; write @NAME@ instead, and print the file with src/packaging/fill.sh"
     bad=1
 fi

@@ -10,7 +10,7 @@ printed=$("$2/src/petri" --version)
     echo "meson.build: '$version', the last release in CHANGELOG.md: '$logged', petri --version: '$printed'"
     exit 1
 }
-others=$(git grep -lwF "$version" -- . ':!meson.build' ':!CHANGELOG.md' ':!*package-lock.json' ':!lib/include/petri.h' 2>/dev/null | xargs) || true
+others=$(git grep -lwF "$version" -- . ':!meson.build' ':!CHANGELOG.md' ':!*package-lock.json' ':!lib/include/petri.h' ':!CITATION.cff' ':!.zenodo.json' 2>/dev/null | xargs) || true
 [ -z "$others" ] || {
     echo "these files repeat the version $version of meson.build; write @VERSION@: $others"
     exit 1

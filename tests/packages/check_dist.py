@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """check_dist.py FOLDER: checks the files that `./dev dist` has made in FOLDER: the required fields of the bill of materials
-(SPDX 2.3), of CITATION.cff (1.2.0) and of .zenodo.json, the recipes of Homebrew and conda, and the Dockerfile."""
+(SPDX 2.3), of CITATION.cff (1.2.0) and of .zenodo.json, the forms for issues, the recipes of Homebrew and conda, and the
+Dockerfile."""
 
 import hashlib
 import json
@@ -74,6 +75,22 @@ def check_zenodo(record):
         check("related work for Zenodo", set(related) == {"identifier", "relation", "scheme"})
 
 
+def check_form(path, text):
+    """Checks a form against GitHub's syntax; GitHub ignores a form with an error."""
+    form = yaml.safe_load(text)
+    check(f"keys of {path}", {"name", "description", "body"} <= set(form) <= {"name", "description", "labels", "body"})
+    fields = {"markdown": {"value"}, "input": {"label", "description", "placeholder", "value"},
+              "textarea": {"label", "description", "placeholder", "value", "render"}}
+    for part in form["body"]:
+        check(f"keys of a part of {path}", {"type", "attributes"} <= set(part) <= {"type", "id", "attributes", "validations"})
+        check(f"attributes of {part['type']} in {path}", set(part["attributes"]) <= fields.get(part["type"], set()))
+        check(f"text of {part['type']} in {path}",
+              part["attributes"].get("value" if part["type"] == "markdown" else "label"))
+        check(f"validations in {path}", set(part.get("validations", {})) <= {"required"})
+    inputs = [part["id"] for part in form["body"] if part["type"] != "markdown"]
+    check(f"identifiers of {path}", inputs and len(set(inputs)) == len(inputs))
+
+
 def check_conda(text):
     recipe = yaml.safe_load(text)
     check("source of the recipe", recipe["source"]["url"].endswith(archive.name) and recipe["source"]["sha256"] == checksum)
@@ -115,7 +132,8 @@ with tarfile.open(archive) as files:
     check("generated sources", all(read(f"grammar/generated/{file}") for file in ("parser.c", "parser.h", "lexer.c")))
     check("one folder in the archive", all(member.name.split("/")[0] == name for member in files))
     check("owners in the archive", all(member.uid == member.gid == 0 for member in files))
-    filled = {"CITATION.cff": read("CITATION.cff"), ".zenodo.json": read(".zenodo.json")}
+    filled = {path: read(path) for path in ("CITATION.cff", ".zenodo.json", ".github/SECURITY.md", ".github/CODE_OF_CONDUCT.md",
+              *(f".github/ISSUE_TEMPLATE/{form}.yml" for form in ("bug", "wish", "config")))}
     check_dockerfile(read("src/packaging/Dockerfile"))
 for path in [f"{name}.spdx.json", "petri.rb", "conda/meta.yaml"]:
     filled[path] = (folder / path).read_text()
@@ -124,6 +142,10 @@ for path, text in filled.items():
 check_materials(json.loads(filled[f"{name}.spdx.json"]))
 check_citation(yaml.safe_load(filled["CITATION.cff"]))
 check_zenodo(json.loads(filled[".zenodo.json"]))
+for path in (".github/ISSUE_TEMPLATE/bug.yml", ".github/ISSUE_TEMPLATE/wish.yml"):
+    check_form(path, filled[path])
+check("choices of issues", set(yaml.safe_load(filled[".github/ISSUE_TEMPLATE/config.yml"])) == {
+    "blank_issues_enabled", "contact_links"})
 check_conda(filled["conda/meta.yaml"])
 check_formula(filled["petri.rb"])
 for fault in faults:
