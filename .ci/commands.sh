@@ -16,13 +16,15 @@ test [--all | NAME...]: build, then run the tests of the program, or those named
 build: make a release build with windows and video; the program is build/petri
 install [PREFIX]: build, then install petri in PREFIX (default: /usr/local for root, else ~/.local)
 uninstall [PREFIX]: remove what `./dev install` installed in PREFIX (default: as for install)
-package [--test | --wheel | --manylinux | --static | --vscode]: make Debian packages in build/package
+package [--test | --sdist | --wheel | --manylinux | --static | --vscode]: make Debian packages in build/package
   --test       also install and test them on a minimal Debian system
+  --sdist      make the source distribution of the Python module there instead
   --wheel      make a Python wheel there instead
   --manylinux  make a Python wheel without pictures there, for other Linux systems
   --static     make a static program without pictures there, with musl
   --vscode     make the extension for VS Code there
-dist: make the source archive in build/dist, with bill of materials and checksums
+dist [--source]: make all files of a release in build/dist, with notes and checksums
+  --source  make only the source archive, with bill of materials and checksums
 sanitize [--memory | --thread | NAME...]: run most tests with clang's address and undefined-behaviour sanitizers
   NAME      only tests and suites with these names
   --memory  run tests of the libraries with the memory sanitizer instead

@@ -485,7 +485,7 @@ check "modules are found" status_is 0
 
 machine
 for arguments in 'run' 'test --foo' 'test --all quick' 'build x' 'install /a /b' 'install --prefix' 'package --dynamic' 'package --wheel --test' \
-    'dist x' 'sanitize --address' 'fuzz --minutes' 'fuzz --minutes x' 'fuzz --minutes 1 --seconds 1' 'fuzz nosuch' 'mutate nosuch' \
+    'dist x' 'dist --wheel' 'sanitize --address' 'fuzz --minutes' 'fuzz --minutes x' 'fuzz --minutes 1 --seconds 1' 'fuzz nosuch' 'mutate nosuch' \
     'mutate --count x' 'coverage x' 'format --chek' 'tidy --depe' 'maths x' 'maths 0' 'crash-test 1 2' 'hashes x' 'gallery x' 'web --serve x' \
     'web 8080' 'figures x' 'clean-install --user' 'setup some' 'help nosuch' 'completion x' 'nosuch' 'test nosuch' 'test quick nosuch' \
     'uninstall a b'; do
