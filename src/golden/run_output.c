@@ -1,4 +1,4 @@
-// run_output.c: what a run of `petri` has left, and the words that all runs have; see suite.h.
+// run_output.c: the output of a run of `petri`, and the words that all runs have; see suite.h.
 #include "golden/suite.h"
 
 #include <stdlib.h>

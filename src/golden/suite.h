@@ -57,7 +57,7 @@ char *kind_path(const char *path, const char *suffix);
 bool run_kind_begin(const Options *options, TestCase *test, TextList *words);
 void run_kind_end(const Options *options, TestCase *test, const RunOutput *run);
 
-// run_output.c: what a run of `petri` has left.
+// run_output.c: the output of a run of `petri`.
 
 // Adds the words that all runs have: overrides of options, and the script after `--`.
 void run_add_common(const Options *options, const TestCase *test, TextList *words);
