@@ -33,8 +33,9 @@ static void draw_shape(void *context, const AutoShape *shape) {
     Canvas *canvas = context;
     cairo_t *cr = canvas->cr;
     draw_forget_path(canvas);
-    draw_add_elements(canvas, shape->path, shape->length);
-    const DisplayPaint paint = {.composite = COMPOSITE_OVER, .source = shape->gradient ? 0 : DISPLAY_NONE};
+    draw_add_elements(canvas, (DisplayNumbers){shape->path, shape->length});
+    const double source = shape->gradient ? PETRI_DRAW_RADIAL : PETRI_DRAW_COLOR;
+    const DisplayPaint paint = {.source = &source, .style.mode = COMPOSITE_OVER};
     if (shape->line == 0 && !draw_charge_path(canvas, &paint, true, false)) {
         cairo_new_path(cr);
         return;

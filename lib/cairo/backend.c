@@ -34,11 +34,18 @@ static void draw_image_of(cairo_t *cr, cairo_surface_t *pixels, double width, do
     cairo_paint(cr);
 }
 
+static void draw_canvas_node(Canvas *canvas, const Page *page) {
+    DisplayList list = {.arena = &canvas->painter->arena};
+    display_list_begin(&list, page->width, page->height);
+    display_list_build(&list, page->canvas, NULL, &canvas->painter->sizes);
+    draw_display_list(canvas, &list);
+}
+
 // Draws the whole page. Returns false if Cairo failed.
 static bool draw_page(Canvas *canvas, const Page *page, double width, double height) {
     cairo_t *cr = canvas->cr;
     if (canvas->painter->text_context)
-        canvas->painter->text_context->family = NULL;
+        canvas->painter->text_context->font.family = NULL;
     cairo_set_tolerance(cr, 0.1);
     if (page->black) {
         cairo_set_source_rgb(cr, 0, 0, 0);
@@ -50,7 +57,7 @@ static bool draw_page(Canvas *canvas, const Page *page, double width, double hei
     if (page->pixels)
         draw_image_of(cr, page->pixels, page->width, page->height);
     else if (page->canvas)
-        draw_display_list(canvas, display_list_build(&canvas->painter->arena, page->canvas, &canvas->painter->sizes));
+        draw_canvas_node(canvas, page);
     else if (page->picture->automatic)
         draw_automatic(canvas, page->picture->automatic);
     cairo_status_t status = cairo_status(cr);

@@ -35,7 +35,7 @@ cairo_surface_t *draw_push_offscreen(Canvas *canvas, int width, int height, doub
     canvas->cr = cr;
     canvas->outer_hdr_target = canvas->hdr_target;
     canvas->hdr_target.pixels = NULL;
-    canvas->path_of = NULL;
+    canvas->path.at = NULL;
     return surface;
 }
 
@@ -90,5 +90,16 @@ void draw_forget_path(Canvas *canvas) {
     canvas->path_work = 0;
     canvas->size =
         (PathSize){.left = INFINITY, .right = -INFINITY, .top = INFINITY, .bottom = -INFINITY, .starts = true};
-    canvas->path_of = NULL;
+    canvas->path.at = NULL;
+}
+
+Str draw_string(Canvas *canvas, const DisplayString *string) {
+    enum { MAX_BYTES = 6, REPLACEMENT = 0xFFFD }; // of a code point, in GLib; for bytes that are not UTF-8
+    DisplayNumbers points = string->points;
+    char *bytes = arena_alloc(&canvas->painter->arena, (size_t)MAX_BYTES * points.count + 1);
+    size_t length = 0;
+    for (uint32_t i = 0; i < points.count; i++)
+        length += (size_t)g_unichar_to_utf8(points.at[i] >= 0 ? (gunichar)points.at[i] : REPLACEMENT, bytes + length);
+    bytes[length] = 0;
+    return (Str){bytes, length};
 }

@@ -9,13 +9,20 @@
 
 enum { RECENT_FONTS = 16 };
 
-// Pango's objects. `family` and `font` are the font that was last set in the layout.
+typedef struct TextFont {
+    const char *family; // a list of names
+    double size;
+    double weight;
+    int width;
+    int slant;
+} TextFont;
+
+// Pango's objects.
 struct TextContext {
     PangoFontMap *fonts;
     PangoContext *context;
     PangoLayout *layout;
-    const char *family; // reset to NULL at the start of each picture; NULL: no font set
-    DisplayText font;
+    TextFont font;                       // that was last set in the layout; reset at the start of each picture
     uint64_t recent_fonts[RECENT_FONTS]; // hashes of fonts that measured texts; 0: none
     uint32_t font_count;                 // number of fonts that were not recent when they were used
 };
@@ -41,13 +48,15 @@ typedef struct Canvas {
     double layer_pixels; // total number of pixels of the open layers
     double columns;      // width of the target in pixels; `rows` is its height
     double rows;
-    double path_work;              // sum over the edges of the current path: 1 + number of rows that the edge crosses
-    PathSize size;                 // extent of the current path
-    const DisplayList *list;       // the list being drawn; NULL: none
-    const DisplayCommand *path_of; // the command whose path is Cairo's current path; NULL: none
-    cairo_matrix_t base;           // transform from the list's units to the target
-    bool failed;                   // true after an error was reported
-    FloatImagePool pool;           // float images; also charges other memory to the painter's budget
+    double path_work;          // sum over the edges of the current path: 1 + number of rows that the edge crosses
+    PathSize size;             // extent of the current path
+    const DisplayList *list;   // the list being drawn; NULL: none
+    DisplayMatrix matrix;      // the list's current matrix
+    cairo_matrix_t base;       // transform from the list's units to the target
+    DisplayNumbers path;       // the path that is Cairo's current path; `at` is NULL: none
+    DisplayMatrix path_matrix; // the list's matrix when it became the current path
+    bool failed;               // true after an error was reported
+    FloatImagePool pool;       // float images; also charges other memory to the painter's budget
     // On an HDR canvas: drawn on instead of the pixels of `cr`. On other canvases, the image's `pixels` is NULL.
     FloatImage hdr_target;
     // While drawing is redirected offscreen: the previous targets, and the surface that is drawn on.
@@ -79,15 +88,16 @@ bool draw_is_invertible(const cairo_matrix_t *m);
 double draw_scale_of(cairo_t *cr);
 // Makes the current path empty.
 void draw_forget_path(Canvas *canvas);
+// Returns a string of the list as UTF-8, with a NUL at the end, in the painter's arena.
+Str draw_string(Canvas *canvas, const DisplayString *string);
 
 // path.c
 // Clamps a point to the range of Cairo's coordinates, and adds it to the extent and cost of the current path.
 void draw_clamp_point(Canvas *canvas, double *x, double *y);
-// Makes the command's path Cairo's current path, in the current transform.
-void draw_set_path(Canvas *canvas, const DisplayCommand *command);
+// Makes a path of the list Cairo's current path, in the current transform.
+void draw_set_path(Canvas *canvas, DisplayNumbers path);
 void draw_add_element(Canvas *canvas, PathElement kind, const double *numbers);
-// Adds path elements in the format of DisplayList.numbers.
-void draw_add_elements(Canvas *canvas, const double *numbers, uint32_t count);
+void draw_add_elements(Canvas *canvas, DisplayNumbers path);
 
 // cost.c
 // Charges the cost of drawing the current path. If that exceeds the limit, reports this and returns false.
@@ -96,12 +106,22 @@ bool draw_charge_path(Canvas *canvas, const DisplayPaint *paint, bool fill, bool
 bool draw_charge_box(Canvas *canvas, const DisplayPaint *paint, double width, double height, double count);
 
 // image_cache.c
+// An image of a list: a file, or the picture of another node.
+typedef struct DrawImage {
+    Str file; // empty: use `id`
+    Str id;
+    NodeKind kind; // kind of the image's node, for messages
+    Origin place;
+} DrawImage;
+
+// Returns the image of the command at `at`, whose operand `file` is empty if it is the picture of another node.
+DrawImage draw_image_at(Canvas *canvas, const double *at, const DisplayString *file);
 // Returns a surface with the pixels of an image; the caller destroys the surface. Returns NULL if the image does not
 // exist. A file that cannot be read is reported.
-cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image);
+cairo_surface_t *draw_find_image(Canvas *canvas, const DrawImage *image);
 // Like draw_find_image, but does not copy the pixels. Sets *texture to the rendered picture of a node, or *file to the
 // cached pixels of a file. The pointer that does not apply is set to NULL. Returns false if both are NULL.
-bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file);
+bool draw_find_pixels(Canvas *canvas, const DrawImage *image, const Texture **texture, cairo_surface_t **file);
 // A CanvasBackend.find_image.
 bool draw_find_file(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, ImagePixels *image,
                     DiagSink *diags);
@@ -125,25 +145,25 @@ bool draw_is_drawable(Canvas *canvas);
 // Returns true if the current path is so long that it is stroked in segments, which overlap.
 bool draw_strokes_in_segments(const Canvas *canvas);
 // Applies the paint's path effect to the current path, then fills and strokes it with the current source and operator.
-void draw_fill_and_stroke(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
+void draw_fill_and_stroke(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint);
 // Stores the bounding box of the painted path, in pixels of the target, in `box`: left, top, right, bottom. Returns
 // false if the box is unbounded or unknown.
-bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, double box[4]);
+bool draw_find_box(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint, double box[4]);
 // Clips to the bounding box of the painted path.
-void draw_clip_to_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
-// Returns the command's shape as a mask. The caller destroys it.
-cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
+void draw_clip_to_box(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint);
+// Returns the shape as a mask. The caller destroys it.
+cairo_pattern_t *draw_make_mask(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint);
 
 // paint.c
-// Fills or strokes the current path. If the command does both, paints them as one shape.
-void draw_current_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
+// Fills or strokes the current path. If the shape is both, paints them as one.
+void draw_current_path(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint);
 
 // text.c
 // Returns the painter's fonts, which the first call opens. Returns NULL if out of memory.
 TextContext *draw_text_context(PetriPainter *painter);
 void draw_text_close(PetriPainter *painter);
 // Makes the outline of a text the current path. Returns false if the text is not drawn.
-bool draw_set_text_path(Canvas *canvas, const DisplayText *text, const DisplayPaint *paint);
+bool draw_set_text_path(Canvas *canvas, const TEXTOperands *text, const DisplayPaint *paint);
 // A CanvasBackend.measure_text.
 const char *draw_measure_text(PetriPainter *painter, Str text, const TextStyle *style, double *width, bool *loaded);
 
@@ -153,11 +173,12 @@ PetriStatus draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t 
                         uint32_t *pixels, int width, int height, size_t stride);
 
 // image.c
-void draw_image(Canvas *canvas, const DisplayImage *image, const DisplayPaint *paint);
+// Draws a PETRI_DRAW_IMAGE or PETRI_DRAW_PIXELS.
+void draw_image(Canvas *canvas, const DisplayRow *row, const DisplayPaint *paint);
 
 // filters.c
-// Draws a command, through the paint's filter if it has one.
-void draw_command(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
+// Draws a path, text or image, through the paint's filter if it has one.
+void draw_command(Canvas *canvas, const DisplayRow *row, const DisplayPaint *paint);
 
 // list.c
 // Draws a list. The current transform must map the list's units to the target.

@@ -7,12 +7,13 @@
 
 // Returns the time in nanoseconds that painting one pixel takes.
 static double cost_of_pixel(const DisplayPaint *paint) {
-    double color = paint->source == DISPLAY_NONE ? 0 : 5;
-    if (paint->composite == COMPOSITE_OVER)
+    double color = display_paint_is_plain(paint) ? 0 : 5;
+    int mode = (int)paint->style.mode;
+    if (mode == COMPOSITE_OVER)
         return color + 0.5;
-    if (paint->composite == COMPOSITE_MODULATE)
+    if (mode == COMPOSITE_MODULATE)
         return color + 9;
-    return color + (paint->composite >= COMPOSITE_HUE ? 20 : paint->composite >= COMPOSITE_MULTIPLY ? 8 : 2);
+    return color + (mode >= COMPOSITE_HUE ? 20 : mode >= COMPOSITE_MULTIPLY ? 8 : 2);
 }
 
 static bool charge_pixels(Canvas *canvas, const DisplayPaint *paint, double pixels, double more) {
@@ -24,7 +25,7 @@ static bool charge_pixels(Canvas *canvas, const DisplayPaint *paint, double pixe
 // parts of opposite orientation cancel. The estimate for a stroke is its length times its width.
 static double pixels_of(const Canvas *canvas, const DisplayPaint *paint, bool fill, bool stroke) {
     const PathSize *size = &canvas->size;
-    double width = stroke ? paint->stroke_width * draw_scale_of(canvas->cr) : 0;
+    double width = stroke ? paint->style.width * draw_scale_of(canvas->cr) : 0;
     double across = fmin(size->right + width / 2, canvas->columns) - fmax(size->left - width / 2, 0);
     double down = fmin(size->bottom + width / 2, canvas->rows) - fmax(size->top - width / 2, 0);
     if (!(across > 0 && down > 0))

@@ -15,17 +15,11 @@ typedef struct FilterContext {
     const FloatImage *drawn; // the unfiltered drawing
 } FilterContext;
 
-static const double *table_of(const DisplayList *list, const DisplayFilter *filter) {
-    return filter->numbers == DISPLAY_NONE ? NULL : list->numbers.at + filter->numbers;
-}
-
-static void report_blur_limit(const FilterContext *context, const DisplayFilter *filter) {
-    double radius[2];
-    filter_radius(filter, &context->matrix, radius);
-    if (fmax(radius[0], radius[1]) > FLOAT_IMAGE_MAX_SIGMA)
-        draw_report(context->canvas, &filter->place, DIAG_WARNING, "blur-limit",
-                    "!%s: the radius is limited to %d pixels", filter->kind == FILTER_BLUR ? "blur" : "shadow",
-                    FLOAT_IMAGE_MAX_SIGMA);
+static void report_blur_limit(void *argument, const double *filter) {
+    const FilterContext *context = argument;
+    Origin place = display_list_note(context->canvas->list, filter).place;
+    draw_report(context->canvas, &place, DIAG_WARNING, "blur-limit", "!%s: the radius is limited to %d pixels",
+                (int)*filter == PETRI_FILTER_BLUR ? "blur" : "shadow", FLOAT_IMAGE_MAX_SIGMA);
 }
 
 // Returns the pixels of an image surface as a float image.
@@ -35,12 +29,16 @@ static FloatImage read_surface(Canvas *canvas, cairo_surface_t *surface) {
                             cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface));
 }
 
-// Returns a new image that is filled with the paint.
-static FloatImage paint_all(const FilterContext *context, const DisplayPaint *paint) {
+// Returns a new image that is filled with the paint that the commands set.
+static FloatImage paint_all(void *argument, DisplayNumbers commands) {
+    const FilterContext *context = argument;
     Canvas *canvas = context->canvas;
-    if (canvas->hdr_target.pixels && paint->source == DISPLAY_NONE) {
+    const DisplayPaint paint = {.source = commands.at};
+    if (canvas->hdr_target.pixels && display_paint_is_plain(&paint)) {
+        DisplayRow row;
         FloatImage plain = float_image_new(&canvas->pool, context->drawn->width, context->drawn->height);
-        float_image_fill(&plain, paint->color);
+        display_list_read(paint.source, &row);
+        float_image_fill(&plain, row.COLOR.colour);
         return plain;
     }
     cairo_surface_t *surface =
@@ -50,39 +48,11 @@ static FloatImage paint_all(const FilterContext *context, const DisplayPaint *pa
         return image;
     const DisplayMatrix *m = &context->matrix;
     cairo_set_matrix(canvas->cr, &(cairo_matrix_t){m->xx, m->yx, m->xy, m->yy, m->x0, m->y0});
-    draw_set_source(canvas, paint);
+    draw_set_source(canvas, &paint);
     cairo_paint(canvas->cr);
     image = read_surface(canvas, surface);
     draw_pop_offscreen(canvas);
     return image;
-}
-
-// Returns the result of a filter as a new image.
-static FloatImage apply_filter(const FilterContext *context, uint32_t number) {
-    Canvas *canvas = context->canvas;
-    if (number == DISPLAY_NONE)
-        return float_image_copy(&canvas->pool, context->drawn);
-    const DisplayList *list = canvas->list;
-    const DisplayFilter *filter = &list->filters.at[number];
-    if (filter->kind == FILTER_PAINT)
-        return paint_all(context, &list->paints.at[filter->paint]);
-    FloatImage image = apply_filter(context, filter->inputs[0]), other = {0};
-    if (filter->kind == FILTER_BLUR || filter->kind == FILTER_SHADOW)
-        report_blur_limit(context, filter);
-    if (filter->kind == FILTER_BLEND)
-        other = apply_filter(context, filter->inputs[1]);
-    filter_apply(&canvas->pool, filter, table_of(list, filter), &context->matrix, &image, &other);
-    float_image_free(&canvas->pool, &other);
-    return image;
-}
-
-static void add_needs(const DisplayList *list, uint32_t number, const DisplayMatrix *m, FilterNeeds *needs) {
-    if (number == DISPLAY_NONE)
-        return;
-    const DisplayFilter *filter = &list->filters.at[number];
-    filter_add_needs(filter, table_of(list, filter), m, needs);
-    add_needs(list, filter->inputs[0], m, needs);
-    add_needs(list, filter->inputs[1], m, needs);
 }
 
 typedef struct Box {
@@ -94,7 +64,7 @@ typedef struct Box {
 
 // Computes the area of the target that the image must cover, from the clip and, if it is known, the bounding box of the
 // shape. Returns false if nothing is visible.
-static bool find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, const FilterNeeds *needs,
+static bool find_box(Canvas *canvas, const DisplayRow *row, const DisplayPaint *paint, const FilterNeeds *needs,
                      Box *box) {
     cairo_t *cr = canvas->cr;
     double seen[4], figure[4], margin = ceil(needs->margin + 2);
@@ -104,10 +74,10 @@ static bool find_box(Canvas *canvas, const DisplayCommand *command, const Displa
     cairo_restore(cr);
     if (seen[2] <= seen[0] || seen[3] <= seen[1])
         return false;
-    bool known = command->kind == DISPLAY_DRAW && !needs->everywhere;
+    bool known = row->kind == PETRI_DRAW_PATH && !needs->everywhere;
     if (known) {
-        draw_set_path(canvas, command);
-        known = draw_find_box(canvas, command, paint, figure);
+        draw_set_path(canvas, row->PATH.path);
+        known = draw_find_box(canvas, &row->PATH, paint, figure);
     }
     for (int k = 0; k < 2; k++) {
         double low = known ? fmax(seen[k], figure[k]) : seen[k];
@@ -125,31 +95,29 @@ static bool find_box(Canvas *canvas, const DisplayCommand *command, const Displa
 }
 
 // Charges the cost of the filter. If the cost exceeds a limit, reports this and returns false.
-static bool can_filter(Canvas *canvas, const DisplayFilter *filter, const Box *box, const FilterNeeds *needs) {
+static bool can_filter(Canvas *canvas, const Origin *place, const Box *box, const FilterNeeds *needs) {
     double pixels = box->width * box->height, work = pixels <= IMAGE_MAX_PIXELS ? pixels * needs->work : INFINITY;
-    return draw_charge(canvas, &filter->place, work, "the content is drawn without the filter");
+    return draw_charge(canvas, place, work, "the content is drawn without the filter");
 }
 
 // Draws a command, but ignores the paint's filter.
-static void draw_unfiltered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
-    DisplayCommand shape = *command;
+static void draw_unfiltered(Canvas *canvas, const DisplayRow *row, const DisplayPaint *paint) {
     DisplayPaint smooth = *paint;
-    if (command->kind == DISPLAY_IMAGE) {
-        draw_image(canvas, &canvas->list->images.at[command->item], paint);
-    } else if (command->kind == DISPLAY_DRAW) {
-        draw_set_path(canvas, command);
-        draw_current_path(canvas, command, paint);
-    } else if (draw_set_text_path(canvas, &canvas->list->texts.at[command->item], paint)) {
-        smooth.antialias = true;
-        shape.path.fill_type = FILL_WINDING;
-        draw_current_path(canvas, &shape, &smooth);
+    if (row->kind == PETRI_DRAW_PATH) {
+        draw_set_path(canvas, row->PATH.path);
+        draw_current_path(canvas, &row->PATH, paint);
+    } else if (row->kind != PETRI_DRAW_TEXT) {
+        draw_image(canvas, row, paint);
+    } else if (draw_set_text_path(canvas, &row->TEXT, paint)) {
+        smooth.style.antialias = true;
+        draw_current_path(
+            canvas, &(PATHOperands){.fill = row->TEXT.fill, .stroke = row->TEXT.stroke, .rule = FILL_WINDING}, &smooth);
         draw_forget_path(canvas);
     }
 }
 
 // Draws the command to a new image, without its filter and composite mode, and returns the image.
-static FloatImage draw_offscreen(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint,
-                                 const Box *box) {
+static FloatImage draw_offscreen(Canvas *canvas, const DisplayRow *row, const DisplayPaint *paint, const Box *box) {
     cairo_matrix_t matrix;
     cairo_get_matrix(canvas->cr, &matrix);
     cairo_surface_t *surface = draw_push_offscreen(canvas, (int)box->width, (int)box->height, box->x, box->y);
@@ -158,15 +126,15 @@ static FloatImage draw_offscreen(Canvas *canvas, const DisplayCommand *command, 
         return image;
     cairo_set_matrix(canvas->cr, &matrix);
     DisplayPaint plain = *paint;
-    plain.filter = DISPLAY_NONE;
-    plain.composite = COMPOSITE_OVER;
+    plain.filter.count = 0;
+    plain.style.mode = COMPOSITE_OVER;
     if (canvas->outer_hdr_target.pixels) {
         image = canvas->hdr_target = float_image_new(&canvas->pool, (int)box->width, (int)box->height);
         canvas->hdr_target.x = (int)box->x;
         canvas->hdr_target.y = (int)box->y;
     }
     if (!canvas->outer_hdr_target.pixels || image.pixels)
-        draw_unfiltered(canvas, command, &plain);
+        draw_unfiltered(canvas, row, &plain);
     if (!canvas->outer_hdr_target.pixels)
         image = read_surface(canvas, surface);
     draw_pop_offscreen(canvas);
@@ -193,35 +161,42 @@ static void composite_result(Canvas *canvas, const FloatImage *image, const Box 
 }
 
 // Draws a command through the paint's filter.
-static void draw_filtered(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
+static void draw_filtered(Canvas *canvas, const DisplayRow *row, const DisplayPaint *paint) {
+    const double *filter = paint->filter.at;
     FilterContext context = {.canvas = canvas};
-    FilterNeeds needs = {0};
+    FilterTask task = {.reader = {filter, paint->filter.count, false},
+                       .matrix = &context.matrix,
+                       .pool = &canvas->pool,
+                       .paint = paint_all,
+                       .exceeds = report_blur_limit,
+                       .context = &context};
     cairo_matrix_t m;
     Box box;
     cairo_get_matrix(canvas->cr, &m);
     context.matrix = (DisplayMatrix){m.xx, m.yx, m.xy, m.yy, m.x0, m.y0};
-    add_needs(canvas->list, paint->filter, &context.matrix, &needs);
-    if (!find_box(canvas, command, paint, &needs, &box))
+    FilterNeeds needs = filter_measure(&task);
+    if (!find_box(canvas, row, paint, &needs, &box))
         return;
-    const DisplayFilter *filter = &canvas->list->filters.at[paint->filter];
+    Origin place = display_list_note(canvas->list, filter).place;
     FloatImage result = {0};
-    if (can_filter(canvas, filter, &box, &needs)) {
-        FloatImage drawn = draw_offscreen(canvas, command, paint, &box);
+    if (can_filter(canvas, &place, &box, &needs)) {
+        FloatImage drawn = draw_offscreen(canvas, row, paint, &box);
         context.x = box.x;
         context.y = box.y;
-        context.drawn = &drawn;
+        context.drawn = task.drawn = &drawn;
+        task.reader = (DisplayReader){filter, paint->filter.count, false};
         if (drawn.pixels)
-            result = apply_filter(&context, paint->filter);
+            result = filter_apply(&task);
         float_image_free(&canvas->pool, &drawn);
-        draw_report_degraded(canvas, &filter->place, "a filter", !result.pixels);
+        draw_report_degraded(canvas, &place, "a filter", !result.pixels);
     }
     if (result.pixels)
-        composite_result(canvas, &result, &box, paint->composite);
+        composite_result(canvas, &result, &box, (int)paint->style.mode);
     else
-        draw_unfiltered(canvas, command, paint);
+        draw_unfiltered(canvas, row, paint);
     float_image_free(&canvas->pool, &result);
 }
 
-void draw_command(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
-    (paint->filter != DISPLAY_NONE ? draw_filtered : draw_unfiltered)(canvas, command, paint);
+void draw_command(Canvas *canvas, const DisplayRow *row, const DisplayPaint *paint) {
+    (paint->filter.count > 0 ? draw_filtered : draw_unfiltered)(canvas, row, paint);
 }

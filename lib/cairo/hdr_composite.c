@@ -70,6 +70,13 @@ static inline void find_color(const Stamp *stamp, const Pixels *colors, int x, i
         color[k] = (float)(pixel >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
 }
 
+// Composites a colour, whose channels are multiplied by k, over d.
+static inline void composite_over(float d[4], const float s[4], float k) {
+    const float source[4] = {k * s[0], k * s[1], k * s[2], k * s[3]};
+    for (int c = 0; c < 4; c++)
+        d[c] = blend_OVER(source[c], d[c], source[3], d[3]);
+}
+
 // Composites each covered pixel s of the source onto the target d: d becomes k B(s, d) + (1 - k) d. k is the coverage.
 static void composite_stamp(Canvas *canvas, Stamp *stamp) {
     FloatImage *wide = &canvas->hdr_target;
@@ -90,8 +97,7 @@ static void composite_stamp(Canvas *canvas, Stamp *stamp) {
             float *d = wide->pixels + 4 * at, s[4], mixed[4];
             find_color(stamp, &colors, x, y, s);
             if (stamp->mode == COMPOSITE_OVER) {
-                for (int c = 0; c < 4; c++)
-                    d[c] = blend_OVER(k * s[c], d[c], k * s[3], d[3]);
+                composite_over(d, s, k);
                 continue;
             }
             blend_colors(stamp->mode, s, d, mixed);
@@ -121,29 +127,32 @@ static cairo_pattern_t *make_group(cairo_t *cr, cairo_content_t content, double 
     return cairo_pop_group(cr);
 }
 
-void hdr_draw_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
+void hdr_draw_path(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
-    Stamp stamp = {.mode = (CompositeMode)paint->composite};
-    float alpha = (float)fmin(fmax(paint->color[3], 0), 1);
+    Stamp stamp = {.mode = (CompositeMode)(int)paint->style.mode};
+    float alpha = (float)display_paint_alpha(paint);
+    bool plain = display_paint_is_plain(paint);
     HdrPaint shade;
-    if (paint->source != DISPLAY_NONE && hdr_paint_from_source(canvas, paint->source, alpha, &shade))
+    if (!plain && hdr_paint_from_source(canvas, paint->source, alpha, &shade))
         stamp.shade = &shade;
     else
         draw_set_source(canvas, paint); // set before groups are created, because setting it can abort the drawing
     cairo_save(cr);
-    draw_clip_to_box(canvas, command, paint);
-    if (paint->source != DISPLAY_NONE && !stamp.shade)
+    draw_clip_to_box(canvas, shape, paint);
+    if (!plain && !stamp.shade)
         stamp.colors = make_group(cr, CAIRO_CONTENT_COLOR_ALPHA, 1);
-    for (int k = 0; k < 3; k++)
-        stamp.color[k] = (float)paint->color[k] * alpha;
+    DisplayRow row;
+    display_list_read(paint->source, &row);
+    for (int k = 0; plain && k < 3; k++)
+        stamp.color[k] = (float)row.COLOR.colour[k] * alpha;
     stamp.color[3] = alpha;
-    stamp.cover = draw_make_mask(canvas, command, paint);
+    stamp.cover = draw_make_mask(canvas, shape, paint);
     composite_stamp(canvas, &stamp);
     cairo_restore(cr);
 }
 
 void hdr_draw_image(Canvas *canvas, const DisplayPaint *paint, const HdrPaint *image) {
-    Stamp stamp = {.shade = image, .mode = (CompositeMode)paint->composite};
+    Stamp stamp = {.shade = image, .mode = (CompositeMode)(int)paint->style.mode};
     stamp.cover = make_group(canvas->cr, CAIRO_CONTENT_ALPHA, 1);
     composite_stamp(canvas, &stamp);
 }
@@ -164,10 +173,8 @@ FloatImage hdr_begin_layer(Canvas *canvas) {
 }
 
 void hdr_end_layer(Canvas *canvas, FloatImage below, double alpha) {
-    const FloatImage *layer = &canvas->hdr_target;
-    for (size_t i = 0; i < 4 * (size_t)below.width * (size_t)below.height; i++)
-        below.pixels[i] = blend_OVER(layer->pixels[i] * (float)alpha, below.pixels[i],
-                                     layer->pixels[i | 3] * (float)alpha, below.pixels[i | 3]);
+    for (size_t i = 0; i < 4 * (size_t)below.width * (size_t)below.height; i += 4)
+        composite_over(below.pixels + i, canvas->hdr_target.pixels + i, (float)alpha);
     float_image_free(&canvas->pool, &canvas->hdr_target);
     canvas->hdr_target = below;
 }

@@ -6,7 +6,7 @@
 #include "picture/float_image.h"
 
 // These functions draw onto the target within the clip: the current path, an image, or a float image at x, y.
-void hdr_draw_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint);
+void hdr_draw_path(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint);
 void hdr_draw_image(Canvas *canvas, const DisplayPaint *paint, const HdrPaint *image);
 void hdr_composite(Canvas *canvas, const FloatImage *image, double x, double y, int composite);
 // Begins a layer and returns the image below it. hdr_end_layer composites the layer over that image.

@@ -6,46 +6,46 @@
 
 #include <math.h>
 
-// Returns true if this file can compute the source. The depth of blends is limited by display_list_build_source.
-static bool is_supported(const DisplayList *list, uint32_t number) {
-    const DisplaySource *source = &list->sources.at[number];
-    const double *ends = source->ends;
-    switch (source->kind) {
-    case SOURCE_COLOR:
-    case SOURCE_RADIAL:
+// Returns true if this file can compute the paint. The depth of blends is limited by display_list_build_source.
+static bool is_supported(const double *at) {
+    DisplayRow row;
+    display_list_read(at, &row);
+    switch (row.kind) {
+    case PETRI_DRAW_SOLID:
+    case PETRI_DRAW_RADIAL:
         return true;
-    case SOURCE_LINEAR:
-        return ends[0] != ends[2] || ends[1] != ends[3];
-    case SOURCE_BLEND:
-        return is_supported(list, source->first_stop) && is_supported(list, source->stop_count);
-    case SOURCE_PATTERN:
-    case SOURCE_NOISE:
-        break;
+    case PETRI_DRAW_LINEAR:
+        return row.LINEAR.start[0] != row.LINEAR.end[0] || row.LINEAR.start[1] != row.LINEAR.end[1];
+    case PETRI_DRAW_BLEND:
+        return is_supported(row.BLEND.first) && is_supported(row.BLEND.second);
+    default:
+        return false;
     }
-    return false;
 }
 
-bool hdr_paint_from_source(Canvas *canvas, uint32_t source, double alpha, HdrPaint *shade) {
-    const DisplaySource *from = &canvas->list->sources.at[source];
-    const DisplayMatrix *m = &from->matrix;
-    *shade = (HdrPaint){.list = canvas->list, .source = source, .alpha = (float)alpha};
+bool hdr_paint_from_source(Canvas *canvas, const double *source, double alpha, HdrPaint *shade) {
+    DisplayRow row;
+    display_list_read(source, &row);
+    *shade = (HdrPaint){.source = source, .alpha = (float)alpha};
     cairo_get_matrix(canvas->cr, &shade->to_units);
-    if (from->kind == SOURCE_PATTERN) {
+    if (row.kind == PETRI_DRAW_PATTERN) {
+        const DisplayMatrix *m = row.PATTERN.matrix;
         cairo_matrix_t own = {m->xx, m->yx, m->xy, m->yy, m->x0, m->y0};
+        DrawImage image = draw_image_at(canvas, source, &row.PATTERN.file);
         cairo_matrix_multiply(&shade->to_units, &own, &shade->to_units);
         shade->repeats = true;
-        if (!draw_find_pixels(canvas, &canvas->list->images.at[from->image], &shade->texture, &shade->file))
+        if (!draw_find_pixels(canvas, &image, &shade->texture, &shade->file))
             return false;
-    } else if (!is_supported(canvas->list, source)) {
+    } else if (!is_supported(source)) {
         return false;
     }
     return cairo_matrix_invert(&shade->to_units) == CAIRO_STATUS_SUCCESS;
 }
 
 // Interpolates between gradient stops. Colours are not premultiplied during interpolation.
-static void find_stop(const DisplayList *list, const DisplaySource *source, double at, float color[4]) {
-    const DisplayStop *stops = &list->stops.at[source->first_stop];
-    uint32_t next = 0, last = source->stop_count - 1;
+static void find_stop(DisplayStops all, double at, float color[4]) {
+    const DisplayStop *stops = all.at;
+    uint32_t next = 0, last = all.count - 1;
     while (next <= last && stops[next].offset <= at)
         next++;
     const DisplayStop *to = &stops[next < last ? next : last], *from = next > 0 ? &stops[next - 1] : to;
@@ -57,37 +57,38 @@ static void find_stop(const DisplayList *list, const DisplaySource *source, doub
         color[k] *= color[3];
 }
 
-static void find_source(const DisplayList *list, uint32_t number, double x, double y, float color[4]) {
-    const DisplaySource *source = &list->sources.at[number];
-    const double *ends = source->ends, dx = ends[2] - ends[0], dy = ends[3] - ends[1];
-    const DisplayMatrix *m = &source->matrix;
-    switch (source->kind) {
-    case SOURCE_LINEAR:
-        find_stop(list, source, ((x - ends[0]) * dx + (y - ends[1]) * dy) / (dx * dx + dy * dy), color);
-        break;
-    case SOURCE_RADIAL: {
-        double size = m->xx * m->yy - m->xy * m->yx, u = x - m->x0, v = y - m->y0;
-        find_stop(list, source, maths_hypot((m->yy * u - m->xy * v) / size, (m->xx * v - m->yx * u) / size), color);
+static void find_source(const double *at, double x, double y, float color[4]) {
+    DisplayRow row;
+    display_list_read(at, &row);
+    switch (row.kind) {
+    case PETRI_DRAW_LINEAR: {
+        const double *start = row.LINEAR.start, *end = row.LINEAR.end, dx = end[0] - start[0], dy = end[1] - start[1];
+        find_stop(row.LINEAR.stops, ((x - start[0]) * dx + (y - start[1]) * dy) / (dx * dx + dy * dy), color);
         break;
     }
-    case SOURCE_COLOR:
-        color[3] = (float)fmin(fmax(source->color[3], 0), 1);
-        for (int k = 0; k < 3; k++)
-            color[k] = (float)source->color[k] * color[3];
+    case PETRI_DRAW_RADIAL: {
+        const DisplayMatrix *m = row.RADIAL.matrix;
+        double size = m->xx * m->yy - m->xy * m->yx, u = x - m->x0, v = y - m->y0;
+        find_stop(row.RADIAL.stops, maths_hypot((m->yy * u - m->xy * v) / size, (m->xx * v - m->yx * u) / size), color);
         break;
-    case SOURCE_BLEND: {
-        float second[4], fraction = (float)source->ratio;
-        find_source(list, source->first_stop, x, y, color);
-        find_source(list, source->stop_count, x, y, second);
-        if (isnan(source->ratio))
-            blend_colors((CompositeMode)source->mode, second, color, color);
-        for (int k = 0; k < 4 && !isnan(source->ratio); k++)
+    }
+    case PETRI_DRAW_SOLID:
+        color[3] = (float)fmin(fmax(row.SOLID.colour[3], 0), 1);
+        for (int k = 0; k < 3; k++)
+            color[k] = (float)row.SOLID.colour[k] * color[3];
+        break;
+    case PETRI_DRAW_BLEND: {
+        float second[4], fraction = (float)row.BLEND.ratio;
+        find_source(row.BLEND.first, x, y, color);
+        find_source(row.BLEND.second, x, y, second);
+        if (row.BLEND.ratio < 0)
+            blend_colors((CompositeMode)(int)row.BLEND.mode, second, color, color);
+        for (int k = 0; k < 4 && row.BLEND.ratio >= 0; k++)
             color[k] += fraction * (second[k] - color[k]);
         break;
     }
-    case SOURCE_PATTERN:
-    case SOURCE_NOISE:
-        break; // is_supported returns false
+    default: // is_supported returns false
+        break;
     }
 }
 
@@ -135,7 +136,7 @@ void hdr_paint_at(const HdrPaint *shade, double x, double y, float color[4]) {
     if (shade->texture || shade->file)
         find_pixel(shade, x, y, color);
     else
-        find_source(shade->list, shade->source, x, y, color);
+        find_source(shade->source, x, y, color);
     for (int k = 0; k < 4; k++)
         color[k] *= shade->alpha;
 }

@@ -5,8 +5,7 @@
 #include "cairo/canvas.h"
 
 typedef struct HdrPaint {
-    const DisplayList *list;
-    uint32_t source;         // index of the source in the list; not used if `texture` or `file` is set
+    const double *source;    // the paint in the list; not used if `texture` or `file` is set
     const Texture *texture;  // the rendered picture of a node
     cairo_surface_t *file;   // an image file; 32-bit sRGB pixels
     bool repeats;            // true if the image is repeated beyond its edges
@@ -14,8 +13,8 @@ typedef struct HdrPaint {
     float alpha;
 } HdrPaint;
 
-// Fills *shade with a source of the list, placed by the current transform. Returns false if Cairo must render this kind
-// of source, or if the image of the source does not exist.
-bool hdr_paint_from_source(Canvas *canvas, uint32_t source, double alpha, HdrPaint *shade);
+// Fills *shade with a paint of the list, placed by the current transform. Returns false if Cairo must render this kind
+// of paint, or if the image of the paint does not exist.
+bool hdr_paint_from_source(Canvas *canvas, const double *source, double alpha, HdrPaint *shade);
 // Returns the premultiplied colour at a point of the target.
 void hdr_paint_at(const HdrPaint *shade, double x, double y, float color[4]);

@@ -16,7 +16,7 @@ typedef struct Box {
 } Box;
 
 // Computes the placement of an image of width x height pixels. Returns false if nothing would be visible.
-static bool find_box(const DisplayImage *image, double width, double height, Box *box) {
+static bool find_box(const IMAGEOperands *image, double width, double height, Box *box) {
     const double *size = image->size;
     *box = (Box){.x = image->point[0], .y = image->point[1], .scale_x = 1, .scale_y = 1};
     if (image->fit == FIT_FILL || image->fit == FIT_INSIDE) {
@@ -41,7 +41,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shad
     cairo_t *cr = canvas->cr;
     draw_forget_path(canvas);
     cairo_save(cr);
-    draw_set_edges(canvas, paint->antialias, FILL_WINDING);
+    draw_set_edges(canvas, paint->style.antialias, FILL_WINDING);
     if (box->cut) {
         double x1 = point[0], y1 = point[1], x2 = x1 + box->width, y2 = y1 + box->height;
         draw_clamp_point(canvas, &x1, &y1);
@@ -54,7 +54,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shad
     cairo_matrix_init(&placed, box->scale_x, 0, 0, box->scale_y, box->x, box->y);
     cairo_matrix_multiply(&placed, &placed, &matrix);
     if (draw_is_invertible(&placed)) {
-        double alpha = fmin(fmax(paint->color[3], 0), 1);
+        double alpha = display_paint_alpha(paint);
         cairo_set_matrix(cr, &placed);
         cairo_rectangle(cr, 0, 0, width, height);
         cairo_clip(cr);
@@ -62,7 +62,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shad
             cairo_set_source_surface(cr, surface, 0, 0);
             cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
             cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // avoids transparent edges
-            cairo_set_operator(cr, draw_operator(paint->composite));
+            cairo_set_operator(cr, draw_operator((int)paint->style.mode));
             cairo_paint_with_alpha(cr, alpha);
         } else {
             shade->to_units = placed;
@@ -75,21 +75,23 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shad
     draw_forget_path(canvas);
 }
 
-void draw_image(Canvas *canvas, const DisplayImage *image, const DisplayPaint *paint) {
+void draw_image(Canvas *canvas, const DisplayRow *row, const DisplayPaint *paint) {
+    const IMAGEOperands *placed = &row->IMAGE; // PETRI_DRAW_PIXELS begins with the same operands
+    DrawImage image = draw_image_at(canvas, placed->at, row->kind == PETRI_DRAW_IMAGE ? &placed->file : NULL);
     HdrPaint shade = {.file = NULL};
     cairo_surface_t *surface = NULL;
     Box box;
     if (canvas->hdr_target.pixels)
-        draw_find_pixels(canvas, image, &shade.texture, &shade.file);
+        draw_find_pixels(canvas, &image, &shade.texture, &shade.file);
     else
-        surface = draw_find_image(canvas, image);
+        surface = draw_find_image(canvas, &image);
     cairo_surface_t *pixels = surface ? surface : shade.file;
     if (!pixels && !shade.texture)
         return;
     int width = pixels ? cairo_image_surface_get_width(pixels) : shade.texture->width;
     int height = pixels ? cairo_image_surface_get_height(pixels) : shade.texture->height;
-    if (find_box(image, width, height, &box) &&
+    if (find_box(placed, width, height, &box) &&
         (!surface || draw_charge_box(canvas, paint, width * box.scale_x, height * box.scale_y, 1)))
-        paint_image(canvas, surface, &shade, width, height, &box, image->point, paint);
+        paint_image(canvas, surface, &shade, width, height, &box, placed->point, paint);
     cairo_surface_destroy(surface);
 }

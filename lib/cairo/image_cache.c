@@ -200,7 +200,15 @@ static cairo_surface_t *linear_copy(Canvas *canvas, cairo_surface_t *file) {
     return copy;
 }
 
-cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image) {
+DrawImage draw_image_at(Canvas *canvas, const double *at, const DisplayString *file) {
+    DisplayNote note = display_list_note(canvas->list, at);
+    return (DrawImage){.file = file ? draw_string(canvas, file) : (Str){0},
+                       .id = note.id,
+                       .kind = (int)*at == PETRI_DRAW_PATTERN ? KIND_PATTERN : KIND_IMAGE,
+                       .place = note.place};
+}
+
+cairo_surface_t *draw_find_image(Canvas *canvas, const DrawImage *image) {
     if (image->file.len == 0)
         return find_picture(canvas, image->id);
     cairo_surface_t *surface =
@@ -208,7 +216,7 @@ cairo_surface_t *draw_find_image(Canvas *canvas, const DisplayImage *image) {
     return !surface ? NULL : canvas->list->linear ? linear_copy(canvas, surface) : cairo_surface_reference(surface);
 }
 
-bool draw_find_pixels(Canvas *canvas, const DisplayImage *image, const Texture **texture, cairo_surface_t **file) {
+bool draw_find_pixels(Canvas *canvas, const DrawImage *image, const Texture **texture, cairo_surface_t **file) {
     *texture = image->file.len == 0 ? find_texture(canvas, image->id) : NULL;
     *file = image->file.len == 0
                 ? NULL

@@ -49,7 +49,7 @@ PetriStatus draw_labels(PetriPainter *painter, const PetriLabel *labels, size_t 
     cairo_scale(cr, scale, scale);
     pango_cairo_update_layout(cr, text_context->layout);
     pango_layout_set_attributes(text_context->layout, NULL);
-    text_context->family = NULL;
+    text_context->font.family = NULL;
     for (size_t i = 0; i < count; i++) {
         PetriLabel label = painter_label_at(labels, size, i);
         pango_font_description_set_absolute_size(font, label.size * PANGO_SCALE);

@@ -15,7 +15,8 @@ typedef struct Layers {
 
 // Begins a layer. If too many layers are open, or if they are too large, draws the content of this layer directly,
 // because layers take memory and time.
-static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
+static void begin_layer(Canvas *canvas, Layers *layers, Origin origin) {
+    const Origin *place = &origin;
     double x1, y1, x2, y2;
     uint32_t at = layers->depth++;
     bool wide = canvas->hdr_target.pixels;
@@ -74,18 +75,17 @@ static void add_outer_rectangle(Canvas *canvas) {
     cairo_restore(cr);
 }
 
-static void apply_clip(Canvas *canvas, const DisplayCommand *command) {
-    int fill_type = command->path.fill_type;
-    bool inverse = (command->kind == DISPLAY_MASK) != (fill_type > FILL_EVEN_ODD);
-    draw_set_path(canvas, command);
-    const DisplayPaint *paint = &canvas->list->paints.at[command->paint];
+static void apply_clip(Canvas *canvas, const CLIPOperands *clip, const DisplayPaint *paint) {
+    int fill_type = clip->even_odd != 0 ? FILL_EVEN_ODD : FILL_WINDING;
+    bool inverse = clip->outside != 0;
+    draw_set_path(canvas, clip->path);
     if (!draw_is_drawable(canvas) || !draw_charge_path(canvas, paint, false, false))
         return;
     if (inverse) {
         add_outer_rectangle(canvas);
         fill_type = FILL_EVEN_ODD;
     }
-    draw_set_edges(canvas, paint->antialias, fill_type);
+    draw_set_edges(canvas, paint->style.antialias != 0, fill_type);
     cairo_clip_preserve(canvas->cr);
     if (inverse)
         draw_forget_path(canvas);
@@ -94,6 +94,7 @@ static void apply_clip(Canvas *canvas, const DisplayCommand *command) {
 // Sets the current transform. Returns false if it is not invertible, because nothing would be visible.
 static bool set_matrix(Canvas *canvas, const DisplayMatrix *m) {
     cairo_matrix_t matrix = {m->xx, m->yx, m->xy, m->yy, m->x0, m->y0};
+    canvas->matrix = *m;
     cairo_matrix_multiply(&matrix, &matrix, &canvas->base);
     if (!draw_is_invertible(&matrix))
         return false;
@@ -101,49 +102,53 @@ static bool set_matrix(Canvas *canvas, const DisplayMatrix *m) {
     return true;
 }
 
-static void execute_command(Canvas *canvas, const DisplayCommand *command, Layers *layers) {
-    switch (command->kind) {
-    case DISPLAY_DRAW:
-    case DISPLAY_TEXT:
-    case DISPLAY_IMAGE:
-        draw_command(canvas, command, &canvas->list->paints.at[command->paint]);
+// Executes a command. `visible` is false if nothing can be seen under the current matrix.
+static void execute_command(Canvas *canvas, const DisplayRow *row, const DisplayPaint *paint, bool visible,
+                            Layers *layers) {
+    switch (row->kind) {
+    case PETRI_DRAW_PATH:
+    case PETRI_DRAW_TEXT:
+    case PETRI_DRAW_IMAGE:
+    case PETRI_DRAW_PIXELS:
+        if (visible)
+            draw_command(canvas, row, paint);
         break;
-    case DISPLAY_CLIP:
-    case DISPLAY_MASK:
-        apply_clip(canvas, command);
+    case PETRI_DRAW_CLIP:
+        if (visible)
+            apply_clip(canvas, &row->CLIP, paint);
         break;
-    case DISPLAY_SAVE:
+    case PETRI_DRAW_SAVE:
         cairo_save(canvas->cr);
         break;
-    case DISPLAY_RESTORE:
+    case PETRI_DRAW_RESTORE:
         cairo_restore(canvas->cr);
         break;
-    case DISPLAY_LAYER:
-        begin_layer(canvas, layers, &canvas->list->places.at[command->item]);
+    case PETRI_DRAW_LAYER:
+        begin_layer(canvas, layers, display_list_note(canvas->list, row->LAYER.at).place);
         break;
-    case DISPLAY_LAYER_END:
-        end_layer(canvas, layers, command->alpha);
+    case PETRI_DRAW_LAYER_END:
+        end_layer(canvas, layers, row->LAYER_END.opacity);
+        break;
+    default: // PETRI_DRAW_UNSUPPORTED and PETRI_DRAW_BACKGROUND are only in lists for hosts
         break;
     }
 }
 
 void draw_display_list(Canvas *canvas, const DisplayList *list) {
     Layers layers = {.depth = 0};
-    uint32_t matrix = DISPLAY_NONE;
-    bool seen = true;
+    DisplayPaint paint = {0};
+    DisplayRow row;
+    bool visible = true;
     canvas->list = list;
     cairo_get_matrix(canvas->cr, &canvas->base);
     cairo_save(canvas->cr);
     draw_forget_path(canvas);
-    for (uint32_t i = 0; i < list->commands.count; i++) {
-        const DisplayCommand *command = &list->commands.at[i];
-        if (command->matrix != matrix)
-            seen = set_matrix(canvas, &list->matrices.at[command->matrix]);
-        // Saving and restoring also change Cairo's transform.
-        bool state = command->kind >= DISPLAY_SAVE;
-        matrix = state ? DISPLAY_NONE : command->matrix;
-        if (seen || state)
-            execute_command(canvas, command, &layers);
+    for (const double *at = list->numbers.at + DISPLAY_HEADER; at < list->numbers.at + list->numbers.count;) {
+        at = display_list_read(at, &row);
+        if (row.kind == PETRI_DRAW_MATRIX)
+            visible = set_matrix(canvas, row.MATRIX.matrix);
+        else if (!display_list_set_paint(&row, &paint))
+            execute_command(canvas, &row, &paint, visible, &layers);
     }
     cairo_restore(canvas->cr);
     draw_forget_path(canvas);

@@ -65,16 +65,16 @@ static cairo_pattern_t *combine_all(Canvas *canvas, cairo_surface_t *below, int 
 }
 
 // Renders the shape as a mask, and paints the source through it once.
-static void draw_through_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
+static void draw_through_mask(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
     draw_set_source(canvas, paint); // set before the mask is created, because setting it can abort the drawing
     cairo_save(cr);
-    draw_clip_to_box(canvas, command, paint);
-    cairo_pattern_t *mask = draw_make_mask(canvas, command, paint);
-    bool separate = is_unbounded(paint->composite) && !canvas->vector;
-    cairo_set_operator(cr, draw_operator(paint->composite));
+    draw_clip_to_box(canvas, shape, paint);
+    cairo_pattern_t *mask = draw_make_mask(canvas, shape, paint);
+    bool separate = is_unbounded((int)paint->style.mode) && !canvas->vector;
+    cairo_set_operator(cr, draw_operator((int)paint->style.mode));
     if (separate) {
-        cairo_pattern_t *all = combine_all(canvas, cairo_get_group_target(cr), paint->composite);
+        cairo_pattern_t *all = combine_all(canvas, cairo_get_group_target(cr), (int)paint->style.mode);
         cairo_set_source(cr, all);
         cairo_pattern_destroy(all);
         cairo_set_operator(cr, CAIRO_OPERATOR_SOURCE);
@@ -86,27 +86,27 @@ static void draw_through_mask(Canvas *canvas, const DisplayCommand *command, con
 
 // Returns true if the paint is opaque, so that a fill followed by a stroke looks like one shape.
 static bool is_solid(const DisplayPaint *paint) {
-    return paint->composite == COMPOSITE_OVER && paint->source == DISPLAY_NONE && paint->color[3] >= 1;
+    return paint->style.mode == COMPOSITE_OVER && display_paint_is_plain(paint) && display_paint_alpha(paint) >= 1;
 }
 
-void draw_current_path(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
+void draw_current_path(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
     if (!draw_is_drawable(canvas))
         return;
     if (canvas->hdr_target.pixels) {
-        hdr_draw_path(canvas, command, paint);
+        hdr_draw_path(canvas, shape, paint);
         return;
     }
-    if (!draw_charge_path(canvas, paint, command->fill, command->stroke))
+    if (!draw_charge_path(canvas, paint, shape->fill != 0, shape->stroke != 0))
         return;
-    bool odd = is_unbounded(paint->composite), both = command->fill && command->stroke;
+    bool odd = is_unbounded((int)paint->style.mode), both = shape->fill != 0 && shape->stroke != 0;
     // The segments of a long stroke overlap, which is visible unless the paint is solid.
-    bool in_segments = command->stroke && draw_strokes_in_segments(canvas);
-    if (odd || command->path.fill_type > FILL_EVEN_ODD || ((both || in_segments) && !is_solid(paint))) {
-        draw_through_mask(canvas, command, paint);
+    bool in_segments = shape->stroke != 0 && draw_strokes_in_segments(canvas);
+    if (odd || (int)shape->rule > FILL_EVEN_ODD || ((both || in_segments) && !is_solid(paint))) {
+        draw_through_mask(canvas, shape, paint);
         return;
     }
     draw_set_source(canvas, paint);
-    cairo_set_operator(cr, draw_operator(paint->composite));
-    draw_fill_and_stroke(canvas, command, paint);
+    cairo_set_operator(cr, draw_operator((int)paint->style.mode));
+    draw_fill_and_stroke(canvas, shape, paint);
 }

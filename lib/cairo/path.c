@@ -3,6 +3,7 @@
 #include "picture/outline.h"
 
 #include <math.h>
+#include <string.h>
 
 // Cairo's coordinates have 24 bits before the binary point. Larger values would overflow and wrap around.
 static const double MAX_COORDINATE = 4e6;
@@ -125,31 +126,26 @@ void draw_add_element(Canvas *canvas, PathElement kind, const double *n) {
     }
 }
 
-void draw_add_elements(Canvas *canvas, const double *numbers, uint32_t count) {
-    for (uint32_t i = 0; i < count;) {
-        PathElement kind = (PathElement)numbers[i];
-        draw_add_element(canvas, kind, numbers + i + 1);
+void draw_add_elements(Canvas *canvas, DisplayNumbers path) {
+    for (uint32_t i = 0; i < path.count;) {
+        PathElement kind = (PathElement)path.at[i];
+        draw_add_element(canvas, kind, path.at + i + 1);
         i += 1u + display_path_sizes[kind];
     }
 }
 
-static bool is_current_path(const Canvas *canvas, const DisplayCommand *command) {
-    const DisplayCommand *set = canvas->path_of;
-    return set && set->path.first == command->path.first && set->path.last == command->path.last &&
-           set->path.end == command->path.end && set->matrix == command->matrix;
+static bool is_current_path(const Canvas *canvas, DisplayNumbers path) {
+    const DisplayNumbers *current = &canvas->path;
+    return current->at && current->count == path.count &&
+           memcmp(&canvas->path_matrix, &canvas->matrix, sizeof canvas->matrix) == 0 &&
+           memcmp(current->at, path.at, path.count * sizeof *path.at) == 0;
 }
 
-void draw_set_path(Canvas *canvas, const DisplayCommand *command) {
-    const DisplayList *list = canvas->list;
-    if (is_current_path(canvas, command))
+void draw_set_path(Canvas *canvas, DisplayNumbers path) {
+    if (is_current_path(canvas, path))
         return;
     draw_forget_path(canvas);
-    canvas->path_of = command;
-    for (uint32_t run = command->path.first; run != DISPLAY_NONE;) {
-        bool last = run == command->path.last;
-        uint32_t end = last ? command->path.end : list->runs.at[run].end;
-        uint32_t start = list->runs.at[run].start;
-        draw_add_elements(canvas, list->numbers.at + start, end - start);
-        run = last ? DISPLAY_NONE : list->runs.at[run].next;
-    }
+    canvas->path = path;
+    canvas->path_matrix = canvas->matrix;
+    draw_add_elements(canvas, path);
 }

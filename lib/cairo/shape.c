@@ -19,7 +19,7 @@ static void read_cairo_path(Outline *out, const cairo_path_t *path) {
 
 typedef struct Task {
     Canvas *canvas;
-    uint32_t effect;
+    const double *effect; // NULL: none
     const cairo_path_t *path;
     bool lines;
 } Task;
@@ -27,11 +27,10 @@ typedef struct Task {
 static void apply_protected(void *context) {
     const Task *task = context;
     Canvas *canvas = task->canvas;
-    const DisplayList *list = canvas->list;
     Outline from = {.arena = &canvas->painter->arena, .fine = 2 / fmax(draw_scale_of(canvas->cr), 1e-6)};
     read_cairo_path(&from, task->path);
-    Outline outline = outline_apply(list, task->effect, from, task->lines);
-    if (task->effect != DISPLAY_NONE && !draw_charge(canvas, NULL, 800.0 * outline.elements.count, draw_omitted))
+    Outline outline = task->effect ? outline_apply(task->effect, from, task->lines) : from;
+    if (task->effect && !draw_charge(canvas, NULL, 800.0 * outline.elements.count, draw_omitted))
         return; // nothing is drawn, because drawing the result would cost about as much again
     for (uint32_t i = 0; i < outline.elements.count; i++) {
         const OutlineElement *element = &outline.elements.at[i];
@@ -47,14 +46,13 @@ static void apply_protected(void *context) {
 // Applies the paint's effect to a path and makes the result the current path. If `lines` is true, the result is for
 // stroking, otherwise for filling. Returns false if out of memory.
 static bool apply_effect(Canvas *canvas, const DisplayPaint *paint, const cairo_path_t *path, bool lines) {
-    const DisplayEffect *effect = &canvas->list->effects.at[paint->effect];
     Arena *arena = &canvas->painter->arena;
-    // Cairo itself draws dashes that are the outermost effect of a stroke.
-    Task task = {canvas, effect->kind == EFFECT_DASH ? effect->inner : paint->effect, path, lines};
+    Origin place = display_list_note(canvas->list, paint->effect.at).place;
+    Task task = {canvas, paint->effect.at, path, lines};
     ArenaMark mark = arena_mark(arena);
     draw_forget_path(canvas);
-    if (!draw_charge(canvas, &effect->place, 0, "the path is drawn without the effect"))
-        task.effect = DISPLAY_NONE;
+    if (!draw_charge(canvas, &place, 0, "the path is drawn without the effect"))
+        task.effect = NULL;
     bool done = arena_protect(&arena, 1, apply_protected, &task) == ARENA_OK;
     arena_rewind(arena, mark);
     return done;
@@ -87,22 +85,19 @@ bool draw_is_drawable(Canvas *canvas) {
 static void set_stroke_style(Canvas *canvas, const DisplayPaint *paint) {
     static const cairo_line_join_t joins[] = {CAIRO_LINE_JOIN_MITER, CAIRO_LINE_JOIN_ROUND, CAIRO_LINE_JOIN_BEVEL};
     static const cairo_line_cap_t caps[] = {CAIRO_LINE_CAP_BUTT, CAIRO_LINE_CAP_ROUND, CAIRO_LINE_CAP_SQUARE};
-    cairo_set_line_join(canvas->cr, joins[paint->join]);
+    const STROKE_STYLEOperands *style = &paint->style;
+    cairo_set_line_join(canvas->cr, joins[(int)style->join]);
     cairo_set_miter_limit(canvas->cr, 4);
-    cairo_set_line_cap(canvas->cr, caps[paint->cap]);
-    const DisplayEffect *effect = paint->effect == DISPLAY_NONE ? NULL : &canvas->list->effects.at[paint->effect];
-    if (effect && effect->kind == EFFECT_DASH)
-        cairo_set_dash(canvas->cr, canvas->list->numbers.at + effect->numbers, (int)effect->count, effect->amounts[0]);
-    else
-        cairo_set_dash(canvas->cr, NULL, 0, 0);
+    cairo_set_line_cap(canvas->cr, caps[(int)style->cap]);
+    cairo_set_dash(canvas->cr, style->dashes.at, (int)style->dashes.count, style->dash_offset);
 }
 
 static void stroke_path(Canvas *canvas, const DisplayPaint *paint) {
     enum { MAX_WIDTH = 100000 }; // in pixels; wider lines look the same and could exceed Cairo's range of coordinates
     cairo_t *cr = canvas->cr;
     double scale = draw_scale_of(cr);
-    if (paint->stroke_width > 0) {
-        cairo_set_line_width(cr, fmin(paint->stroke_width, MAX_WIDTH / scale));
+    if (paint->style.width > 0) {
+        cairo_set_line_width(cr, fmin(paint->style.width, MAX_WIDTH / scale));
         cairo_stroke_preserve(cr);
         return;
     }
@@ -149,17 +144,17 @@ static void stroke_in_segments(Canvas *canvas, const DisplayPaint *paint) {
     cairo_path_destroy(path);
 }
 
-static void fill_part(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
-    draw_set_edges(canvas, paint->antialias && canvas->path_work <= SMOOTH_WORK, command->path.fill_type);
+static void fill_part(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
+    draw_set_edges(canvas, paint->style.antialias && canvas->path_work <= SMOOTH_WORK, (int)shape->rule);
     cairo_fill_preserve(canvas->cr);
 }
 
-static void stroke_part(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
-    draw_set_edges(canvas, paint->antialias, command->path.fill_type);
+static void stroke_part(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
+    draw_set_edges(canvas, paint->style.antialias, (int)shape->rule);
     set_stroke_style(canvas, paint);
     if (canvas->path_work > SMOOTH_WORK && !canvas->vector && cairo_get_dash_count(canvas->cr) == 0) {
         stroke_in_segments(canvas, paint);
-        canvas->path_of = NULL; // the current path is now only the last segment
+        canvas->path.at = NULL; // the current path is now only the last segment
     } else {
         stroke_path(canvas, paint);
     }
@@ -167,11 +162,11 @@ static void stroke_part(Canvas *canvas, const DisplayCommand *command, const Dis
 
 // Applies a path effect, then fills and strokes the result. The effect can produce different paths for filling and
 // stroking.
-static void draw_with_effect(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
+static void draw_with_effect(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
     cairo_path_t *path = cairo_copy_path(canvas->cr);
     bool lacking = false;
     for (int lines = 0; lines < 2; lines++) {
-        if (!(lines ? command->stroke : command->fill))
+        if (!((lines ? shape->stroke : shape->fill) != 0))
             continue;
         if (!apply_effect(canvas, paint, path, lines)) {
             lacking = true;
@@ -179,33 +174,34 @@ static void draw_with_effect(Canvas *canvas, const DisplayCommand *command, cons
             cairo_append_path(canvas->cr, path);
         }
         if (draw_is_drawable(canvas))
-            (lines ? stroke_part : fill_part)(canvas, command, paint);
+            (lines ? stroke_part : fill_part)(canvas, shape, paint);
     }
     cairo_path_destroy(path);
     draw_forget_path(canvas);
-    draw_report_degraded(canvas, &canvas->list->effects.at[paint->effect].place, "the path effect", lacking);
+    Origin place = display_list_note(canvas->list, paint->effect.at).place;
+    draw_report_degraded(canvas, &place, "the path effect", lacking);
 }
 
-void draw_fill_and_stroke(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
-    if (outline_has_effect(canvas->list, paint)) {
-        draw_with_effect(canvas, command, paint);
+void draw_fill_and_stroke(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
+    if (paint->effect.count > 0) {
+        draw_with_effect(canvas, shape, paint);
         return;
     }
-    if (command->fill)
-        fill_part(canvas, command, paint);
-    if (command->stroke)
-        stroke_part(canvas, command, paint);
+    if (shape->fill)
+        fill_part(canvas, shape, paint);
+    if (shape->stroke)
+        stroke_part(canvas, shape, paint);
 }
 
-bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint, double box[4]) {
+bool draw_find_box(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint, double box[4]) {
     cairo_t *cr = canvas->cr;
     cairo_matrix_t matrix;
-    if (command->path.fill_type > FILL_EVEN_ODD || outline_has_effect(canvas->list, paint))
+    if ((int)shape->rule > FILL_EVEN_ODD || paint->effect.count > 0)
         return false;
     cairo_get_matrix(cr, &matrix);
     double wide =
-        fmax(fmax(fabs(matrix.xx) + fabs(matrix.xy), fabs(matrix.yx) + fabs(matrix.yy)) * paint->stroke_width, 1);
-    double border = command->stroke ? 2 * wide + 2 : 2; // miters reach two line widths, because the miter limit is 4
+        fmax(fmax(fabs(matrix.xx) + fabs(matrix.xy), fabs(matrix.yx) + fabs(matrix.yy)) * paint->style.width, 1);
+    double border = shape->stroke ? 2 * wide + 2 : 2; // miters reach two line widths, because the miter limit is 4
     cairo_identity_matrix(cr);
     cairo_path_extents(cr, &box[0], &box[1], &box[2], &box[3]);
     cairo_set_matrix(cr, &matrix);
@@ -216,10 +212,10 @@ bool draw_find_box(Canvas *canvas, const DisplayCommand *command, const DisplayP
     return true;
 }
 
-void draw_clip_to_box(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
+void draw_clip_to_box(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
     double box[4];
-    if (!draw_find_box(canvas, command, paint, box))
+    if (!draw_find_box(canvas, shape, paint, box))
         return;
     cairo_path_t *path = cairo_copy_path(cr);
     cairo_matrix_t matrix;
@@ -233,15 +229,15 @@ void draw_clip_to_box(Canvas *canvas, const DisplayCommand *command, const Displ
     cairo_path_destroy(path);
 }
 
-cairo_pattern_t *draw_make_mask(Canvas *canvas, const DisplayCommand *command, const DisplayPaint *paint) {
+cairo_pattern_t *draw_make_mask(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
     cairo_t *cr = canvas->cr;
     cairo_push_group_with_content(cr, CAIRO_CONTENT_ALPHA);
     cairo_set_operator(cr, CAIRO_OPERATOR_OVER);
     cairo_set_source_rgba(cr, 0, 0, 0, 1);
-    if (command->path.fill_type > FILL_EVEN_ODD && command->fill) {
+    if ((int)shape->rule > FILL_EVEN_ODD && shape->fill) {
         cairo_paint(cr);
         cairo_set_operator(cr, CAIRO_OPERATOR_DEST_OUT);
     }
-    draw_fill_and_stroke(canvas, command, paint);
+    draw_fill_and_stroke(canvas, shape, paint);
     return cairo_pop_group(cr);
 }

@@ -4,14 +4,16 @@
 
 #include <math.h>
 
-static cairo_pattern_t *make_pattern(Canvas *canvas, uint32_t number, double alpha);
+static cairo_pattern_t *make_pattern(Canvas *canvas, const double *at);
 
-static void add_stops(const DisplayList *list, const DisplaySource *source, double alpha, cairo_pattern_t *pattern) {
-    for (uint32_t i = 0; i < source->stop_count; i++) {
-        const DisplayStop *stop = &list->stops.at[source->first_stop + i];
+static cairo_pattern_t *add_stops(cairo_pattern_t *pattern, DisplayStops stops, double alpha) {
+    cairo_pattern_set_extend(pattern, CAIRO_EXTEND_PAD);
+    for (uint32_t i = 0; i < stops.count; i++) {
+        const DisplayStop *stop = &stops.at[i];
         cairo_pattern_add_color_stop_rgba(pattern, stop->offset, stop->color[0], stop->color[1], stop->color[2],
                                           stop->color[3] * alpha);
     }
+    return pattern;
 }
 
 static void set_inverse(cairo_pattern_t *pattern, const DisplayMatrix *m) {
@@ -33,15 +35,16 @@ static cairo_pattern_t *make_color(const double color[4], double alpha) {
     return cairo_pattern_create_rgba(c[0], c[1], c[2], a);
 }
 
-static cairo_pattern_t *make_image(Canvas *canvas, const DisplaySource *source) {
-    cairo_surface_t *surface = draw_find_image(canvas, &canvas->list->images.at[source->image]);
+static cairo_pattern_t *make_image(Canvas *canvas, const PATTERNOperands *source) {
+    DrawImage image = draw_image_at(canvas, source->at, &source->file);
+    cairo_surface_t *surface = draw_find_image(canvas, &image);
     if (!surface)
         return cairo_pattern_create_rgba(0, 0, 0, 0);
     cairo_pattern_t *pattern = cairo_pattern_create_for_surface(surface);
     cairo_surface_destroy(surface);
     cairo_pattern_set_extend(pattern, CAIRO_EXTEND_REPEAT);
     cairo_pattern_set_filter(pattern, CAIRO_FILTER_NEAREST);
-    set_inverse(pattern, &source->matrix);
+    set_inverse(pattern, source->matrix);
     return pattern;
 }
 
@@ -53,12 +56,12 @@ static void paint_with(Canvas *canvas, cairo_pattern_t *pattern, cairo_operator_
     cairo_pattern_destroy(pattern);
 }
 
-static cairo_pattern_t *make_blend(Canvas *canvas, const DisplaySource *source) {
-    bool mixed = !isnan(source->ratio);
+static cairo_pattern_t *make_blend(Canvas *canvas, const BLENDOperands *source) {
+    bool mixed = source->ratio >= 0;
     cairo_push_group(canvas->cr);
-    paint_with(canvas, make_pattern(canvas, source->first_stop, 1), CAIRO_OPERATOR_OVER, mixed ? 1 - source->ratio : 1);
-    paint_with(canvas, make_pattern(canvas, source->stop_count, 1),
-               mixed ? CAIRO_OPERATOR_ADD : draw_operator(source->mode), mixed ? source->ratio : 1);
+    paint_with(canvas, make_pattern(canvas, source->first), CAIRO_OPERATOR_OVER, mixed ? 1 - source->ratio : 1);
+    paint_with(canvas, make_pattern(canvas, source->second),
+               mixed ? CAIRO_OPERATOR_ADD : draw_operator((int)source->mode), mixed ? source->ratio : 1);
     return cairo_pop_group(canvas->cr);
 }
 
@@ -71,7 +74,7 @@ static cairo_pattern_t *fade_pattern(Canvas *canvas, cairo_pattern_t *pattern, d
 }
 
 // Returns a pattern of noise that covers the clip.
-static cairo_pattern_t *make_noise(Canvas *canvas, const DisplaySource *source, double alpha) {
+static cairo_pattern_t *make_noise(Canvas *canvas, const NOISEOperands *source) {
     cairo_t *cr = canvas->cr;
     cairo_matrix_t units, to_units, to_pixels;
     double x1, y1, x2, y2;
@@ -81,7 +84,7 @@ static cairo_pattern_t *make_noise(Canvas *canvas, const DisplaySource *source, 
     cairo_clip_extents(cr, &x1, &y1, &x2, &y2);
     cairo_restore(cr);
     double left = floor(x1), top = floor(y1), width = fmax(ceil(x2) - left, 1), height = fmax(ceil(y2) - top, 1);
-    double work = width * height * (10 + 100.0 * source->stop_count);
+    double work = width * height * (10 + 100.0 * source->octaves);
     if (!draw_charge(canvas, NULL, work, "noise is left out"))
         return cairo_pattern_create_rgba(0, 0, 0, 0);
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)width, (int)height);
@@ -90,8 +93,8 @@ static cairo_pattern_t *make_noise(Canvas *canvas, const DisplaySource *source, 
     if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
         noise_fill(source,
                    &(DisplayMatrix){to_units.xx, to_units.yx, to_units.xy, to_units.yy, to_units.x0, to_units.y0},
-                   (int)left, (int)top, alpha, (uint32_t *)(void *)cairo_image_surface_get_data(surface), (int)width,
-                   (int)height);
+                   (int)left, (int)top, source->alpha, (uint32_t *)(void *)cairo_image_surface_get_data(surface),
+                   (int)width, (int)height);
     cairo_surface_mark_dirty(surface);
     cairo_pattern_t *pattern = cairo_pattern_create_for_surface(surface);
     cairo_surface_destroy(surface);
@@ -102,37 +105,35 @@ static cairo_pattern_t *make_noise(Canvas *canvas, const DisplaySource *source, 
     return pattern;
 }
 
-static cairo_pattern_t *make_pattern(Canvas *canvas, uint32_t number, double alpha) {
-    const DisplaySource *source = &canvas->list->sources.at[number];
-    cairo_pattern_t *pattern = NULL;
-    switch (source->kind) {
-    case SOURCE_COLOR:
-        return make_color(source->color, alpha);
-    case SOURCE_LINEAR:
-        pattern = cairo_pattern_create_linear(source->ends[0], source->ends[1], source->ends[2], source->ends[3]);
-        break;
-    case SOURCE_RADIAL:
-        pattern = cairo_pattern_create_radial(0, 0, 0, 0, 0, 1);
-        set_inverse(pattern, &source->matrix);
-        break;
-    case SOURCE_PATTERN:
-        return fade_pattern(canvas, make_image(canvas, source), alpha);
-    case SOURCE_BLEND:
-        return fade_pattern(canvas, make_blend(canvas, source), alpha);
-    case SOURCE_NOISE:
-        return make_noise(canvas, source, alpha);
+// Returns a pattern for the paint at a position of the list.
+static cairo_pattern_t *make_pattern(Canvas *canvas, const double *at) {
+    DisplayRow row;
+    cairo_pattern_t *pattern;
+    display_list_read(at, &row);
+    switch (row.kind) {
+    case PETRI_DRAW_COLOR:
+        return make_color(row.COLOR.colour, 1);
+    case PETRI_DRAW_SOLID:
+        return make_color(row.SOLID.colour, row.SOLID.alpha);
+    case PETRI_DRAW_LINEAR:
+        pattern =
+            cairo_pattern_create_linear(row.LINEAR.start[0], row.LINEAR.start[1], row.LINEAR.end[0], row.LINEAR.end[1]);
+        return add_stops(pattern, row.LINEAR.stops, row.LINEAR.alpha);
+    case PETRI_DRAW_RADIAL:
+        pattern = cairo_pattern_create_radial(row.RADIAL.inner[0], row.RADIAL.inner[1], row.RADIAL.inner[2], 0, 0, 1);
+        set_inverse(pattern, row.RADIAL.matrix);
+        return add_stops(pattern, row.RADIAL.stops, row.RADIAL.alpha);
+    case PETRI_DRAW_PATTERN:
+        return fade_pattern(canvas, make_image(canvas, &row.PATTERN), row.PATTERN.alpha);
+    case PETRI_DRAW_BLEND:
+        return fade_pattern(canvas, make_blend(canvas, &row.BLEND), row.BLEND.alpha);
+    default:
+        return make_noise(canvas, &row.NOISE);
     }
-    cairo_pattern_set_extend(pattern, CAIRO_EXTEND_PAD);
-    add_stops(canvas->list, source, alpha, pattern);
-    return pattern;
 }
 
 void draw_set_source(Canvas *canvas, const DisplayPaint *paint) {
-    cairo_pattern_t *pattern =
-        paint->source == DISPLAY_NONE
-            ? make_color(paint->color, 1)
-            : make_pattern(canvas, paint->source,
-                           fmin(fmax(paint->color[3], 0), 1)); // the colour's alpha also applies to sources
+    cairo_pattern_t *pattern = make_pattern(canvas, paint->source);
     cairo_set_source(canvas->cr, pattern);
     cairo_pattern_destroy(pattern);
 }

@@ -114,9 +114,9 @@ static PangoStretch stretch_of(int width) {
     return (PangoStretch)((int)PANGO_STRETCH_ULTRA_CONDENSED + width);
 }
 
-static bool same_font(const DisplayText *a, const DisplayText *b) {
-    return a->family == b->family && a->size == b->size && a->weight == b->weight && a->width == b->width &&
-           a->slant == b->slant;
+static bool same_font(const TextFont *a, const TextFont *b) {
+    return a->family && strcmp(a->family, b->family) == 0 && a->size == b->size && a->weight == b->weight &&
+           a->width == b->width && a->slant == b->slant;
 }
 
 // Disables ligatures, kerning and fallback fonts.
@@ -128,7 +128,7 @@ static void disable_ligatures(PangoLayout *layout) {
     pango_attr_list_unref(attributes);
 }
 
-static void use_font(TextContext *text_context, const DisplayText *text, const char *family) {
+static void use_font(TextContext *text_context, const TextFont *text, const char *family) {
     static const PangoStyle styles[] = {PANGO_STYLE_NORMAL, PANGO_STYLE_OBLIQUE, PANGO_STYLE_ITALIC};
     PangoFontDescription *font = pango_font_description_new();
     pango_font_description_set_family(font, family);
@@ -142,10 +142,10 @@ static void use_font(TextContext *text_context, const DisplayText *text, const c
 }
 
 // Sets the font of a drawing. A family that is not installed is reported unless it is the default.
-static void set_font(Canvas *canvas, const DisplayText *text) {
+static void set_font(Canvas *canvas, const TextFont *text) {
     TextContext *text_context = canvas->painter->text_context;
     bool known;
-    if (text_context->family && same_font(&text_context->font, text))
+    if (same_font(&text_context->font, text))
         return;
     // Finds the family before Pango objects are allocated, because the report can abort the drawing.
     const char *family = find_family(canvas->painter, text->family, &known);
@@ -153,7 +153,6 @@ static void set_font(Canvas *canvas, const DisplayText *text) {
         draw_report(canvas, NULL, DIAG_WARNING, "unknown-font", "!font: font '%.100s' is not installed; using another",
                     text->family);
     use_font(text_context, text, family);
-    text_context->family = text->family;
     text_context->font = *text;
 }
 
@@ -180,25 +179,30 @@ static void position_layout(PangoLayout *layout, bool center, double point[2]) {
     point[1] -= (ink.y + ink.height / 2.0) / PANGO_SCALE;
 }
 
-bool draw_set_text_path(Canvas *canvas, const DisplayText *text, const DisplayPaint *paint) {
+bool draw_set_text_path(Canvas *canvas, const TEXTOperands *text, const DisplayPaint *paint) {
+    Str string = draw_string(canvas, &text->text);
     if (text->weight <= 0 || !has_drawable_size(canvas, text->size))
         return false;
-    if (text->text.len > MAX_TEXT_LENGTH) {
+    if (string.len > MAX_TEXT_LENGTH) {
         draw_report(canvas, NULL, DIAG_WARNING, "text-too-long", "!text: text longer than %d bytes is not drawn",
                     MAX_TEXT_LENGTH);
         return false;
     }
     // The estimated area per byte of text is a third of the square of the font size.
-    if (!draw_charge_box(canvas, paint, text->size, text->size / 3, (double)text->text.len))
+    if (!draw_charge_box(canvas, paint, text->size, text->size / 3, (double)string.len))
         return false;
     TextContext *text_context = draw_text_context(canvas->painter);
     if (!text_context)
         arena_exhausted(&canvas->painter->arena);
     PangoLayout *layout = text_context->layout;
     double point[2] = {text->point[0], text->point[1]};
-    set_font(canvas, text);
-    pango_layout_set_text(layout, text->text.bytes, (int)text->text.len);
-    position_layout(layout, text->center, point);
+    set_font(canvas, &(TextFont){.family = draw_string(canvas, &text->family).bytes,
+                                 .size = text->size,
+                                 .weight = text->weight,
+                                 .width = (int)text->width,
+                                 .slant = (int)text->slant});
+    pango_layout_set_text(layout, string.bytes, (int)string.len);
+    position_layout(layout, text->centred != 0, point);
     draw_forget_path(canvas);
     draw_clamp_point(canvas, &point[0], &point[1]);
     cairo_move_to(canvas->cr, point[0], point[1]);
@@ -227,11 +231,10 @@ const char *draw_measure_text(PetriPainter *painter, Str text, const TextStyle *
     bool known;
     // Advances are proportional to the size. A fixed size is more precise than a small one.
     const double measured_size = 1000;
-    use_font(
-        text_context,
-        &(DisplayText){.size = measured_size, .weight = style->weight, .width = style->width, .slant = style->slant},
-        find_family(painter, style->family, &known));
-    text_context->family = NULL; // the next text that is drawn sets its own font
+    use_font(text_context,
+             &(TextFont){.size = measured_size, .weight = style->weight, .width = style->width, .slant = style->slant},
+             find_family(painter, style->family, &known));
+    text_context->font.family = NULL; // the next text that is drawn sets its own font
     PangoRectangle logical;
     pango_layout_set_text(text_context->layout, text.bytes, (int)text.len);
     pango_layout_get_extents(text_context->layout, NULL, &logical);

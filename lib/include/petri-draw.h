@@ -250,18 +250,20 @@ PETRI_API uint64_t petri_painter_readback_count(const PetriPainter *painter);
 //
 // Operands are:
 // - NUMBER(name), FLAG(name): one number; a flag is 0 or 1. Angles are in turns.
+// - ALPHA(name): one number from 0 to 1, by which the alpha of a paint is multiplied, and that of images drawn with it
 // - WORD(name, "first, second"): one number, which selects one of the words, from 0
 // - PAIR(name): two numbers, x and y or width and height
 // - NUMBERS(name, count): `count` numbers
 // - COLOUR(name): red, green, blue and alpha from 0 to 1, not premultiplied
 // - MATRIX(name): six numbers n0 to n5: x' = n0 x + n2 y + n4, y' = n1 x + n3 y + n5
 // - STOPS(name): the stops of a gradient: their count, then an offset and a colour for each
-// - LIST(name), STRING(name), PATH(name), FILTER(name), COMMANDS(name): a length, then that many numbers. Those of a
-//   string are code points. Those of a path are path elements (PETRI_PATH_NAME), those of a filter are its kind
-//   (PETRI_FILTER_NAME), with their operands.
+// - LIST(name), STRING(name), PATH(name), FILTER(name), EFFECT(name), COMMANDS(name): a length, then that many numbers.
+//   Those of a string are code points. Those of a path are path elements (PETRI_PATH_NAME), those of a filter or path
+//   effect are its kind (PETRI_FILTER_NAME, PETRI_EFFECT_NAME), with their operands.
 // - PIXELS(name): a width, a height and a number for each pixel, as in petri_picture_draw
 // - PAINT(name): a PETRI_PAINT
-// - INPUT(name): the filter that provides the input of a filter, without its length
+// - INPUT(name): the filter or effect that provides the input of another, without its length
+// - INPUTS(name): the number of effects, then each of them
 //
 // The composite modes, from 0, are modulate, clear, src, dst, over, dst_over, in, dst_in, out, dst_out, atop, dst_atop,
 // xor, add, multiply, screen, overlay, darken, lighten, color_dodge, color_burn, hard_light, soft_light, difference,
@@ -276,6 +278,10 @@ enum {
 };
 enum {
 #define PETRI_FILTER_KIND(name, operands, text) PETRI_FILTER_##name,
+#include "petri-display-list.inc"
+};
+enum {
+#define PETRI_EFFECT_KIND(name, operands, text) PETRI_EFFECT_##name,
 #include "petri-display-list.inc"
 };
 

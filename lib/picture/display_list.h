@@ -1,22 +1,21 @@
-// display_list.h: a drawing as a list of commands in flat arrays of plain numbers. The nodes are already translated to
-// commands, and inherited attributes are resolved. Any backend that can fill, stroke and clip paths can therefore draw
-// a list; lib/cairo uses Cairo.
+// display_list.h: display lists: drawings as arrays of numbers, whose format petri-draw.h describes. The nodes are
+// already translated to commands, and inherited attributes are resolved. Any backend that can fill, stroke and clip
+// paths can therefore draw a list: lib/cairo, or a host.
 //
-// All references are indices; DISPLAY_NONE is the null reference. display_list_build allocates the list from the arena
-// that it is given. After that, the list does not change. The strings of the list are borrowed from the nodes.
+// What numbers cannot describe, such as positions in the script, is in notes beside them. After a list is built, it
+// does not change. Strings of the notes are borrowed from the nodes.
 #pragma once
 
 #include "canvas/drawing.h"
+#include "petri-draw.h"
+#include "picture/texture.h"
 
-#define DISPLAY_NONE UINT32_MAX
-
-// x' = xx x + xy y + x0, y' = yx x + yy y + y0
+// x' = xx x + xy y + x0, y' = yx x + yy y + y0. The fields have the order of a matrix in a list.
 typedef struct DisplayMatrix {
     double xx, yx, xy, yy, x0, y0;
 } DisplayMatrix;
 
-// The kinds of path elements, as PETRI_PATH_… of petri-draw.h: PATH_MOVE and so on. In DisplayList.numbers, each
-// element is stored as its kind, followed by its operands.
+// The kinds of path elements, as PETRI_PATH_…: PATH_MOVE and so on.
 typedef enum PathElement {
 #define ELEMENT(name, operands) PATH_##name,
 #include "picture/display_list_rows.h"
@@ -30,149 +29,74 @@ static const uint8_t display_path_sizes[] = {
 #include "picture/display_list_rows.h"
 };
 
-// A range of consecutive path elements in DisplayList.numbers.
-typedef struct DisplayRun {
-    uint32_t start;
-    uint32_t end;
-    uint32_t next; // index of the next run; DISPLAY_NONE: this is the last run
-} DisplayRun;
+enum { DISPLAY_HEADER = 3 }; // numbers before the first command: width, height, and true if there are filters or noise
 
-// A path: a linked list of runs. Commands copy this struct. The original path can be extended later, and then the last
-// run of the copy can become longer. A copy therefore uses its last run only up to the copy's own `end`.
-typedef struct DisplayPath {
-    uint32_t first; // index of the first run; DISPLAY_NONE: empty path
-    uint32_t last;
-    uint32_t end;
-    uint8_t fill_type; // FILL_WINDING and so on
-} DisplayPath;
-
-typedef enum DisplaySourceKind {
-    SOURCE_COLOR,
-    SOURCE_LINEAR,
-    SOURCE_RADIAL,
-    SOURCE_PATTERN,
-    SOURCE_BLEND,
-    SOURCE_NOISE
-} DisplaySourceKind;
+// Successive numbers of a list, such as the elements of a path.
+typedef struct DisplayNumbers {
+    const double *at;
+    uint32_t count;
+} DisplayNumbers;
 
 typedef struct DisplayStop {
     double offset;
     double color[4];
 } DisplayStop;
 
-// A paint source, which defines the colour of each point.
-typedef struct DisplaySource {
-    DisplaySourceKind kind;
-    double color[4];
-    double ends[4]; // for a linear gradient: end points; for noise: frequencies x, y and tile size x, y
-    // For a radial gradient: maps the unit circle to its edge. For a pattern: maps image pixels to units.
-    DisplayMatrix matrix;
-    uint32_t first_stop; // for a gradient: index of the first stop; for a blend: index of the first source
-    uint32_t stop_count; // for a gradient: number of stops; for a blend: index of the second source; for noise: octaves
-    double ratio;        // for a blend: mixing ratio (NaN: use `mode`); for noise: seed
-    int mode;            // for a blend: composite mode; for noise: type
-    uint32_t image;      // for a pattern: index of the image
-} DisplaySource;
+typedef struct DisplayStops {
+    const DisplayStop *at;
+    uint32_t count;
+} DisplayStops;
 
-// The kinds of filters, as PETRI_FILTER_…. FILTER_SOURCE is the unfiltered drawing.
-typedef enum DisplayFilterKind {
-#define FILTER_KIND(name, operands) FILTER_##name,
+// The text when it is written; the code points when it is read.
+typedef struct DisplayString {
+    Str text;
+    DisplayNumbers points;
+} DisplayString;
+
+// The operands of each command, filter and effect, as pointers into the list if they are several numbers. Filters and
+// effects inside others follow the row, and when it is written, also paints, filters and effects inside commands.
+#define ROW(name, operands)                                                                                            \
+    typedef struct name##Operands {                                                                                    \
+        int kind;                                                                                                      \
+        const double *at; /* after reading: position of a command in the list */                                       \
+        double alpha;     /* of paints; unused by PETRI_DRAW_COLOR */                                                  \
+        operands                                                                                                       \
+    } name##Operands;
+#define NUMBER(name) double name;
+#define ALPHA(name)
+#define NUMBERS(name, count) const double *name;
+#define MATRIX(name) const DisplayMatrix *name;
+#define COLOUR(name) const double *name;
+#define STOPS(name) DisplayStops name;
+#define LIST(name) DisplayNumbers name;
+#define STRING(name) DisplayString name;
+#define PIXELS(name) Texture *name; /* NULL after reading */
+#define PAINT(name) const double *name;
 #include "picture/display_list_rows.h"
-} DisplayFilterKind;
 
-enum {
-    FILTER_COUNT = 0
-#define FILTER_KIND(name, operands) +1
+typedef union DisplayRow {
+    int kind; // PETRI_DRAW_…, PETRI_FILTER_… or PETRI_EFFECT_…
+#define ROW(name, operands) name##Operands name;
 #include "picture/display_list_rows.h"
-};
+} DisplayRow;
 
-typedef struct DisplayFilter {
-    DisplayFilterKind kind;
-    double radius[2]; // for blur and shadow: standard deviation; for dilate and erode: reach
-    double offset[2];
-    double colour[4];
-    bool only;        // true: draw the shadow without the object
-    int mode;         // for a blend: composite mode; -1: use `numbers`
-    uint32_t paint;   // for FILTER_PAINT: index of the paint
-    uint32_t numbers; // index in DisplayList.numbers of 20 matrix elements or 4 coefficients; DISPLAY_NONE: use `mode`
-    uint32_t inputs[2]; // indices of filters; DISPLAY_NONE: the unfiltered drawing; only blends use the second input
-    Origin place;       // position of the filter's node in the script
-} DisplayFilter;
-
-typedef enum DisplayEffectKind {
-#define EFFECT(id, name, help) EFFECT_##id,
-#include "schema/schema_list.h"
-} DisplayEffectKind;
-
-// A path effect, which changes a path before it is filled or stroked.
-typedef struct DisplayEffect {
-    DisplayEffectKind kind;
-    uint32_t inner;    // index of the effect that is applied before this one; DISPLAY_NONE: none, as in sums
-    uint32_t numbers;  // index in DisplayList.numbers of the dashes, of a row-major 3 x 3 matrix, or of a sum's effects
-    uint32_t count;    // number of dashes or of effects in a sum
-    double amounts[2]; // for dashes: offset; for round corners: radius; for jitter: segment length and deviation
-    double seed;
-    Origin place;
-} DisplayEffect;
-
-// Paint attributes of a command.
+// What the commands before a drawing have set.
 typedef struct DisplayPaint {
-    double color[4]; // the alpha of the colour also applies to sources and images
-    double stroke_width;
-    uint32_t source;
-    uint32_t filter;
-    uint32_t effect;
-    int join;
-    int cap;
-    int composite;
-    bool antialias;
+    const double *source; // position of the PETRI_PAINT in the list
+    STROKE_STYLEOperands style;
+    DisplayNumbers filter; // empty: none
+    DisplayNumbers effect; // empty: none
 } DisplayPaint;
 
-typedef struct DisplayText {
-    Str text;
-    const char *family;
-    double size;
-    double weight;
-    int width;
-    double point[2];
-    int slant;
-    bool center;
-} DisplayText;
-
+// Values of the operand `fit`.
 typedef enum DisplayFit { FIT_NONE, FIT_SIZE, FIT_INSIDE, FIT_FILL } DisplayFit;
 
-typedef struct DisplayImage {
-    Str file; // name of the image file; empty: use `id`
-    Str id;
-    double point[2];
-    double size[2];
-    DisplayFit fit;
-    NodeKind kind; // kind of the image's node, for messages
-    Origin place;
-} DisplayImage;
-
-typedef enum DisplayCommandKind {
-    DISPLAY_DRAW, // fills or strokes the path
-    DISPLAY_TEXT,
-    DISPLAY_IMAGE,
-    DISPLAY_CLIP,      // clips to the path
-    DISPLAY_MASK,      // clips to the outside of the path
-    DISPLAY_SAVE,      // saves the clip
-    DISPLAY_RESTORE,   // restores the clip
-    DISPLAY_LAYER,     // redirects drawing to a transparent layer
-    DISPLAY_LAYER_END, // composites the layer with `alpha`
-} DisplayCommandKind;
-
-typedef struct DisplayCommand {
-    DisplayCommandKind kind;
-    bool fill; // if both `fill` and `stroke` are true, the filled and the stroked area are painted as one shape
-    bool stroke;
-    uint32_t matrix;
-    uint32_t paint;
-    uint32_t item; // index of a text or image; for a layer: index in `places`
-    DisplayPath path;
-    double alpha;
-} DisplayCommand;
+// Data of the command, filter or effect at a position of a list that numbers cannot describe.
+typedef struct DisplayNote {
+    uint32_t at;  // index of its first number
+    Origin place; // position of its node in the script
+    Str id;       // of an image that is the picture of another node, whose pixels are not in the list: id of the node
+} DisplayNote;
 
 // A growing array.
 #define DISPLAY_ARRAY(type)                                                                                            \
@@ -183,19 +107,10 @@ typedef struct DisplayCommand {
     }
 
 typedef struct DisplayList {
+    Arena *arena;
     bool linear; // true: all colours are in linear light; image files are converted from sRGB when they are drawn
-    DISPLAY_ARRAY(DisplayCommand) commands;
-    DISPLAY_ARRAY(DisplayMatrix) matrices;
-    DISPLAY_ARRAY(DisplayPaint) paints;
     DISPLAY_ARRAY(double) numbers;
-    DISPLAY_ARRAY(DisplayRun) runs;
-    DISPLAY_ARRAY(DisplaySource) sources;
-    DISPLAY_ARRAY(DisplayStop) stops;
-    DISPLAY_ARRAY(DisplayFilter) filters;
-    DISPLAY_ARRAY(DisplayEffect) effects;
-    DISPLAY_ARRAY(DisplayText) texts;
-    DISPLAY_ARRAY(DisplayImage) images;
-    DISPLAY_ARRAY(Origin) places; // positions of nodes in the script, for diagnostics
+    DISPLAY_ARRAY(DisplayNote) notes; // in the order of `at`
 } DisplayList;
 
 // Adds `more` elements and returns a pointer to the first of them.
@@ -209,15 +124,43 @@ DisplayMatrix display_matrix_multiply(DisplayMatrix m, DisplayMatrix a);
 // Returns true if the matrix is invertible.
 bool display_matrix_is_invertible(const DisplayMatrix *m);
 
-// The array lengths of the previous list. The arrays of the next list start with these capacities.
+// Numbers that are read one after the other. Reading beyond their end gives zeros and sets `failed`.
+typedef struct DisplayReader {
+    const double *at;
+    size_t left;
+    bool failed;
+} DisplayReader;
+
+// Reads the command at `at`, which must be valid. Returns the position after it.
+const double *display_list_read(const double *at, DisplayRow *row);
+// Read the kind and operands of a filter or effect. Those inside it come next. An unknown kind of filter fails.
+void display_list_read_filter(DisplayReader *reader, DisplayRow *filter);
+void display_list_read_effect(DisplayReader *reader, DisplayRow *effect);
+// If the command is one that changes a paint, changes the paint and returns true.
+bool display_list_set_paint(const DisplayRow *row, DisplayPaint *paint);
+// Returns true if the paint is the colour of the graphics state and not a paint source.
+static inline bool display_paint_is_plain(const DisplayPaint *paint) {
+    return (int)*paint->source == PETRI_DRAW_COLOR;
+}
+// Returns the alpha of the graphics state's colour, from 0 to 1, which also applies to paint sources and images.
+double display_paint_alpha(const DisplayPaint *paint);
+// Returns the note of the command, filter or effect at a position of the list; an empty one if there is none.
+DisplayNote display_list_note(const DisplayList *list, const double *at);
+
+// The capacities with which the arrays of the next list start: lengths of the previous list.
 typedef struct DisplayListSizes {
-    uint32_t commands;
-    uint32_t matrices;
-    uint32_t paints;
     uint32_t numbers;
-    uint32_t runs;
+    uint32_t paths;
 } DisplayListSizes;
 
-// Builds the display list of a canvas in the arena. Reads initial capacities from *sizes, then stores the new array
-// lengths there.
-const DisplayList *display_list_build(Arena *arena, const DrawNode *canvas, DisplayListSizes *sizes);
+// A host that draws lists: it lacks path effects and pictures of other nodes, so the list contains the results.
+typedef struct DisplayHost {
+    Texture *(*find_pixels)(void *context, Str id); // returns the picture of a node, or NULL; NULL: not available
+    void *context;
+} DisplayHost;
+
+// Begins a list, whose `arena` is set, with its header.
+void display_list_begin(DisplayList *list, double width, double height);
+// Adds the drawing of a canvas to a list. `host` is NULL for a backend that applies effects and finds pictures itself.
+// Reads initial capacities from *sizes, then stores the new array lengths there.
+void display_list_build(DisplayList *list, const DrawNode *canvas, const DisplayHost *host, DisplayListSizes *sizes);

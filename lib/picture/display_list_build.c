@@ -5,18 +5,19 @@
 // explicit stack (Level) instead of recursion.
 #include "picture/display_list_build.h"
 
-#include "maths/maths.h"
+#include "picture/outline.h"
 
 #include <math.h>
-#include <string.h>
+
+enum { MAX_EFFECT_ELEMENTS = 2000000 }; // maximum number of path elements that the effects of a host's list may create
 
 // A node whose children are being translated.
 typedef struct Level {
     const DrawNode *node;
     uint32_t next;      // index of the next child
-    uint32_t matrix_at; // index of the matrix in the list; DISPLAY_NONE: not added yet
-    uint32_t paint_at;  // index of the paint in the list; DISPLAY_NONE: not added yet
-    bool saved;         // true if a DISPLAY_SAVE was added, which leave_node must balance
+    uint32_t matrix_at; // number of the matrix, the same for all levels that share it; DISPLAY_NONE: not used yet
+    uint32_t paint_at;  // number of the paint; DISPLAY_NONE: not used yet
+    bool saved;         // true if a PETRI_DRAW_SAVE was added, which leave_node must balance
     DisplayMatrix matrix;
     DisplayPath path;
     GraphicsState state;
@@ -24,27 +25,75 @@ typedef struct Level {
 
 typedef struct Walk {
     DisplayListBuild build;
+    uint32_t numbered; // matrices and paints that have a number
+    uint32_t matrix;   // the matrix and the paint written last; DISPLAY_NONE: none
+    uint32_t paint;
     Level *levels;
     uint32_t depth;
     uint32_t capacity;
 } Walk;
 
-// Adds a command with the matrix, path and graphics state of a level. If `own` is not NULL, it replaces the graphics
-// state of the level.
-static DisplayCommand *add_command(DisplayListBuild *build, Level *level, DisplayCommandKind kind,
-                                   const GraphicsState *own) {
-    DisplayList *list = build->list;
-    if (level->matrix_at == DISPLAY_NONE) {
-        *DISPLAY_ADD(build->arena, list->matrices, 1) = level->matrix;
-        level->matrix_at = list->matrices.count - 1;
-    }
-    if (!own && level->paint_at == DISPLAY_NONE)
-        level->paint_at = display_list_build_paint(build, &level->state);
-    uint32_t paint = own ? display_list_build_paint(build, own) : level->paint_at;
-    DisplayCommand *command = DISPLAY_ADD(build->arena, list->commands, 1);
-    *command = (DisplayCommand){.kind = kind, .matrix = level->matrix_at, .paint = paint, .path = level->path};
-    return command;
+// Gives the matrix and the paint of a level a number, unless they have one.
+static void number_level(Walk *walk, Level *level) {
+    if (level->matrix_at == DISPLAY_NONE)
+        level->matrix_at = walk->numbered++;
+    if (level->paint_at == DISPLAY_NONE)
+        level->paint_at = walk->numbered++;
 }
+
+// Returns the node of a path effect without its outermost dashes, which backends draw themselves. NULL: no other
+// effect.
+static const DrawNode *effect_beside_dashes(const DrawNode *effect) {
+    return !effect || effect->kind != KIND_DASH ? effect : effect->child_count > 0 ? effect->children[0] : NULL;
+}
+
+static const DrawNode *effect_of(const DisplayListBuild *build, const GraphicsState *state) {
+    return state->effect == DISPLAY_NONE ? NULL : build->settings.at[state->effect].node;
+}
+
+static void write_paint(DisplayListBuild *build, const GraphicsState *state) {
+    DisplayList *list = build->list;
+    const DrawNode *effect = effect_of(build, state), *rest = effect_beside_dashes(effect);
+    display_list_build_colour(build, state, effect && effect->kind == KIND_DASH ? effect : NULL);
+    if (state->filter != DISPLAY_NONE) {
+        const DisplaySetting *filter = &build->settings.at[state->filter];
+        DISPLAY_WRITE(list, FILTER, );
+        uint32_t start = display_list_open(list);
+        build->state = &filter->state;
+        display_list_build_filter(build, filter->node);
+        display_list_close(list, start);
+        list->numbers.at[DISPLAY_HEADER - 1] = true;
+    }
+    if (rest && !build->host) {
+        DISPLAY_WRITE(list, EFFECT, );
+        uint32_t start = display_list_open(list);
+        display_list_add_note(list, effect->origin, (Str){0});
+        display_list_build_effect(build, rest);
+        display_list_close(list, start);
+    }
+}
+
+// Writes the matrix and the paint of the next drawing if they differ from those written last. If `own` is not NULL, it
+// replaces the graphics state of the level.
+static void begin_drawing(Walk *walk, Level *level, const GraphicsState *own) {
+    if (own && level->matrix_at == DISPLAY_NONE)
+        level->matrix_at = walk->numbered++;
+    else if (!own)
+        number_level(walk, level);
+    uint32_t paint = own ? walk->numbered++ : level->paint_at;
+    if (walk->matrix != level->matrix_at)
+        DISPLAY_WRITE(walk->build.list, MATRIX, .matrix = &level->matrix);
+    if (walk->paint != paint)
+        write_paint(&walk->build, own ? own : &level->state);
+    walk->matrix = level->matrix_at;
+    walk->paint = paint;
+}
+
+// Writes a command that changes the clip or the target. Backends also restore matrix and paint, so both are written
+// again after it.
+#define WRITE_STATE(walk, level, ...)                                                                                  \
+    (number_level((walk), (level)), (walk)->matrix = (walk)->paint = DISPLAY_NONE,                                     \
+     DISPLAY_WRITE((walk)->build.list, __VA_ARGS__))
 
 static Level *push_level(Walk *walk, const DrawNode *node) {
     walk->levels =
@@ -72,7 +121,14 @@ static void save_clip(Walk *walk) {
         return;
     // No clip has been set inside this node yet, so saving the clip now is equivalent to saving it at the node's start.
     walk->levels[at].saved = true;
-    add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_SAVE, NULL);
+    number_level(walk, &walk->levels[walk->depth - 1]);
+    DISPLAY_WRITE(walk->build.list, SAVE, );
+}
+
+static void write_clip(Walk *walk, Level *level, const DisplayPath *path, bool outside) {
+    begin_drawing(walk, level, NULL);
+    DISPLAY_WRITE(walk->build.list, CLIP, .outside = outside != (path->fill_type > FILL_EVEN_ODD),
+                  .even_odd = path->fill_type & 1, .path = display_list_build_elements(&walk->build, path));
 }
 
 // Begins a node with children: pushes a level with a copy of the graphics state, which the node and its children
@@ -87,10 +143,9 @@ static void enter_node(Walk *walk, const DrawNode *node) {
         save_clip(walk);
         DisplayPath box = display_list_build_no_path;
         display_list_build_rectangle(&walk->build, &box, origin, size);
-        add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_CLIP, NULL)->path = box;
-        add_command(&walk->build, &walk->levels[walk->depth - 1], DISPLAY_LAYER, NULL)->item =
-            walk->build.list->places.count;
-        *DISPLAY_ADD(walk->build.arena, walk->build.list->places, 1) = node->origin;
+        write_clip(walk, &walk->levels[walk->depth - 1], &box, false);
+        display_list_add_note(walk->build.list, node->origin, (Str){0});
+        WRITE_STATE(walk, &walk->levels[walk->depth - 1], LAYER, );
     }
     Level *level = push_level(walk, node);
     display_list_build_transform(&level->matrix, node, false);
@@ -120,26 +175,65 @@ static void leave_node(Walk *walk) {
     Level *level = &walk->levels[--walk->depth], *outside = level - 1;
     NodeKind kind = (NodeKind)level->node->kind;
     if (level->saved)
-        add_command(&walk->build, level, DISPLAY_RESTORE, NULL);
+        WRITE_STATE(walk, level, RESTORE, );
     if (kind == KIND_LAYER)
-        add_command(&walk->build, level, DISPLAY_LAYER_END, NULL)->alpha =
-            floor(255 * fmin(fmax(draw_number(level->node, ATTR_ALPHA), 0), 1)) / 255;
+        WRITE_STATE(walk, level, LAYER_END,
+                    .opacity = floor(255 * fmin(fmax(draw_number(level->node, ATTR_ALPHA), 0), 1)) / 255);
     if (kind == KIND_TRANSFORM || kind == KIND_FONT || kind == KIND_PATH)
         propagate_paint(outside, &level->state);
     if (kind == KIND_TRANSFORM || kind == KIND_FONT || kind == KIND_PAINT)
         outside->path = level->path;
 }
 
-static void add_path_command(DisplayListBuild *build, Level *level, const DrawNode *node, DisplayPath path, bool fill,
-                             bool stroke) {
-    if (path.first == DISPLAY_NONE && path.fill_type <= FILL_EVEN_ODD)
+static DisplayNumbers elements_of(DisplayListBuild *build, const Outline *outline) {
+    build->joined.count = 0;
+    for (uint32_t i = 0; i < outline->elements.count; i++) {
+        const OutlineElement *element = &outline->elements.at[i];
+        double *to = DISPLAY_ADD(build->arena, build->joined, 1u + display_path_sizes[element->kind]);
+        *to++ = element->kind;
+        for (uint32_t k = 0; k < display_path_sizes[element->kind]; k++)
+            to[k] = (&element->points[0].x)[k];
+    }
+    return (DisplayNumbers){build->joined.at, build->joined.count};
+}
+
+// Writes the path that results from a path effect, for a host. If the paths for filling and stroking differ, writes two
+// commands.
+static void write_path_with_effect(DisplayListBuild *build, const DrawNode *effect, const DisplayMatrix *m,
+                                   const DisplayPath *path, bool fill, bool stroke) {
+    DisplayList *list = build->list;
+    Outline from = {.arena = build->arena, .fine = 2 / fmax(sqrt(fabs(m->xx * m->yy - m->xy * m->yx)), 1e-6)};
+    outline_add_path(&from, display_list_build_elements(build, path));
+    bool separate = false;
+    for (int part = 0; part < 1 + separate; part++) {
+        uint32_t start = list->numbers.count;
+        display_list_build_effect(build, effect); // only to apply it
+        list->numbers.count = start;
+        separate = fill && stroke && outline_has_dashes(list->numbers.at + start);
+        bool fills = fill && part == 0, strokes = stroke && part == separate;
+        Outline outline = outline_apply(list->numbers.at + start, from, !fills);
+        DISPLAY_WRITE(list, PATH, .fill = fills, .stroke = strokes, .rule = path->fill_type,
+                      .path = elements_of(build, &outline));
+        build->effect_elements += outline.elements.count;
+    }
+    if (build->effect_elements > MAX_EFFECT_ELEMENTS)
+        DISPLAY_WRITE(list, UNSUPPORTED,
+                      .name = {.text = STR("path effects with more than two million path elements")});
+}
+
+static void write_path(Walk *walk, Level *level, const DrawNode *node, const DisplayPath *path, bool fill,
+                       bool stroke) {
+    DisplayListBuild *build = &walk->build;
+    if (path->first == DISPLAY_NONE && path->fill_type <= FILL_EVEN_ODD)
         return;
     GraphicsState state = level->state;
-    DisplayCommand *command =
-        add_command(build, level, DISPLAY_DRAW, display_list_build_read_state(&state, node) ? &state : NULL);
-    command->path = path;
-    command->fill = fill;
-    command->stroke = stroke;
+    begin_drawing(walk, level, display_list_build_read_state(&state, node) ? &state : NULL);
+    const DrawNode *effect = effect_beside_dashes(effect_of(build, &state));
+    if (effect && build->host && build->effect_elements <= MAX_EFFECT_ELEMENTS)
+        write_path_with_effect(build, effect, &level->matrix, path, fill, stroke);
+    else
+        DISPLAY_WRITE(build->list, PATH, .fill = fill, .stroke = stroke, .rule = path->fill_type,
+                      .path = display_list_build_elements(build, path));
 }
 
 // If the node sets fill or stroke, draws the shape and leaves the current path unchanged. Otherwise, adds the shape to
@@ -153,20 +247,20 @@ static void add_shape(Walk *walk, Level *level, const DrawNode *node) {
     }
     DisplayPath path = display_list_build_no_path;
     display_list_build_shape(&walk->build, &path, node);
-    add_path_command(&walk->build, level, node, path, fill, stroke);
+    write_path(walk, level, node, &path, fill, stroke);
 }
 
 static void add_fill(Walk *walk, Level *level, const DrawNode *node) {
-    add_path_command(&walk->build, level, node, level->path, true, false);
+    write_path(walk, level, node, &level->path, true, false);
 }
 
 static void add_stroke(Walk *walk, Level *level, const DrawNode *node) {
-    add_path_command(&walk->build, level, node, level->path, false, true);
+    write_path(walk, level, node, &level->path, false, true);
 }
 
 static void add_clip(Walk *walk, Level *level, const DrawNode *node) {
     save_clip(walk);
-    add_command(&walk->build, level, node->kind == KIND_CLIP ? DISPLAY_CLIP : DISPLAY_MASK, NULL);
+    write_clip(walk, level, &level->path, node->kind == KIND_MASK);
 }
 
 static void add_mask(Walk *walk, Level *level, const DrawNode *node) {
@@ -182,42 +276,57 @@ static void add_text(Walk *walk, Level *level, const DrawNode *node) {
     display_list_build_read_state(&state, node);
     bool stroke = draw_flag(node, ATTR_STROKE),
          fill = draw_attr(node, ATTR_FILL) ? draw_flag(node, ATTR_FILL) : !stroke;
-    DisplayText *item = DISPLAY_ADD(build->arena, build->list->texts, 1);
-    *item = (DisplayText){.text = text->as.text,
-                          .family = state.family,
-                          .size = state.font_size,
-                          .weight = state.weight,
-                          .width = state.width,
-                          .slant = state.slant,
-                          .center = draw_flag(node, ATTR_CENTER)};
-    draw_pair(node, ATTR_POINT, item->point);
-    DisplayCommand *command = add_command(build, level, DISPLAY_TEXT, &state);
-    command->item = build->list->texts.count - 1;
-    command->fill = fill;
-    command->stroke = stroke || !fill;
+    double point[2];
+    draw_pair(node, ATTR_POINT, point);
+    begin_drawing(walk, level, &state);
+    if (build->host && effect_beside_dashes(effect_of(build, &state)))
+        DISPLAY_WRITE(build->list, UNSUPPORTED, .name = {.text = STR("a path effect on text")});
+    DISPLAY_WRITE(build->list, TEXT, .fill = fill, .stroke = stroke || !fill, .point = point, .size = state.font_size,
+                  .weight = state.weight, .width = state.width, .slant = state.slant,
+                  .centred = draw_flag(node, ATTR_CENTER),
+                  .family = {.text = str_from(state.family ? state.family : "")}, .text = {.text = text->as.text});
 }
 
 static void add_image(Walk *walk, Level *level, const DrawNode *node) {
-    uint32_t image = display_list_build_image(&walk->build, node);
-    if (image != DISPLAY_NONE)
-        add_command(&walk->build, level, DISPLAY_IMAGE, NULL)->item = image;
+    if (!display_list_build_has_image(node))
+        return;
+    begin_drawing(walk, level, NULL);
+    display_list_build_image(&walk->build, node);
+}
+
+static bool write_source(DisplayListBuild *build, const DrawNode *node) {
+    return display_list_build_source(build, node, 1);
+}
+
+// Returns the index of a new setting; DISPLAY_NONE if the node is not complete. It is written whenever a paint with
+// this setting is. To learn whether it is complete, this function writes it and takes the numbers back.
+static uint32_t add_setting(DisplayListBuild *build, Level *level, const DrawNode *node,
+                            bool (*write)(DisplayListBuild *build, const DrawNode *node)) {
+    DisplayList *list = build->list;
+    uint32_t numbers = list->numbers.count, notes = list->notes.count;
+    double pixels = list->numbers.at[DISPLAY_HEADER - 1];
+    build->state = &level->state;
+    level->paint_at = DISPLAY_NONE;
+    bool good = write(build, node);
+    list->numbers.count = numbers;
+    list->notes.count = notes;
+    list->numbers.at[DISPLAY_HEADER - 1] = pixels;
+    if (!good)
+        return DISPLAY_NONE;
+    *DISPLAY_ADD(build->arena, build->settings, 1) = (DisplaySetting){node, level->state};
+    return build->settings.count - 1;
 }
 
 static void set_source(Walk *walk, Level *level, const DrawNode *node) {
-    walk->build.state = &level->state;
-    level->state.source = display_list_build_source(&walk->build, node);
-    level->paint_at = DISPLAY_NONE;
+    level->state.source = add_setting(&walk->build, level, node, write_source);
 }
 
 static void set_filter(Walk *walk, Level *level, const DrawNode *node) {
-    walk->build.state = &level->state;
-    level->state.filter = display_list_build_filter(&walk->build, node);
-    level->paint_at = DISPLAY_NONE;
+    level->state.filter = add_setting(&walk->build, level, node, display_list_build_filter);
 }
 
 static void set_effect(Walk *walk, Level *level, const DrawNode *node) {
-    level->state.effect = display_list_build_effect(&walk->build, node);
-    level->paint_at = DISPLAY_NONE;
+    level->state.effect = add_setting(&walk->build, level, node, display_list_build_effect);
 }
 
 // The functions that add nodes without drawing nodes as children. NULL: enter_node handles the node.
@@ -237,25 +346,22 @@ static void add_node(Walk *walk, const DrawNode *node) {
         enter_node(walk, node);
 }
 
-static void reserve_arrays(Arena *arena, DisplayList *list, const DisplayListSizes *sizes) {
-    enum { MAX_COMMANDS = 1 << 16 }; // if the previous list was longer, the arrays start small again
-    if (sizes->commands == 0 || sizes->commands > MAX_COMMANDS || sizes->numbers > 16 * MAX_COMMANDS)
+// Gives arrays the capacities of the previous list.
+static void reserve_arrays(DisplayListBuild *build, const DisplayListSizes *sizes) {
+    enum { MAX_NUMBERS = 1 << 20 }; // if the previous list was longer, the arrays start small again
+    if (sizes->numbers == 0 || sizes->numbers > MAX_NUMBERS || sizes->paths > MAX_NUMBERS)
         return;
-#define ROOM(array)                                                                                                    \
-    list->array.at = display_list_grow(arena, NULL, 0, &list->array.room, sizes->array, sizeof *list->array.at)
-    ROOM(commands);
-    ROOM(matrices);
-    ROOM(paints);
-    ROOM(numbers);
-    ROOM(runs);
-#undef ROOM
+    DisplayList *list = build->list;
+    list->numbers.at = display_list_grow(build->arena, list->numbers.at, list->numbers.count, &list->numbers.room,
+                                         sizes->numbers, sizeof(double));
+    build->paths.at = display_list_grow(build->arena, NULL, 0, &build->paths.room, sizes->paths, sizeof(double));
 }
 
-const DisplayList *display_list_build(Arena *arena, const DrawNode *canvas, DisplayListSizes *sizes) {
-    DisplayList *list = arena_alloc(arena, sizeof *list);
-    *list = (DisplayList){.linear = draw_flag(canvas, ATTR_LINEAR)};
-    reserve_arrays(arena, list, sizes);
-    Walk walk = {.build = {.arena = arena, .list = list}};
+void display_list_build(DisplayList *list, const DrawNode *canvas, const DisplayHost *host, DisplayListSizes *sizes) {
+    Walk walk = {
+        .build = {.list = list, .arena = list->arena, .host = host}, .matrix = DISPLAY_NONE, .paint = DISPLAY_NONE};
+    list->linear = draw_flag(canvas, ATTR_LINEAR);
+    reserve_arrays(&walk.build, sizes);
     Level *top = push_level(&walk, canvas);
     *top = (Level){.node = canvas,
                    .matrix_at = DISPLAY_NONE,
@@ -267,7 +373,7 @@ const DisplayList *display_list_build(Arena *arena, const DrawNode *canvas, Disp
     display_list_build_read_state(&top->state, canvas);
     display_list_build_transform(&top->matrix, canvas, false);
     if (!display_matrix_is_invertible(&top->matrix))
-        return list;
+        return;
     while (walk.depth > 0) {
         Level *level = &walk.levels[walk.depth - 1];
         if (level->next < level->node->child_count)
@@ -278,8 +384,6 @@ const DisplayList *display_list_build(Arena *arena, const DrawNode *canvas, Disp
             leave_node(&walk);
     }
     if (walk.levels[0].saved)
-        add_command(&walk.build, &walk.levels[0], DISPLAY_RESTORE, NULL);
-    *sizes = (DisplayListSizes){list->commands.count, list->matrices.count, list->paints.count, list->numbers.count,
-                                list->runs.count};
-    return list;
+        WRITE_STATE(&walk, &walk.levels[0], RESTORE, );
+    *sizes = (DisplayListSizes){list->numbers.count, walk.build.paths.count};
 }

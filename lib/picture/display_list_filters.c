@@ -10,12 +10,6 @@
 // Maximum depth of nested filters or effects. It is less than NODE_MAX_HEIGHT, because the stack can be small.
 enum { MAX_DEPTH = 100 };
 
-static uint32_t add_numbers(DisplayListBuild *build, uint32_t count, const double *numbers) {
-    double *at = DISPLAY_ADD(build->arena, build->list->numbers, count);
-    memcpy(at, numbers, count * sizeof *numbers);
-    return build->list->numbers.count - count;
-}
-
 // Sets a colour matrix from brightness, contrast and saturation.
 static void set_adjustment(const DrawNode *node, double m[4][5]) {
     static const double luminance[3] = {LUMINANCE_WEIGHTS};
@@ -39,7 +33,9 @@ static bool set_rows(const DrawNode *node, double m[4][5]) {
     return any;
 }
 
-static bool read_matrix(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
+// These functions write a filter or effect without those inside it. They return false if a required attribute is
+// missing. `kind` is that of the filter.
+static bool write_matrix(DisplayListBuild *build, const DrawNode *node, int kind) {
     double m[4][5] = {{1, 0, 0, 0, 0}, {0, 1, 0, 0, 0}, {0, 0, 1, 0, 0}, {0, 0, 0, 1, 0}};
     const AttrValue *all = draw_attr(node, ATTR_MATRIX), *scale = draw_attr(node, ATTR_SCALE),
                     *offset = draw_attr(node, ATTR_OFFSET);
@@ -54,85 +50,96 @@ static bool read_matrix(DisplayListBuild *build, const DrawNode *node, DisplayFi
         if (!plain)
             set_adjustment(node, m);
     }
-    filter->numbers = add_numbers(build, 20, m[0]);
+    DISPLAY_WRITE_ROW(build->list, FILTER_COLOUR_MATRIX, .kind = kind, .elements = m[0]);
     return true;
 }
 
-static bool read_blend(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
+static bool write_blend(DisplayListBuild *build, const DrawNode *node, int kind) {
     const AttrValue *all = draw_attr(node, ATTR_COEFFICIENTS), *ratio = draw_attr(node, ATTR_RATIO);
     double r = ratio ? fmin(fmax(ratio->as.numbers[0], 0), 1) : 0;
-    if (all || ratio)
-        filter->numbers = add_numbers(build, 4, all ? all->as.numbers : (const double[]){0, 1 - r, r, 0});
-    filter->mode = filter->numbers == DISPLAY_NONE ? draw_word(node, ATTR_MODE) : -1;
+    const double mixed[4] = {0, ratio ? 1 - r : 0, r, 0};
+    DISPLAY_WRITE_ROW(build->list, FILTER_BLEND, .kind = kind, .mode = all || ratio ? -1 : draw_word(node, ATTR_MODE),
+                      .factors = all ? all->as.numbers : mixed);
     return true;
 }
 
-static bool read_nothing(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
-    (void)build, (void)node, (void)filter;
+static bool write_nothing(DisplayListBuild *build, const DrawNode *node, int kind) {
+    (void)node;
+    DISPLAY_WRITE_ROW(build->list, FILTER_SOURCE, .kind = kind);
     return true;
 }
 
-static bool read_radius(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
-    (void)build;
-    return draw_pair(node, ATTR_RADIUS, filter->radius);
+static bool write_radius(DisplayListBuild *build, const DrawNode *node, int kind) {
+    double radius[2];
+    bool good = draw_pair(node, ATTR_RADIUS, radius);
+    DISPLAY_WRITE_ROW(build->list, FILTER_BLUR, .kind = kind, .radius = radius);
+    return good;
 }
 
-static bool read_offset(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
-    (void)build;
-    return draw_pair(node, ATTR_OFFSET, filter->offset);
+static bool write_offset(DisplayListBuild *build, const DrawNode *node, int kind) {
+    double offset[2];
+    bool good = draw_pair(node, ATTR_OFFSET, offset);
+    DISPLAY_WRITE_ROW(build->list, FILTER_OFFSET, .kind = kind, .offset = offset);
+    return good;
 }
 
-static bool read_shadow(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
+static bool write_shadow(DisplayListBuild *build, const DrawNode *node, int kind) {
+    static const double black[4] = {0, 0, 0, 1};
     const AttrValue *color = draw_attr(node, ATTR_COLOR);
-    read_offset(build, node, filter);
-    filter->only = draw_flag(node, ATTR_SHADOW_ONLY);
-    display_list_build_stop_color(build, color ? color->as.numbers : filter->colour, filter->colour);
-    return read_radius(build, node, filter);
+    double radius[2], offset[2], colour[4];
+    bool good = draw_pair(node, ATTR_RADIUS, radius);
+    draw_pair(node, ATTR_OFFSET, offset);
+    display_list_build_stop_color(build, color ? color->as.numbers : black, colour);
+    DISPLAY_WRITE_ROW(build->list, FILTER_SHADOW, .kind = kind, .radius = radius, .offset = offset, .colour = colour,
+                      .only = draw_flag(node, ATTR_SHADOW_ONLY));
+    return good;
 }
 
-static bool read_paint(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter) {
+static bool write_paint(DisplayListBuild *build, const DrawNode *node, int kind) {
     GraphicsState own = *build->state;
     display_list_build_read_state(&own, node);
-    filter->paint = display_list_build_paint(build, &own);
+    DISPLAY_WRITE_ROW(build->list, FILTER_PAINT, .kind = kind);
+    uint32_t start = display_list_open(build->list);
+    display_list_build_colour(build, &own, NULL);
+    display_list_close(build->list, start);
     return true;
 }
 
-// A filter and the function that reads its attributes, which returns false if a required attribute is missing.
 typedef struct FilterRow {
-    DisplayFilterKind kind;
+    int kind;
     uint32_t inputs; // number of filters inside it: at most 1, or exactly 2
-    bool (*read)(DisplayListBuild *build, const DrawNode *node, DisplayFilter *filter);
+    bool (*write)(DisplayListBuild *build, const DrawNode *node, int kind);
 } FilterRow;
 
 static const FilterRow filter_rows[KIND_COUNT] = {
-#define FILTER(id, name, reader, children, inputs, help) [KIND_FILTER_##id] = {FILTER_##id, inputs, read_##reader},
+#define FILTER(id, name, writer, children, inputs, help)                                                               \
+    [KIND_FILTER_##id] = {PETRI_FILTER_##id, inputs, write_##writer},
 #include "schema/schema_list.h"
 };
 
-uint32_t display_list_build_filter(DisplayListBuild *build, const DrawNode *node) {
-    const FilterRow *row = &filter_rows[node->kind];
-    DisplayFilter filter = {.kind = row->kind,
-                            .colour = {0, 0, 0, 1},
-                            .numbers = DISPLAY_NONE,
-                            .inputs = {DISPLAY_NONE, DISPLAY_NONE},
-                            .place = node->origin};
-    if (node->child_count > row->inputs || (row->inputs == 2 && node->child_count < 2) || build->depth >= MAX_DEPTH ||
-        !row->read(build, node, &filter))
-        return DISPLAY_NONE;
+// Writes what is inside a filter or effect with `write`; if there is nothing, the number `source`.
+static bool write_children(DisplayListBuild *build, const DrawNode *node, int source,
+                           bool (*write)(DisplayListBuild *build, const DrawNode *node)) {
+    bool good = build->depth < MAX_DEPTH;
     build->depth++;
-    for (uint32_t i = 0; i < node->child_count; i++) {
-        filter.inputs[i] = display_list_build_filter(build, node->children[i]);
-        if (filter.inputs[i] == DISPLAY_NONE) {
-            build->depth--;
-            return DISPLAY_NONE;
-        }
-    }
+    for (uint32_t i = 0; i < node->child_count && good; i++)
+        good = write(build, node->children[i]);
     build->depth--;
-    *DISPLAY_ADD(build->arena, build->list->filters, 1) = filter;
-    return build->list->filters.count - 1;
+    if (node->child_count == 0)
+        display_list_add_number(build->list, source);
+    return good;
 }
 
-static bool read_dash(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
+bool display_list_build_filter(DisplayListBuild *build, const DrawNode *node) {
+    const FilterRow *row = &filter_rows[node->kind];
+    if (node->child_count > row->inputs || (row->inputs == 2 && node->child_count < 2))
+        return false;
+    display_list_add_note(build->list, node->origin, (Str){0});
+    return row->write(build, node, row->kind) &&
+           (row->inputs == 0 || write_children(build, node, PETRI_FILTER_SOURCE, display_list_build_filter));
+}
+
+static bool write_dash(DisplayListBuild *build, const DrawNode *node) {
     const AttrValue *intervals = draw_attr(node, ATTR_INTERVALS);
     double sum = 0;
     if (!intervals || intervals->count < 2 || intervals->count % 2)
@@ -142,29 +149,27 @@ static bool read_dash(DisplayListBuild *build, const DrawNode *node, DisplayEffe
             return false;
         sum += intervals->as.list[i];
     }
-    effect->numbers = add_numbers(build, intervals->count, intervals->as.list);
-    effect->count = intervals->count;
-    effect->amounts[0] = draw_number(node, ATTR_OFFSET);
+    DISPLAY_WRITE_ROW(build->list, EFFECT_DASH, .kind = PETRI_EFFECT_DASH, .offset = draw_number(node, ATTR_OFFSET),
+                      .dashes = {intervals->as.list, intervals->count});
     return sum > 0 && isfinite(sum);
 }
 
-static bool read_round_corners(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
-    (void)build;
-    effect->amounts[0] = draw_number(node, ATTR_RADIUS);
-    return effect->amounts[0] > 0;
+static bool write_round_corners(DisplayListBuild *build, const DrawNode *node) {
+    double radius = draw_number(node, ATTR_RADIUS);
+    DISPLAY_WRITE_ROW(build->list, EFFECT_ROUND_CORNERS, .kind = PETRI_EFFECT_ROUND_CORNERS, .radius = radius);
+    return radius > 0;
 }
 
-static bool read_jitter(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
-    (void)build;
-    effect->amounts[0] = draw_number(node, ATTR_LENGTH);
-    effect->amounts[1] = draw_number(node, ATTR_DEVIATION);
-    effect->seed = draw_number(node, ATTR_SEED);
-    return effect->amounts[0] > 0 && draw_attr(node, ATTR_DEVIATION);
+static bool write_jitter(DisplayListBuild *build, const DrawNode *node) {
+    double length = draw_number(node, ATTR_LENGTH);
+    DISPLAY_WRITE_ROW(build->list, EFFECT_JITTER, .kind = PETRI_EFFECT_JITTER, .length = length,
+                      .deviation = draw_number(node, ATTR_DEVIATION), .seed = draw_number(node, ATTR_SEED));
+    return length > 0 && draw_attr(node, ATTR_DEVIATION);
 }
 
-// Reads the row-major matrix of a path effect. If the node has no matrix, creates one that scales, then rotates, then
+// Writes the row-major matrix of a path effect. If the node has no matrix, creates one that scales, then rotates, then
 // translates points.
-static bool read_path_matrix(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
+static bool write_path_matrix(DisplayListBuild *build, const DrawNode *node) {
     const AttrValue *all = draw_attr(node, ATTR_MATRIX);
     double scale[2], move[2], angle = draw_number(node, ATTR_ROTATE);
     angle = (angle - floor(angle)) * 6.283185307179586;
@@ -173,49 +178,22 @@ static bool read_path_matrix(DisplayListBuild *build, const DrawNode *node, Disp
         scale[0] = scale[1] = 1;
     draw_pair(node, ATTR_TRANSLATE, move);
     const double own[9] = {c * scale[0], -s * scale[1], move[0], s * scale[0], c * scale[1], move[1], 0, 0, 1};
-    effect->numbers = add_numbers(build, 9, all ? all->as.list : own);
+    DISPLAY_WRITE_ROW(build->list, EFFECT_PATH_MATRIX, .kind = PETRI_EFFECT_PATH_MATRIX,
+                      .matrix = all ? all->as.list : own);
     return true;
 }
 
-static bool read_sum(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect) {
-    (void)build, (void)node, (void)effect;
-    return true;
+static bool write_sum(DisplayListBuild *build, const DrawNode *node) {
+    DISPLAY_WRITE_ROW(build->list, EFFECT_SUM, .kind = PETRI_EFFECT_SUM, .inputs = node->child_count);
+    return node->child_count >= 2;
 }
 
-// A path effect and the function that reads its attributes, which returns false if a required attribute is missing.
-typedef struct EffectRow {
-    DisplayEffectKind kind;
-    bool (*read)(DisplayListBuild *build, const DrawNode *node, DisplayEffect *effect);
-} EffectRow;
-
-static const EffectRow effect_rows[KIND_COUNT] = {
-#define EFFECT(id, name, help) [KIND_##id] = {EFFECT_##id, read_##name},
+static bool (*const effects[KIND_COUNT])(DisplayListBuild *build, const DrawNode *node) = {
+#define EFFECT(id, name, help) [KIND_##id] = write_##name,
 #include "schema/schema_list.h"
 };
 
-uint32_t display_list_build_effect(DisplayListBuild *build, const DrawNode *node) {
-    const EffectRow *row = &effect_rows[node->kind];
-    DisplayEffect effect = {.kind = row->kind, .inner = DISPLAY_NONE, .place = node->origin};
-    uint32_t count = node->child_count;
-    bool sum = row->kind == EFFECT_SUM;
-    if ((sum ? count < 2 : count > 1) || build->depth >= MAX_DEPTH || !row->read(build, node, &effect))
-        return DISPLAY_NONE;
-    double *inner = arena_alloc_array(build->arena, count, sizeof *inner);
-    bool good = true;
-    build->depth++;
-    for (uint32_t i = 0; i < count && good; i++) {
-        effect.inner = display_list_build_effect(build, node->children[i]);
-        inner[i] = effect.inner;
-        good = effect.inner != DISPLAY_NONE;
-    }
-    build->depth--;
-    if (!good)
-        return DISPLAY_NONE;
-    if (sum) {
-        effect.inner = DISPLAY_NONE;
-        effect.numbers = add_numbers(build, count, inner);
-        effect.count = count;
-    }
-    *DISPLAY_ADD(build->arena, build->list->effects, 1) = effect;
-    return build->list->effects.count - 1;
+bool display_list_build_effect(DisplayListBuild *build, const DrawNode *node) {
+    return (node->child_count <= 1 || node->kind == KIND_SUM) && effects[node->kind](build, node) &&
+           write_children(build, node, PETRI_EFFECT_SOURCE, display_list_build_effect);
 }

@@ -1,7 +1,7 @@
 // display_list_paints.c: translates paint source nodes, which colour the siblings after them (spec canvas.md 5), and
 // images.
+#include "maths/maths.h"
 #include "picture/display_list_build.h"
-#include "picture/texture.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,132 +13,159 @@ void display_list_build_stop_color(const DisplayListBuild *build, const double c
     }
 }
 
-static void add_stops(DisplayListBuild *build, const DrawNode *gradient, DisplaySource *source) {
+static DisplayStops make_stops(DisplayListBuild *build, const DrawNode *gradient) {
     uint32_t count = gradient->child_count;
     double before = -INFINITY;
-    source->first_stop = build->list->stops.count;
-    source->stop_count = count;
+    DisplayStop *stops = arena_alloc_array(build->arena, count, sizeof *stops);
     for (uint32_t i = 0; i < count; i++) {
         const DrawNode *node = gradient->children[i];
-        DisplayStop *stop = DISPLAY_ADD(build->arena, build->list->stops, 1);
         const AttrValue *color = draw_attr(node, ATTR_COLOR);
-        display_list_build_stop_color(build, color ? color->as.numbers : build->state->color, stop->color);
+        display_list_build_stop_color(build, color ? color->as.numbers : build->state->color, stops[i].color);
         double offset = draw_number(node, ATTR_OFFSET);
-        stop->offset = fmax(isnan(offset) ? (count > 1 ? (double)i / (count - 1) : 0) : offset, before);
-        before = stop->offset;
+        stops[i].offset = fmax(isnan(offset) ? (count > 1 ? (double)i / (count - 1) : 0) : offset, before);
+        before = stops[i].offset;
     }
+    return (DisplayStops){stops, count};
 }
 
-static uint32_t add_source(DisplayListBuild *build, DisplaySource source) {
-    *DISPLAY_ADD(build->arena, build->list->sources, 1) = source;
-    return build->list->sources.count - 1;
-}
-
-static uint32_t make_gradient(DisplayListBuild *build, const DrawNode *node) {
+static bool add_gradient(DisplayListBuild *build, const DrawNode *node, double alpha) {
     double start[2], end[2], middle[2], radius[2];
     if (node->child_count == 0)
-        return DISPLAY_NONE;
-    DisplaySource source = {.kind = SOURCE_LINEAR};
+        return false;
     if (draw_pair(node, ATTR_START, start) && draw_pair(node, ATTR_END, end)) {
-        memcpy(source.ends, start, sizeof start);
-        memcpy(source.ends + 2, end, sizeof end);
-    } else if (draw_pair(node, ATTR_RADIUS, radius)) {
-        draw_pair(node, ATTR_POINT, middle);
-        source.kind = SOURCE_RADIAL;
-        source.matrix = (DisplayMatrix){1, 0, 0, 1, middle[0], middle[1]};
-        display_list_build_transform(&source.matrix, node, false);
-        source.matrix = display_matrix_multiply(source.matrix, (DisplayMatrix){radius[0], 0, 0, radius[1], 0, 0});
-        if (!display_matrix_is_invertible(&source.matrix))
-            return DISPLAY_NONE;
-    } else {
-        return DISPLAY_NONE;
+        DISPLAY_WRITE(build->list, LINEAR, .start = start, .end = end, .alpha = alpha,
+                      .stops = make_stops(build, node));
+        return true;
     }
-    add_stops(build, node, &source);
-    return add_source(build, source);
+    if (!draw_pair(node, ATTR_RADIUS, radius))
+        return false;
+    draw_pair(node, ATTR_POINT, middle);
+    DisplayMatrix matrix = {1, 0, 0, 1, middle[0], middle[1]};
+    display_list_build_transform(&matrix, node, false);
+    matrix = display_matrix_multiply(matrix, (DisplayMatrix){radius[0], 0, 0, radius[1], 0, 0});
+    if (!display_matrix_is_invertible(&matrix))
+        return false;
+    DISPLAY_WRITE(build->list, RADIAL, .matrix = &matrix, .inner = (const double[3]){0}, .alpha = alpha,
+                  .stops = make_stops(build, node));
+    return true;
 }
 
-static uint32_t make_color(DisplayListBuild *build, const DrawNode *node) {
-    DisplaySource source = {.kind = SOURCE_COLOR};
+static bool add_color(DisplayListBuild *build, const DrawNode *node, double alpha) {
     const AttrValue *color = draw_attr(node, ATTR_COLOR);
-    memcpy(source.color, color ? color->as.numbers : build->state->color, sizeof source.color);
-    return add_source(build, source);
+    DISPLAY_WRITE(build->list, SOLID, .colour = color ? color->as.numbers : build->state->color, .alpha = alpha);
+    return true;
 }
 
-static uint32_t make_pattern(DisplayListBuild *build, const DrawNode *node) {
-    DisplaySource source = {
-        .kind = SOURCE_PATTERN, .matrix = {1, 0, 0, 1, 0, 0}, .image = display_list_build_image(build, node)};
-    display_list_build_transform(&source.matrix, node, true);
-    return source.image != DISPLAY_NONE && display_matrix_is_invertible(&source.matrix) ? add_source(build, source)
-                                                                                        : DISPLAY_NONE;
+// The file of an image, or the id of the node whose picture it is. Both are empty if the node has neither.
+typedef struct ImageName {
+    Str file;
+    Str id;
+} ImageName;
+
+static ImageName image_name(const DrawNode *node) {
+    const AttrValue *file = draw_attr(node, ATTR_FILENAME), *id = draw_attr(node, ATTR_IMAGE_ID);
+    if (file && file->as.text.len > 0)
+        return (ImageName){.file = file->as.text};
+    return (ImageName){.id = id ? id->as.text : (Str){0}};
 }
 
-static uint32_t make_blend(DisplayListBuild *build, const DrawNode *node) {
+// Finds the pixels of another node for a host. Returns false if there are none.
+static bool find_pixels(DisplayListBuild *build, Str id, Texture **pixels) {
+    const DisplayHost *host = build->host;
+    *pixels = host && host->find_pixels ? host->find_pixels(host->context, id) : NULL;
+    return !host || *pixels;
+}
+
+static void report_other_node(DisplayListBuild *build, Str id) {
+    if (id.len > 0 && build->host && !build->host->find_pixels)
+        DISPLAY_WRITE(build->list, UNSUPPORTED, .name = {.text = STR("the picture of another node")});
+}
+
+static bool add_pattern(DisplayListBuild *build, const DrawNode *node, double alpha) {
+    ImageName name = image_name(node);
+    DisplayMatrix matrix = {1, 0, 0, 1, 0, 0};
+    Texture *pixels = NULL;
+    display_list_build_transform(&matrix, node, true);
+    if ((name.file.len == 0 && name.id.len == 0) || !display_matrix_is_invertible(&matrix))
+        return false;
+    display_list_add_note(build->list, node->origin, name.id);
+    if (name.file.len > 0 || find_pixels(build, name.id, &pixels))
+        DISPLAY_WRITE(build->list, PATTERN, .matrix = &matrix, .alpha = alpha, .pixels = pixels,
+                      .file = {.text = name.file});
+    else
+        DISPLAY_WRITE(build->list, COLOR, .colour = (const double[4]){0});
+    report_other_node(build, name.id);
+    return true;
+}
+
+static bool add_blend(DisplayListBuild *build, const DrawNode *node, double alpha) {
     if (node->child_count == 1)
-        return display_list_build_source(build, node->children[0]);
+        return display_list_build_source(build, node->children[0], alpha);
     if (node->child_count != 2)
-        return DISPLAY_NONE;
-    DisplaySource source = {.kind = SOURCE_BLEND,
-                            .first_stop = display_list_build_source(build, node->children[0]),
-                            .stop_count = display_list_build_source(build, node->children[1]),
-                            .ratio = draw_number(node, ATTR_RATIO),
-                            .mode = draw_word(node, ATTR_MODE)};
-    if (source.first_stop == DISPLAY_NONE || source.stop_count == DISPLAY_NONE)
-        return DISPLAY_NONE;
-    source.ratio = isnan(source.ratio) ? source.ratio : fmin(fmax(source.ratio, 0), 1);
-    return add_source(build, source);
+        return false;
+    double ratio = draw_number(node, ATTR_RATIO);
+    DISPLAY_WRITE(build->list, BLEND, .ratio = isnan(ratio) ? -1 : fmin(fmax(ratio, 0), 1),
+                  .mode = draw_word(node, ATTR_MODE), .alpha = alpha);
+    return display_list_build_source(build, node->children[0], 1) &&
+           display_list_build_source(build, node->children[1], 1);
 }
 
-static uint32_t make_noise(DisplayListBuild *build, const DrawNode *node) {
+static bool add_noise(DisplayListBuild *build, const DrawNode *node, double alpha) {
     enum { MAX_OCTAVES = 255, MAX_TILE = 1 << 20 };
-    DisplaySource source = {.kind = SOURCE_NOISE,
-                            .ratio = draw_number(node, ATTR_SEED),
-                            .mode = draw_word(node, ATTR_TYPE),
-                            .stop_count = (uint32_t)fmin(fmax(draw_number(node, ATTR_OCTAVES), 0), MAX_OCTAVES)};
-    double tile[2];
-    if (!draw_pair(node, ATTR_FREQUENCY, source.ends))
-        return DISPLAY_NONE;
+    double frequency[2], tile[2];
+    if (!draw_pair(node, ATTR_FREQUENCY, frequency))
+        return false;
     draw_pair(node, ATTR_SIZE, tile);
     for (int k = 0; k < 2; k++)
-        source.ends[2 + k] = fmin(floor(tile[k]), MAX_TILE);
-    return add_source(build, source);
+        tile[k] = fmin(floor(tile[k]), MAX_TILE);
+    DISPLAY_WRITE(build->list, NOISE, .frequency = frequency, .tile = tile, .seed = draw_number(node, ATTR_SEED),
+                  .octaves = floor(fmin(fmax(draw_number(node, ATTR_OCTAVES), 0), MAX_OCTAVES)),
+                  .type = draw_word(node, ATTR_TYPE), .alpha = alpha);
+    build->list->numbers.at[DISPLAY_HEADER - 1] = true;
+    return true;
 }
 
-static uint32_t (*const sources[KIND_COUNT])(DisplayListBuild *build, const DrawNode *node) = {
-#define SOURCE(id, name, children, help) [KIND_##id] = make_##name,
+static bool (*const sources[KIND_COUNT])(DisplayListBuild *build, const DrawNode *node, double alpha) = {
+#define SOURCE(id, name, children, help) [KIND_##id] = add_##name,
 #include "schema/schema_list.h"
 };
 
 // The depth of nested sources is limited to less than NODE_MAX_HEIGHT, because the function is recursive and the stack
 // can be small.
-uint32_t display_list_build_source(DisplayListBuild *build, const DrawNode *node) {
+bool display_list_build_source(DisplayListBuild *build, const DrawNode *node, double alpha) {
     enum { MAX_DEPTH = 100 };
     if (build->depth >= MAX_DEPTH)
-        return DISPLAY_NONE;
+        return false;
     build->depth++;
-    uint32_t number = sources[node->kind](build, node);
+    bool good = sources[node->kind](build, node, alpha);
     build->depth--;
-    return number;
+    return good;
 }
 
-uint32_t display_list_build_image(DisplayListBuild *build, const DrawNode *node) {
+bool display_list_build_has_image(const DrawNode *node) {
+    ImageName name = image_name(node);
+    return name.file.len > 0 || name.id.len > 0;
+}
+
+void display_list_build_image(DisplayListBuild *build, const DrawNode *node) {
     static const struct {
         AttrName name;
         DisplayFit fit;
     } boxes[] = {{ATTR_FILL, FIT_FILL}, {ATTR_FIT, FIT_INSIDE}, {ATTR_SIZE, FIT_SIZE}};
-    const AttrValue *file = draw_attr(node, ATTR_FILENAME), *id = draw_attr(node, ATTR_IMAGE_ID);
-    DisplayImage image = {.fit = FIT_NONE, .kind = (NodeKind)node->kind, .place = node->origin};
-    if (file && file->as.text.len > 0)
-        image.file = file->as.text;
-    else if (id && id->as.text.len > 0)
-        image.id = id->as.text;
-    else
-        return DISPLAY_NONE;
-    draw_pair(node, ATTR_POINT, image.point);
-    for (size_t i = 0; i < sizeof boxes / sizeof boxes[0] && image.fit == FIT_NONE; i++)
-        if (schema_row((NodeKind)node->kind, boxes[i].name) && draw_pair(node, boxes[i].name, image.size))
-            image.fit = boxes[i].fit;
-    *DISPLAY_ADD(build->arena, build->list->images, 1) = image;
-    return build->list->images.count - 1;
+    ImageName name = image_name(node);
+    double point[2], size[2] = {0, 0};
+    DisplayFit fit = FIT_NONE;
+    Texture *pixels;
+    draw_pair(node, ATTR_POINT, point);
+    for (size_t i = 0; i < sizeof boxes / sizeof boxes[0] && fit == FIT_NONE; i++)
+        if (schema_row((NodeKind)node->kind, boxes[i].name) && draw_pair(node, boxes[i].name, size))
+            fit = boxes[i].fit;
+    display_list_add_note(build->list, node->origin, name.id);
+    if (name.file.len > 0)
+        DISPLAY_WRITE(build->list, IMAGE, .point = point, .size = size, .fit = fit, .file = {.text = name.file});
+    else if (find_pixels(build, name.id, &pixels))
+        DISPLAY_WRITE(build->list, PIXELS, .point = point, .size = size, .fit = fit, .pixels = pixels);
+    report_other_node(build, name.id);
 }
 
 bool display_list_build_read_state(GraphicsState *state, const DrawNode *node) {
@@ -154,16 +181,41 @@ bool display_list_build_read_state(GraphicsState *state, const DrawNode *node) {
     return changed;
 }
 
-uint32_t display_list_build_paint(DisplayListBuild *build, const GraphicsState *state) {
-    DisplayPaint *paint = DISPLAY_ADD(build->arena, build->list->paints, 1);
-    *paint = (DisplayPaint){.color = {state->color[0], state->color[1], state->color[2], state->color[3]},
-                            .stroke_width = state->stroke_width,
-                            .source = state->source,
-                            .filter = state->filter,
-                            .effect = state->effect,
-                            .join = state->join,
-                            .cap = state->cap,
-                            .composite = state->composite,
-                            .antialias = state->antialias};
-    return build->list->paints.count - 1;
+void display_list_build_colour(DisplayListBuild *build, const GraphicsState *state, const DrawNode *dash) {
+    const AttrValue *intervals = dash ? draw_attr(dash, ATTR_INTERVALS) : NULL;
+    if (state->source == DISPLAY_NONE) {
+        DISPLAY_WRITE(build->list, COLOR, .colour = state->color);
+    } else {
+        const GraphicsState *outer = build->state;
+        build->state = &build->settings.at[state->source].state;
+        display_list_build_source(build, build->settings.at[state->source].node, fmin(fmax(state->color[3], 0), 1));
+        build->state = outer;
+    }
+    DISPLAY_WRITE(build->list, STROKE_STYLE, .width = state->stroke_width, .join = state->join, .cap = state->cap,
+                  .mode = state->composite, .antialias = state->antialias,
+                  .dash_offset = dash ? draw_number(dash, ATTR_OFFSET) : 0,
+                  .dashes = {intervals ? intervals->as.list : NULL, intervals ? intervals->count : 0});
+}
+
+void display_list_build_transform(DisplayMatrix *matrix, const DrawNode *node, bool after) {
+    static const double TURN = 6.283185307179586;
+    for (uint32_t i = 0; i < node->attr_count; i++) {
+        const double *n = node->attrs[i].as.numbers;
+        DisplayMatrix step = {1, 0, 0, 1, 0, 0};
+        if (node->attrs[i].name == ATTR_TRANSLATE) {
+            step.x0 = n[0];
+            step.y0 = n[1];
+        } else if (node->attrs[i].name == ATTR_SCALE) {
+            step.xx = n[0];
+            step.yy = n[1];
+        } else if (node->attrs[i].name == ATTR_ROTATE) {
+            double angle = (n[0] - floor(n[0])) * TURN;
+            step.xx = step.yy = maths_cos(angle);
+            step.yx = maths_sin(angle);
+            step.xy = -step.yx;
+        } else {
+            continue;
+        }
+        *matrix = after ? display_matrix_multiply(step, *matrix) : display_matrix_multiply(*matrix, step);
+    }
 }

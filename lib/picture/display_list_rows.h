@@ -1,83 +1,65 @@
-// display_list_rows.h: the rows of petri-display-list.inc for code that is made from them. Rows and operands whose
-// macros are not defined are ignored.
+// display_list_rows.h: the rows of petri-display-list.inc, for code that is made from them. Each row is a ROW and one
+// of the other kinds; those whose macros are not defined are ignored. In a ROW, the names of filters begin with
+// FILTER_, those of effects with EFFECT_. If a macro uses operands, the includer defines NUMBER and the other types of
+// operands, except those that have a definition here.
 // clang-format off
+#ifndef ROW
+#define ROW(name, operands)
+#endif
 #ifndef COMMAND
-#define COMMAND(name, operands)
+#define COMMAND(name)
 #endif
 #ifndef ELEMENT
 #define ELEMENT(name, operands)
 #endif
 #ifndef FILTER_KIND
-#define FILTER_KIND(name, operands)
+#define FILTER_KIND(name)
 #endif
-#ifndef NUMBER
-#define NUMBER(name)
+#ifndef EFFECT_KIND
+#define EFFECT_KIND(name)
 #endif
-#ifndef FLAG
+#ifndef ALPHA
+#define ALPHA(name) NUMBER(name)
+#endif
+#ifndef ROWS
+#define ROWS(name) LIST(name)
+#endif
 #define FLAG(name) NUMBER(name)
-#endif
-#ifndef WORD
 #define WORD(name, words) NUMBER(name)
-#endif
-#ifndef NUMBERS
-#define NUMBERS(name, count)
-#endif
-#ifndef PAIR
-#define PAIR(name) NUMBERS(name, 2)
-#endif
-#ifndef COLOUR
-#define COLOUR(name)
-#endif
-#ifndef MATRIX
-#define MATRIX(name)
-#endif
-#ifndef STOPS
-#define STOPS(name)
-#endif
-#ifndef LIST
-#define LIST(name)
-#endif
-#ifndef STRING
-#define STRING(name)
-#endif
-#ifndef PATH
-#define PATH(name)
-#endif
-#ifndef FILTER
-#define FILTER(name)
-#endif
-#ifndef COMMANDS
-#define COMMANDS(name)
-#endif
-#ifndef PIXELS
-#define PIXELS(name)
-#endif
-#ifndef PAINT
-#define PAINT(name)
-#endif
-#ifndef INPUT
+#define INPUTS(name) NUMBER(name)
 #define INPUT(name)
-#endif
-#define PETRI_COMMAND(name, operands, text) COMMAND(name, operands)
+#define PAIR(name) NUMBERS(name, 2)
+#define PATH(name) LIST(name)
+#define FILTER(name) ROWS(name)
+#define EFFECT(name) ROWS(name)
+#define COMMANDS(name) ROWS(name)
+#define PETRI_COMMAND(name, operands, text) COMMAND(name) ROW(name, operands)
 #define PETRI_PATH_ELEMENT(name, operands, text) ELEMENT(name, operands)
-#define PETRI_FILTER_KIND(name, operands, text) FILTER_KIND(name, operands)
+#define PETRI_FILTER_KIND(name, operands, text) FILTER_KIND(name) ROW(FILTER_##name, operands)
+#define PETRI_EFFECT_KIND(name, operands, text) EFFECT_KIND(name) ROW(EFFECT_##name, operands)
 #include "petri-display-list.inc"
+#undef ROW
 #undef COMMAND
 #undef ELEMENT
 #undef FILTER_KIND
-#undef NUMBER
+#undef EFFECT_KIND
+#undef ALPHA
+#undef ROWS
 #undef FLAG
 #undef WORD
-#undef NUMBERS
+#undef INPUTS
+#undef INPUT
 #undef PAIR
+#undef PATH
+#undef FILTER
+#undef EFFECT
+#undef COMMANDS
+#undef NUMBER
+#undef NUMBERS
 #undef COLOUR
 #undef MATRIX
 #undef STOPS
 #undef LIST
 #undef STRING
-#undef PATH
-#undef FILTER
-#undef COMMANDS
 #undef PIXELS
 #undef PAINT
-#undef INPUT

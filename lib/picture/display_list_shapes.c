@@ -12,23 +12,39 @@ const DisplayPath display_list_build_no_path = {DISPLAY_NONE, DISPLAY_NONE, 0, F
 // Adds an element to the last run of the path. If elements of other paths were added after this run, begins another
 // run.
 static void add_element(DisplayListBuild *build, DisplayPath *path, PathElement kind, const double *numbers) {
-    DisplayList *list = build->list;
     uint32_t count = display_path_sizes[kind];
-    bool continues = path->first != DISPLAY_NONE && path->end == list->numbers.count;
+    bool continues = path->first != DISPLAY_NONE && path->end == build->paths.count;
     if (!continues) {
-        DisplayRun *run = DISPLAY_ADD(build->arena, list->runs, 1);
-        *run = (DisplayRun){.start = list->numbers.count, .next = DISPLAY_NONE};
-        uint32_t number = list->runs.count - 1;
+        DisplayRun *run = DISPLAY_ADD(build->arena, build->runs, 1);
+        *run = (DisplayRun){.start = build->paths.count, .next = DISPLAY_NONE};
+        uint32_t number = build->runs.count - 1;
         if (path->first == DISPLAY_NONE)
             path->first = number;
         else
-            list->runs.at[path->last].next = number;
+            build->runs.at[path->last].next = number;
         path->last = number;
     }
-    double *at = DISPLAY_ADD(build->arena, list->numbers, count + 1);
+    double *at = DISPLAY_ADD(build->arena, build->paths, count + 1);
     at[0] = kind;
     memcpy(at + 1, numbers, count * sizeof *numbers);
-    path->end = list->runs.at[path->last].end = list->numbers.count;
+    path->end = build->runs.at[path->last].end = build->paths.count;
+}
+
+DisplayNumbers display_list_build_elements(DisplayListBuild *build, const DisplayPath *path) {
+    if (path->first == DISPLAY_NONE)
+        return (DisplayNumbers){NULL, 0};
+    if (path->first == path->last) {
+        uint32_t start = build->runs.at[path->first].start;
+        return (DisplayNumbers){build->paths.at + start, path->end - start};
+    }
+    build->joined.count = 0;
+    for (uint32_t run = path->first; run != DISPLAY_NONE;) {
+        bool last = run == path->last;
+        uint32_t start = build->runs.at[run].start, count = (last ? path->end : build->runs.at[run].end) - start;
+        memcpy(DISPLAY_ADD(build->arena, build->joined, count), build->paths.at + start, count * sizeof(double));
+        run = last ? DISPLAY_NONE : build->runs.at[run].next;
+    }
+    return (DisplayNumbers){build->joined.at, build->joined.count};
 }
 
 static void move_to(DisplayListBuild *build, DisplayPath *path, double x, double y) {

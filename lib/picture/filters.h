@@ -1,4 +1,4 @@
-// filters.h: filters of float images (spec canvas.md 6).
+// filters.h: filters of display lists, which are applied to float images (spec canvas.md 6).
 #pragma once
 
 #include "picture/display_list.h"
@@ -11,11 +11,21 @@ typedef struct FilterNeeds {
     bool everywhere; // true if the filter changes transparent pixels
 } FilterNeeds;
 
-// These functions do not look at the inputs of the filter. `table` has its 20 matrix elements or 4 factors; NULL: none.
-// `m` maps the lengths of the filter to pixels.
-void filter_add_needs(const DisplayFilter *filter, const double *table, const DisplayMatrix *m, FilterNeeds *needs);
-// Stores the radii of the filter in pixels.
-void filter_radius(const DisplayFilter *filter, const DisplayMatrix *m, double radius[2]);
-// Applies a filter, except FILTER_PAINT, to the result of its first input. `other` is that of the second; NULL: none.
-void filter_apply(FloatImagePool *pool, const DisplayFilter *filter, const double *table, const DisplayMatrix *m,
-                  FloatImage *image, const FloatImage *other);
+// A filter of a display list, and what it is applied to. The numbers can come from a host, so they are checked.
+typedef struct FilterTask {
+    DisplayReader reader;        // the caller sets `failed` to make filter_apply stop
+    const DisplayMatrix *matrix; // maps the lengths of the filter to pixels
+    FloatImagePool *pool;
+    const FloatImage *drawn; // the unfiltered drawing
+    // Returns a new image of the size of `drawn`, filled with the paint that the commands set.
+    FloatImage (*paint)(void *context, DisplayNumbers commands);
+    // Called if the radius of the filter at `filter` exceeds FLOAT_IMAGE_MAX_SIGMA. NULL: not called.
+    void (*exceeds)(void *context, const double *filter);
+    void *context;
+    int depth; // initially 0
+} FilterTask;
+
+// Returns the needs of a filter and of those inside it.
+FilterNeeds filter_measure(FilterTask *task);
+// Returns the result of a filter as a new image.
+FloatImage filter_apply(FilterTask *task);

@@ -18,13 +18,12 @@ typedef struct HostDrawing {
 static void call_host(void *context) {
     HostDrawing *drawing = context;
     PetriPainter *painter = drawing->painter;
-    size_t count;
-    const double *numbers =
-        drawing->canvas ? display_list_of_canvas(painter, drawing->canvas, drawing->width, drawing->height, &count)
-                        : display_list_of_picture(&painter->arena, drawing->picture,
-                                                  drawing->width / drawing->picture->width, &count);
-    drawing->done =
-        painter->host.draw(painter->host.user_data, numbers, count, drawing->width, drawing->height, drawing->pixels);
+    DisplayNumbers list =
+        drawing->canvas
+            ? display_list_of_canvas(painter, drawing->canvas, drawing->width, drawing->height)
+            : display_list_of_picture(&painter->arena, drawing->picture, drawing->width / drawing->picture->width);
+    drawing->done = painter->host.draw(painter->host.user_data, list.at, list.count, drawing->width, drawing->height,
+                                       drawing->pixels);
     if (!drawing->done)
         painter_report(drawing->diags, NULL, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn");
 }

@@ -6,7 +6,7 @@
 enum { LATTICE = 256, CHANNELS = 4 };
 
 typedef struct Noise {
-    const DisplaySource *source;
+    const NOISEOperands *source;
     double frequency[2];
     int tile[2]; // number of cells after which the first octave repeats; 0: it does not repeat
     uint8_t order[LATTICE];
@@ -28,7 +28,7 @@ static int32_t first_number(double seed) {
 }
 
 static void make_lattice(Noise *noise) {
-    int32_t number = first_number(noise->source->ratio);
+    int32_t number = first_number(noise->source->seed);
     for (int channel = 0; channel < CHANNELS; channel++)
         for (int i = 0; i < LATTICE; i++) {
             double *slope = noise->slopes[channel][i], length;
@@ -54,9 +54,9 @@ static void make_lattice(Noise *noise) {
 // Adjusts each frequency to the nearest value for which a tile contains a whole number of cells.
 static void fit_tiles(Noise *noise) {
     for (int k = 0; k < 2; k++) {
-        double side = noise->source->ends[2 + k], frequency = fabs(noise->source->ends[k]);
+        double side = noise->source->tile[k], frequency = fabs(noise->source->frequency[k]);
         noise->frequency[k] = frequency;
-        if (!(side > 0) || !(noise->source->ends[3 - k] > 0) || !(frequency > 0))
+        if (!(side > 0) || !(noise->source->tile[1 - k] > 0) || !(frequency > 0))
             continue;
         double low = floor(side * frequency) / side, high = ceil(side * frequency) / side;
         noise->frequency[k] = low > 0 && frequency / low < high / frequency ? low : high;
@@ -124,9 +124,9 @@ static double improved_noise(const Noise *noise, int channel, const LatticePoint
 
 // Computes the noise of the four channels at x, y. Results range from 0 to 1.
 static void noise_at(const Noise *noise, double x, double y, double out[CHANNELS]) {
-    int type = noise->source->mode;
+    int type = (int)noise->source->type;
     double sums[CHANNELS] = {0, 0, 0, 0}, ratio = 1;
-    for (uint32_t octave = 0; octave < noise->source->stop_count && isfinite(ratio); octave++, ratio *= 2) {
+    for (uint32_t octave = 0; octave < noise->source->octaves && isfinite(ratio); octave++, ratio *= 2) {
         double at_x = x * noise->frequency[0] * ratio, at_y = y * noise->frequency[1] * ratio;
         if (!(fabs(at_x) < 1e15) || !(fabs(at_y) < 1e15)) // doubles this large have hardly any fraction bits left
             break;
@@ -152,7 +152,7 @@ static uint32_t pixel_of(const double c[CHANNELS], double alpha) {
     return pixel;
 }
 
-void noise_fill(const DisplaySource *source, const DisplayMatrix *to_units, int left, int top, double alpha,
+void noise_fill(const NOISEOperands *source, const DisplayMatrix *to_units, int left, int top, double alpha,
                 uint32_t *pixels, int width, int height) {
     Noise noise = {.source = source};
     make_lattice(&noise);

@@ -6,5 +6,5 @@
 
 // Fills premultiplied ARGB32 pixels, rows without gaps, whose top left corner is at left, top. `to_units` maps pixels
 // to the units of the source.
-void noise_fill(const DisplaySource *source, const DisplayMatrix *to_units, int left, int top, double alpha,
+void noise_fill(const NOISEOperands *source, const DisplayMatrix *to_units, int left, int top, double alpha,
                 uint32_t *pixels, int width, int height);

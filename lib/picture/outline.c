@@ -159,20 +159,19 @@ static void copy_flat(Outline *out, const Flat *flat) {
         add_element(out, PATH_CLOSE, flat->points.at[0]);
 }
 
-// An effect to apply: the arguments of outline_apply, and the numbers of the effect.
+// An effect to apply.
 typedef struct EffectTask {
-    const DisplayList *list;
-    const DisplayEffect *effect;
-    const double *numbers;
+    const DisplayRow *effect;
+    DisplayReader *inside; // the effects inside it
     bool lines;
 } EffectTask;
 
 static void apply_jitter(const EffectTask *task, Outline *from, Outline *out) {
-    const DisplayEffect *effect = task->effect;
+    const EFFECT_JITTEROperands *effect = &task->effect->EFFECT_JITTER;
     uint64_t key = random_hash_step(RANDOM_HASH_START, random_hash_number(effect->seed)), item = 0;
     for (uint32_t at = 0; at < from->elements.count;) {
         Flat flat = flatten_subpath(from, &at);
-        double count = fmin(rint(flat.length / effect->amounts[0]), MAX_ELEMENTS);
+        double count = fmin(rint(flat.length / effect->length), MAX_ELEMENTS);
         if (flat.points.count < 2 || count < 2 || out->elements.count > MAX_ELEMENTS) {
             copy_flat(out, &flat);
             continue;
@@ -184,7 +183,7 @@ static void apply_jitter(const EffectTask *task, Outline *from, Outline *out) {
         for (uint32_t i = 0; i < points; i++) {
             OutlinePoint direction,
                 point = point_along(&walk, (i + (flat.closed ? 0.5 : 0)) * flat.length / count, &direction);
-            double side = effect->amounts[1] * (2 * random_uniform(key, item++) - 1);
+            double side = effect->deviation * (2 * random_uniform(key, item++) - 1);
             add_element(out, i ? PATH_LINE : PATH_MOVE,
                         (OutlinePoint){point.x - side * direction.y, point.y + side * direction.x});
         }
@@ -195,21 +194,22 @@ static void apply_jitter(const EffectTask *task, Outline *from, Outline *out) {
 
 // Returns the index of the interval that contains the dash offset. *left receives the remaining length of this
 // interval.
-static uint32_t find_interval(const DisplayEffect *effect, const double *intervals, double *left) {
+static uint32_t find_interval(const EFFECT_DASHOperands *dash, double *left) {
+    const double *intervals = dash->dashes.at;
     double sum = 0;
-    for (uint32_t i = 0; i < effect->count; i++)
+    for (uint32_t i = 0; i < dash->dashes.count; i++)
         sum += intervals[i];
-    double offset = effect->amounts[0] - sum * floor(effect->amounts[0] / sum);
+    double offset = dash->offset - sum * floor(dash->offset / sum);
     uint32_t at = 0;
-    for (; at + 1 < effect->count && offset >= intervals[at]; at++)
+    for (; at + 1 < dash->dashes.count && offset >= intervals[at]; at++)
         offset -= intervals[at];
     *left = fmax(intervals[at] - offset, 0);
     return at;
 }
 
-static void dash_subpath(const DisplayEffect *effect, const double *intervals, const Flat *flat, Outline *out) {
+static void dash_subpath(const EFFECT_DASHOperands *dash, const Flat *flat, Outline *out) {
     double left, along = 0;
-    uint32_t interval = find_interval(effect, intervals, &left);
+    uint32_t interval = find_interval(dash, &left);
     Walk walk = {.flat = flat};
     while (along < flat->length && out->elements.count < MAX_ELEMENTS) {
         double end = fmin(along + left, flat->length);
@@ -220,28 +220,27 @@ static void dash_subpath(const DisplayEffect *effect, const double *intervals, c
             add_element(out, PATH_LINE, point_along(&walk, end, NULL));
         }
         along = end;
-        interval = (interval + 1) % effect->count;
-        left = intervals[interval];
+        interval = (interval + 1) % dash->dashes.count;
+        left = dash->dashes.at[interval];
     }
 }
 
 static void apply_dash(const EffectTask *task, Outline *from, Outline *out) {
-    const DisplayEffect *effect = task->effect;
-    const double *intervals = task->numbers;
+    const EFFECT_DASHOperands *dash = &task->effect->EFFECT_DASH;
     double sum = 0;
     if (!task->lines) {
         *out = *from;
         return;
     }
-    for (uint32_t i = 0; i < effect->count; i++)
-        sum += intervals[i];
+    for (uint32_t i = 0; i < dash->dashes.count; i++)
+        sum += dash->dashes.at[i];
     for (uint32_t at = 0; at < from->elements.count;) {
         Flat flat = flatten_subpath(from, &at);
-        bool countless = flat.length * effect->count / sum > MAX_ELEMENTS;
+        bool countless = flat.length * dash->dashes.count / sum > MAX_ELEMENTS;
         if (flat.points.count < 2 || countless)
             copy_flat(out, &flat);
         else
-            dash_subpath(effect, intervals, &flat, out);
+            dash_subpath(dash, &flat, out);
     }
 }
 
@@ -296,7 +295,7 @@ static void apply_round_corners(const EffectTask *task, Outline *from, Outline *
         for (end = first + 1; end < from->elements.count && elements[end].kind != PATH_MOVE; end++)
             ;
         if (end - first > 1 && elements[first].kind == PATH_MOVE && elements[first + 1].kind != PATH_CLOSE)
-            round_subpath(elements, first, end, task->effect->amounts[0], out);
+            round_subpath(elements, first, end, task->effect->EFFECT_ROUND_CORNERS.radius, out);
         else
             for (uint32_t i = first; i < end; i++)
                 *DISPLAY_ADD(out->arena, out->elements, 1) = elements[i];
@@ -304,7 +303,7 @@ static void apply_round_corners(const EffectTask *task, Outline *from, Outline *
 }
 
 static void apply_path_matrix(const EffectTask *task, Outline *from, Outline *out) {
-    const double *m = task->numbers;
+    const double *m = task->effect->EFFECT_PATH_MATRIX.matrix;
     for (uint32_t i = 0; i < from->elements.count; i++) {
         OutlineElement *element = DISPLAY_ADD(out->arena, out->elements, 1);
         *element = from->elements.at[i];
@@ -317,9 +316,11 @@ static void apply_path_matrix(const EffectTask *task, Outline *from, Outline *ou
     }
 }
 
+static Outline apply_next(DisplayReader *reader, Outline from, bool lines);
+
 static void apply_sum(const EffectTask *task, Outline *from, Outline *out) {
-    for (uint32_t i = 0; i < task->effect->count; i++) {
-        Outline part = outline_apply(task->list, (uint32_t)task->numbers[i], *from, task->lines);
+    for (uint32_t i = 0; i < task->effect->EFFECT_SUM.inputs; i++) {
+        Outline part = apply_next(task->inside, *from, task->lines);
         if (part.elements.count > 0)
             memcpy(DISPLAY_ADD(out->arena, out->elements, part.elements.count), part.elements.at,
                    part.elements.count * sizeof *part.elements.at);
@@ -327,35 +328,41 @@ static void apply_sum(const EffectTask *task, Outline *from, Outline *out) {
 }
 
 static void (*const effects[])(const EffectTask *task, Outline *from, Outline *out) = {
-#define EFFECT(id, name, help) [EFFECT_##id] = apply_##name,
+#define EFFECT(id, name, help) [PETRI_EFFECT_##id] = apply_##name,
 #include "schema/schema_list.h"
 };
 
-Outline outline_apply(const DisplayList *list, uint32_t number, Outline from, bool lines) {
-    Outline out = {.arena = from.arena, .fine = from.fine};
-    if (number == DISPLAY_NONE)
+// Reads and applies an effect. The recursion is bounded, because display_list_build_effect limits the depth.
+static Outline apply_next(DisplayReader *reader, Outline from, bool lines) {
+    DisplayRow effect;
+    display_list_read_effect(reader, &effect);
+    if (effect.kind == PETRI_EFFECT_SOURCE)
         return from;
-    const DisplayEffect *effect = &list->effects.at[number];
-    from = outline_apply(list, effect->inner, from, lines);
-    effects[effect->kind](&(EffectTask){list, effect, list->numbers.at + effect->numbers, lines}, &from, &out);
+    if (effect.kind != PETRI_EFFECT_SUM)
+        from = apply_next(reader, from, lines);
+    Outline out = {.arena = from.arena, .fine = from.fine};
+    effects[effect.kind](&(EffectTask){&effect, reader, lines}, &from, &out);
     return out;
 }
 
-bool outline_has_dashes(const DisplayList *list, uint32_t number) {
-    if (number == DISPLAY_NONE)
-        return false;
-    const DisplayEffect *effect = &list->effects.at[number];
-    bool any = effect->kind == EFFECT_DASH || outline_has_dashes(list, effect->inner);
-    for (uint32_t i = 0; effect->kind == EFFECT_SUM && i < effect->count; i++)
-        any = any || outline_has_dashes(list, (uint32_t)list->numbers.at[effect->numbers + i]);
+Outline outline_apply(const double *effect, Outline from, bool lines) {
+    return apply_next(&(DisplayReader){.at = effect, .left = SIZE_MAX}, from, lines);
+}
+
+static bool has_dashes(DisplayReader *reader) {
+    DisplayRow effect;
+    display_list_read_effect(reader, &effect);
+    bool any = effect.kind == PETRI_EFFECT_DASH;
+    double inputs = effect.kind == PETRI_EFFECT_SOURCE ? 0
+                    : effect.kind == PETRI_EFFECT_SUM  ? effect.EFFECT_SUM.inputs
+                                                       : 1;
+    for (; inputs > 0; inputs--)
+        any = has_dashes(reader) || any;
     return any;
 }
 
-bool outline_has_effect(const DisplayList *list, const DisplayPaint *paint) {
-    if (paint->effect == DISPLAY_NONE)
-        return false;
-    const DisplayEffect *effect = &list->effects.at[paint->effect];
-    return effect->kind != EFFECT_DASH || effect->inner != DISPLAY_NONE;
+bool outline_has_dashes(const double *effect) {
+    return has_dashes(&(DisplayReader){.at = effect, .left = SIZE_MAX});
 }
 
 static void add_curves(Outline *out, double curves[][6], int count) {
@@ -415,16 +422,11 @@ static void add_path_element(Outline *out, PathElement kind, const double *n, Ou
         *first = kind == PATH_MOVE || kind == PATH_LINE ? *here : *first;
 }
 
-void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *path) {
+void outline_add_path(Outline *out, DisplayNumbers path) {
     OutlinePoint here = {0, 0}, first = {0, 0};
-    for (uint32_t run = path->first; run != DISPLAY_NONE;) {
-        bool last = run == path->last;
-        uint32_t end = last ? path->end : list->runs.at[run].end;
-        for (uint32_t i = list->runs.at[run].start; i < end;) {
-            PathElement kind = (PathElement)list->numbers.at[i];
-            add_path_element(out, kind, list->numbers.at + i + 1, &here, &first);
-            i += 1u + display_path_sizes[kind];
-        }
-        run = last ? DISPLAY_NONE : list->runs.at[run].next;
+    for (uint32_t i = 0; i < path.count;) {
+        PathElement kind = (PathElement)path.at[i];
+        add_path_element(out, kind, path.at + i + 1, &here, &first);
+        i += 1u + display_path_sizes[kind];
     }
 }

@@ -21,17 +21,15 @@ typedef struct Outline {
     DISPLAY_ARRAY(OutlineElement) elements;
 } Outline;
 
-// Returns true if the paint has an effect that changes the path. Returns false if it only dashes strokes, because the
-// backend draws dashes.
-bool outline_has_effect(const DisplayList *list, const DisplayPaint *paint);
+// `effect` is an effect of a display list: its kind and operands.
+//
 // Returns true if this effect, or one inside it, dashes lines. If so, the paths for filling and for stroking differ.
-bool outline_has_dashes(const DisplayList *list, uint32_t effect);
+bool outline_has_dashes(const double *effect);
 // Applies an effect, and the effects nested in it, to the outline `from`. If `lines` is true, the result is for
-// stroking, otherwise for filling. The result is allocated from the arena of `from`. If `effect` is DISPLAY_NONE,
-// returns `from`.
-Outline outline_apply(const DisplayList *list, uint32_t effect, Outline from, bool lines);
-// Adds a path of the list. Arcs are converted to curves.
-void outline_add_path(Outline *out, const DisplayList *list, const DisplayPath *path);
+// stroking, otherwise for filling. The result is allocated from the arena of `from`.
+Outline outline_apply(const double *effect, Outline from, bool lines);
+// Adds the elements of a path. Arcs are converted to curves.
+void outline_add_path(Outline *out, DisplayNumbers path);
 
 // Conversion of elliptical arcs to Bézier curves.
 enum { ARCS_MAX = 10 };

@@ -96,8 +96,7 @@ static inline PetriLabel painter_label_at(const PetriLabel *labels, size_t size,
 }
 
 // display_list_export.c
-// Return an array of numbers in the format of petri_picture_display_list, for a canvas or for a picture that needs no
-// shaders. `scale` is the number of pixels per unit of the picture.
-const double *display_list_of_canvas(PetriPainter *painter, const DrawNode *canvas, double width, double height,
-                                     size_t *count);
-const double *display_list_of_picture(Arena *arena, const CanvasPicture *picture, double scale, size_t *count);
+// Return a display list for a host, of a canvas or of a picture that needs no shaders. `scale` is the number of pixels
+// per unit of the picture.
+DisplayNumbers display_list_of_canvas(PetriPainter *painter, const DrawNode *canvas, double width, double height);
+DisplayNumbers display_list_of_picture(Arena *arena, const CanvasPicture *picture, double scale);

@@ -58,7 +58,7 @@ typedef struct GraphicsState {
     int cap;
     int composite;
     bool antialias;
-    // Settings made by earlier drawing nodes: indices in arrays of the display list; DISPLAY_NONE: none.
+    // Settings made by earlier drawing nodes: numbers of settings (display_list_build.h); DISPLAY_NONE: none.
     uint32_t source; // paint that replaces the colour
     uint32_t filter;
     uint32_t effect; // path effect

@@ -10,10 +10,11 @@
 //     lines as in lib/physics/README.md; tests/docs/formulas.sh compares them.
 // SHAPE(ID, name, "help"): a NODE for a drawing that adds to a path. lib/picture has a function add_NAME.
 // COMMAND(ID, name, "help"): a NODE for another drawing without children. lib/picture has a function add_NAME.
-// SOURCE(ID, name, CHILDREN, "help"): a NODE for a paint source. lib/picture has a function make_NAME.
-// FILTER(ID, name, reader, CHILDREN, inputs, "help"): a NODE FILTER_ID for a filter. Its children are at most 1 filter,
-//     or exactly 2. lib/picture has functions apply_NAME and read_READER. petri-display-list.inc has a row ID.
-// EFFECT(ID, name, "help"): a NODE for a path effect. lib/picture has functions read_NAME and apply_NAME.
+// SOURCE(ID, name, CHILDREN, "help"): a NODE for a paint source. lib/picture has a function add_NAME.
+// FILTER(ID, name, writer, CHILDREN, inputs, "help"): a NODE FILTER_ID for a filter. Its children are at most 1 filter,
+//     or exactly 2. lib/picture has functions apply_NAME and write_WRITER. petri-display-list.inc has a row ID.
+// EFFECT(ID, name, "help"): a NODE for a path effect. lib/picture has functions write_NAME and apply_NAME.
+//     petri-display-list.inc has a row ID.
 // PICTURE_EFFECT(ID, name, scalable, "help"): a NODE for an effect on pictures, with a shader of this name and a row
 //     effect_NAME in lib/gl. `scalable` is true if a result of lower resolution looks similar.
 // ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). In scripts, NAME is written in lower case: attr_names.awk
@@ -43,7 +44,7 @@
 #define SOURCE(id, name, children, help) NODE(id, #name, SOURCE, children, help)
 #endif
 #ifndef FILTER
-#define FILTER(id, name, reader, children, inputs, help) NODE(FILTER_##id, #name, FILTER, children, help)
+#define FILTER(id, name, writer, children, inputs, help) NODE(FILTER_##id, #name, FILTER, children, help)
 #endif
 #ifndef EFFECT
 #define EFFECT(id, name, help) NODE(id, #name, EFFECT, EFFECT, help)

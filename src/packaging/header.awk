@@ -11,15 +11,6 @@ function escaped(text) {
     gsub(/~/, "\\(ti", text)
     return (text ~ /^\./ ? "\\\\&" : "") text
 }
-# Prints the rows of a file for which `row` was defined as a macro.
-function show_rows(file,    line, shows) {
-    while ((getline line < file) > 0) {
-        shows = line ~ "^" row "\\(" || (row == "PETRI_COMMAND" && line ~ /^PETRI_PAINT\(/) || (shows && line ~ /^ /)
-        if (shows)
-            print "    " escaped(line)
-    }
-    close(file)
-}
 function show(kind) {
     if (shown == kind)
         return
@@ -46,13 +37,14 @@ FNR == 1 {
         escaped(name ~ /-draw/ ? "petri-draw" : "petri")
     print ".SH DESCRIPTION"
 }
-/^#define PETRI.*##name,$/ {
-    row = $2
-    sub(/\(.*/, "", row)
-    next
-}
-/^#include "petri-display-list.inc"/ {
-    show_rows(substr(FILENAME, 1, match(FILENAME, /[^\/]*$/) - 1) substr($2, 2, length($2) - 2))
+/^#define PETRI.*##name,$/ { # the next line includes the rows
+    row = "^(" substr($2, 1, index($2, "(") - 1) (/COMMAND/ ? "|PETRI_PAINT)[(]" : ")[(]")
+    rows = FILENAME
+    sub(/[^\/]*$/, "petri-display-list.inc", rows)
+    while ((getline line < rows) > 0)
+        if (line ~ row)
+            print "    " escaped(line)
+    close(rows)
     next
 }
 /^#(if|ifdef|ifndef|else|endif|pragma|include|error|elif)/ || /\\$/ || /^extern "C"/ || (/^}$/ && !depth) { next }

@@ -8,9 +8,9 @@ function camel_case(name,    parts, count, i, out) {
     return out
 }
 BEGIN {
-    sizes["NUMBER"] = sizes["FLAG"] = sizes["WORD"] = 1
+    sizes["NUMBER"] = sizes["ALPHA"] = sizes["FLAG"] = sizes["WORD"] = 1
     sizes["PAIR"] = 2
-    reads["LIST"] = reads["FILTER"] = "list"
+    reads["LIST"] = reads["FILTER"] = reads["EFFECT"] = "list"
     split("COLOUR MATRIX STOPS STRING PATH PIXELS PAINT", types)
     for (i in types)
         reads[types[i]] = tolower(types[i])

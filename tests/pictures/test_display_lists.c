@@ -3,8 +3,9 @@
 //
 // display_lists.txt has a line `script count hash` for each script, for the first frame; the hash is over the numbers
 // as text. --print prints the numbers of one script, one per line, so that two versions can be compared with diff.
-// Unlike pictures, display lists must not differ at all. They need neither Cairo nor OpenGL.
-#include "petri-draw.h"
+// Unlike pictures, display lists must not differ at all. They need neither Cairo nor OpenGL. Lists for hosts must
+// consist of rows of petri-display-list.inc, without path effects.
+#include "display_rows.h"
 
 #include <dirent.h>
 #include <inttypes.h>
@@ -28,6 +29,14 @@ static uint64_t hash_numbers(const double *numbers, size_t count, FILE *print) {
     return hash;
 }
 
+// Returns true if a list consists of commands that hosts know.
+static bool has_rows(const double *numbers, size_t count) {
+    size_t at = 3, size = 1;
+    for (; at < count && size > 0 && numbers[at] != PETRI_DRAW_EFFECT; at += size)
+        size = display_row_size(numbers + at);
+    return at == count;
+}
+
 // Stores the line of a script in `line`. Returns false if the script has no display list.
 static bool describe(const char *folder, const char *name, FILE *print, char line[LINE]) {
     char script[1000];
@@ -40,7 +49,7 @@ static bool describe(const char *folder, const char *name, FILE *print, char lin
     size_t count = 0;
     bool done = petri_load(session, script) == PETRI_OK && petri_step(session) == PETRI_OK &&
                 petri_picture(session, &picture_options, &picture) == PETRI_OK &&
-                petri_picture_display_list(picture, &numbers, &count) == PETRI_OK;
+                petri_picture_display_list(picture, &numbers, &count) == PETRI_OK && has_rows(numbers, count);
     if (done)
         snprintf(line, LINE, "%s %zu %016" PRIx64 "\n", name, count, hash_numbers(numbers, count, print));
     petri_picture_free(&picture);

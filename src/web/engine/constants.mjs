@@ -32,6 +32,8 @@ export const COMMANDS = [
     ['filter', (r, p) => p.filter(r.list())],
     ['blend', (r, p) => p.blend(r.number(), r.number(), r.number(), r.paint(), r.paint())],
     ['noise', (r, p) => p.noise(...r.numbers(8))],
+    ['solid', (r, p) => p.solid(r.colour(), r.number())],
+    ['effect', (r, p) => p.effect(r.list())],
 ];
 export const PATH_ELEMENTS = [
     ['move', 2],

@@ -616,6 +616,10 @@ class Painter {
         this.setPaint(color(colour), Math.min(Math.max(colour[3], 0), 1), null, colour[3] >= 1);
     }
 
+    solid(colour, alpha) {
+        this.setPaint(color(colour, alpha), alpha, null, colour[3] * alpha >= 1);
+    }
+
     // Gradients are created on each use, because they depend on the current transform.
     linear(x1, y1, x2, y2, alpha, stops) {
         this.setPaint(() => addStops(this.context.createLinearGradient(x1, y1, x2, y2), stops, alpha), alpha);

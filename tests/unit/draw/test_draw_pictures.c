@@ -1,4 +1,5 @@
 // test_draw_pictures.c: tests of petri_picture: which content it chooses, and copies of frames that are rendered later.
+#include "display_rows.h"
 #include "petri-draw.h"
 #include "picture/painter.h"
 #include "player.h"
@@ -463,30 +464,15 @@ static void test_images_come_from_host(void **state) {
 
 // Returns one letter for each command of a picture's display list, without the operands.
 static const char *kinds_of(PetriPicture *picture) {
-    static const int sizes[] = {6, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 4};
     static char letters[256];
     const double *n;
     size_t count, length = 0;
     assert_int_equal(petri_picture_display_list(picture, &n, &count), PETRI_OK);
     for (size_t at = 3; at < count; length++) {
-        int kind = (int)n[at++];
-        letters[length] = (char)('a' + kind);
-        size_t size = (size_t)sizes[kind];
-        if (kind == PETRI_DRAW_LINEAR || kind == PETRI_DRAW_RADIAL) {
-            size = kind == PETRI_DRAW_LINEAR ? 6 : 11;
-            size += 5 * (size_t)n[at + size - 1];
-        } else if (kind == PETRI_DRAW_STROKE_STYLE) {
-            size = 7 + (size_t)n[at + 6];
-        } else if (kind == PETRI_DRAW_PATH || kind == PETRI_DRAW_CLIP) {
-            size = kind == PETRI_DRAW_PATH ? 4 : 3;
-            size += (size_t)n[at + size - 1];
-        } else if (kind == PETRI_DRAW_TEXT || kind == PETRI_DRAW_IMAGE || kind == PETRI_DRAW_UNSUPPORTED) {
-            size = kind == PETRI_DRAW_TEXT ? 9 : kind == PETRI_DRAW_IMAGE ? 5 : 0;
-            for (int texts = kind == PETRI_DRAW_TEXT ? 2 : 1; texts > 0; texts--)
-                size += 1 + (size_t)n[at + size];
-        }
+        size_t size = display_row_size(n + at);
+        letters[length] = (char)('a' + (int)n[at]);
         at += size;
-        assert_true(at <= count && length + 2 < sizeof letters);
+        assert_true(size > 0 && at <= count && length + 2 < sizeof letters);
     }
     letters[length] = 0;
     return letters;
@@ -536,6 +522,25 @@ static void test_display_list_has_whole_canvas(void **state) {
     assert_true(n[2] == 0); // neither filters nor noise
     assert_int_equal(petri_picture_display_list(picture, NULL, &count), PETRI_INVALID);
     assert_int_equal(petri_picture_display_list(NULL, &n, &count), PETRI_INVALID);
+    petri_picture_free(&picture);
+}
+
+// The alpha of the canvas applies to a !color node as well as to a gradient.
+static void test_display_list_multiplies_alpha_of_color_nodes(void **state) {
+    Player *player = *state;
+    const double *n, wanted[] = {PETRI_DRAW_SOLID, 1, 0.5, 0, 0.25, 0.5};
+    size_t count, at = 3;
+    player_run(player,
+               "!window size=8;4\n    !canvas color=0;0;1;0.5\n        !color color=1;0.5;0;0.25\n"
+               "        !rect size=1;2 fill=true\n",
+               1);
+    PetriPicture *picture = make_picture(player, petri_default_picture_options(), PETRI_OK);
+    assert_int_equal(petri_picture_display_list(picture, &n, &count), PETRI_OK);
+    while (at < count && n[at] != PETRI_DRAW_SOLID)
+        at += display_row_size(n + at);
+    assert_true(at + 6 <= count);
+    for (size_t i = 0; i < 6; i++)
+        assert_true(n[at + i] == wanted[i]);
     petri_picture_free(&picture);
 }
 
@@ -668,6 +673,7 @@ TEST_GROUP(draw_pictures) {
         PLAYER_TEST(test_labels_need_painter_and_pixels),
         PLAYER_TEST(test_images_come_from_host),
         PLAYER_TEST(test_display_list_has_whole_canvas),
+        PLAYER_TEST(test_display_list_multiplies_alpha_of_color_nodes),
         PLAYER_TEST(test_is_display_list_without_effects),
         PLAYER_TEST(test_host_backend_draws_canvases),
         PLAYER_TEST(test_host_backend_scales_rendered_pictures),
