@@ -398,6 +398,10 @@ PETRI_API const char *petri_tree_tag(const PetriNode *node, uint32_t number);
 // node.
 PETRI_API const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriValue *value);
 
+// Returns the name of the file with the code that made a node, and stores its line and column there, both from 1.
+// Returns NULL if the place is not known. Valid as long as the node.
+PETRI_API const char *petri_tree_place(const PetriNode *node, uint32_t *line, uint32_t *column);
+
 // Returns a child of a node by number, or NULL past the last. Valid as long as the node.
 PETRI_API const PetriNode *petri_tree_child(const PetriNode *node, uint32_t number);
 

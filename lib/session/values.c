@@ -96,6 +96,18 @@ PetriValue petri_tree_get(const PetriNode *node, const char *name) {
     return (PetriValue){0};
 }
 
+const char *petri_tree_place(const PetriNode *node, uint32_t *line, uint32_t *column) {
+    const NodeOrigin *place = node ? node_of(node)->origin : NULL;
+    if (!place || !place->origin.source)
+        return NULL;
+    SourcePosition position = source_locate(place->origin.source, place->origin.span.start);
+    if (line)
+        *line = position.line;
+    if (column)
+        *column = position.column;
+    return place->origin.source->name.bytes;
+}
+
 const PetriNode *petri_tree_child(const PetriNode *node, uint32_t number) {
     return node && number < node_of(node)->child_count ? (const PetriNode *)node_of(node)->children[number] : NULL;
 }

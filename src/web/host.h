@@ -4,6 +4,8 @@
 // Strings are valid only during the call. 64-bit integers are passed as doubles.
 #pragma once
 
+#include "petri.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -66,3 +68,6 @@ HOST(token) void host_token(int kind, size_t start, size_t end);
 HOST(help)
 void host_help(const char *area, const char *name, const char *parameters, const char *default_value, const char *unit,
                const char *help);
+
+// Exported by engine.c, and called by particle.c.
+PetriStatus web_explain(PetriSession *session, size_t system, uint32_t particle);

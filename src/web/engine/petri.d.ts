@@ -246,6 +246,18 @@ export interface Session {
      * took a step.
      */
     explain(system: number, particle: number): Explanation;
+    /**
+     * Returns the particle that is drawn at a point of the picture, as a circle at its position; null if there is none. x and y are 0 at the
+     * top left and 1 at the bottom right. `name` is the name of its system and `id` its id, as they are printed.
+     */
+    pick(x: number, y: number, options?: { automatic?: boolean }): { name: string; id: string } | null;
+    /**
+     * Describes a particle: entries of the state, the node of the script that makes it, and the forces on it as by `explain`. `note` is the
+     * reason why something is missing.
+     */
+    describe(particle: { name: string; id: string }): Partial<Explanation> & {
+        state: [string, string][]; origin?: { kind: string; file: string; line: number; column: number }; note?: string;
+    };
     /** Maps printed keys to arrays of numbers, or to the printed value if not all elements are numbers. */
     readonly state: Map<string, number[] | string>;
     /** Returns the digest of the state, which is the same on every machine. Takes little time. */

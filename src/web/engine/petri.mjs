@@ -299,6 +299,26 @@ export class Session {
         return { contributions, sum: this.results.at(-1).value };
     }
 
+    // Returns the particle at a point of the picture as { name, id }: the name of its system and its id, as they are printed; null if there
+    // is none. x and y are 0 at the top left and 1 at the bottom right.
+    pick(x, y, { automatic = false } = {}) {
+        return this.run(wasm => wasm.web_pick(this.handle, automatic ? 1 : 0, x, y))
+            ? { name: this.results[0].key, id: this.results[0].value } : null;
+    }
+
+    // Describes a particle of the last frame, given as by `pick`: entries of the state, the node that makes it, and the contributions to the
+    // force on it, as by `explain`. `note` is the reason why something is missing.
+    describe({ name, id }) {
+        this.check('explain the force', this.with(name, (wasm, at) =>
+            this.memory.withText(id, text => wasm.web_describe(this.handle, at, text))));
+        const { results } = this, entries = new Map(results.filter(({ key }) => key).map(({ key, value }) => [key, value]));
+        const { sum, note, ...state } = Object.fromEntries(entries);
+        return {
+            origin: results.find(({ vector }) => vector?.length === 0), contributions: results.filter(({ vector }) => vector?.length),
+            state: Object.entries(state), sum, note,
+        };
+    }
+
     addColumn(name, data, stride) {
         const system = this.results.at(-1), width = name === 'position' || name === 'velocity' ? system.dimensions : 1;
         system[name] = data && system.count

@@ -46,13 +46,13 @@ export class Particle {
             this.show(answer);
     }
 
-    show({ key, state = [], contributions = [], sum, note = '', frame, origins = [], file }) {
+    show({ key, state = [], contributions = [], sum, frame, origin, note = sum && !contributions.length ? 'no force acts on it' : '' }) {
         const count = contributions.length;
         this.title.textContent = key === null ? 'Click a particle to see its state and the forces on it.'
             : `${key} ${note || `in frame ${frame}: ${count} contribution${count === 1 ? '' : 's'} in the order of summation`}`;
         this.state.textContent = state.map(([name, value]) => `${name} = ${value}`).join('\n');
-        this.origin.replaceChildren(...origins.flatMap(({ line, column }, i) =>
-            [i ? ' or ' : 'made by ', this.link(`line ${line}`, file, line, column)]));
+        const { file, line, column } = origin ?? {};
+        this.origin.replaceChildren(...origin ? ['made by ', this.link(`line ${line}`, file, line, column)] : []);
         this.rows.replaceChildren(...contributions.slice(0, MAX_ROWS).map(each => this.row(each)));
         if (count > MAX_ROWS)
             this.rows.append(rowOf([`and ${count - MAX_ROWS} more`, '', '', '']));

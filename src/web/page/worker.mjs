@@ -1,7 +1,6 @@
 // worker.mjs: the engine's thread. It answers every message, one at a time, so the page knows when the thread is idle.
 import { loadEngine } from '../engine/petri.mjs';
 import { makeFilm, makeState, makeTable } from './exports.mjs';
-import { Forces } from './forces.mjs';
 import { addImage, imageOf } from './paint.mjs';
 import { Player } from './player.mjs';
 import { passes } from './task.mjs';
@@ -16,7 +15,8 @@ const shouldInterrupt = () => flag !== null && Atomics.load(flag, 0) >= current;
 const images = new Map();
 const report = diagnostic => reported.push(diagnostic);
 
-const watches = new Watches(reported), stateTable = new StateTable(), forces = new Forces();
+const watches = new Watches(reported), stateTable = new StateTable();
+let chosen = null; // the particle on which the user has clicked
 
 const picture = automatic => player.frame >= 0 ? player.session.render({ automatic }) : null;
 
@@ -162,8 +162,15 @@ const handlers = {
         return 'log' in asked ? shown({ ...done, ...asked }) : { type: 'printed', reported: take(), ...done, ...asked };
     },
     state: query => ({ type: 'state', ...stateTable.rows(player, query) }),
-    choose: ({ x, y }) => ({ type: 'chosen', found: player.frame >= 0 && forces.choose(player, x, y) }),
-    forces: () => ({ type: 'forces', ...forces.describe(player), frame: player.frame, reported: take() }),
+    choose({ x, y }) {
+        const found = player.frame >= 0 ? player.session.pick(x, y, player) : null;
+        chosen = found ?? chosen;
+        return { type: 'chosen', found: !!found };
+    },
+    forces: () => ({
+        type: 'forces', key: chosen && `${chosen.name};${chosen.id}`, ...chosen && player.session.describe(chosen), frame: player.frame,
+        reported: take(),
+    }),
     watch({ texts }) {
         watches.set(texts);
         if (player.frame >= 0)

@@ -188,6 +188,27 @@ static void test_tree_gives_nodes_tags_and_attributes(void **state) {
     assert_null(petri_tree_kind(NULL));
 }
 
+static void assert_place(const PetriNode *node, const char *file, uint32_t line, uint32_t column) {
+    uint32_t found_line = 0, found_column = 0;
+    assert_string_equal(petri_tree_place(node, &found_line, &found_column), file);
+    assert_int_equal(found_line, line);
+    assert_int_equal(found_column, column);
+}
+
+// Nodes of a loop, which share one batch, and nodes that a function makes or changes have the place of their `!`.
+static void test_nodes_have_places(void **state) {
+    Player *player = *state;
+    player_run(player, "func f(x)\n    !cell é=x\n!dish\n    for i in ..3\n        !cell x=i\n    f(1) y=2\n", 1);
+    const PetriNode *dish = petri_tree(player->session).items[0].as.node;
+    const char *file = petri_tree_place(dish, NULL, NULL);
+    assert_non_null(file);
+    assert_place(dish, file, 3, 1);
+    for (uint32_t i = 0; i < 3; i++)
+        assert_place(petri_tree_child(dish, i), file, 5, 9);
+    assert_place(petri_tree_child(dish, 3), file, 2, 5);
+    assert_null(petri_tree_place(NULL, NULL, NULL));
+}
+
 TEST_GROUP(session_values) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_printed_values),
@@ -197,6 +218,7 @@ TEST_GROUP(session_values) {
         PLAYER_TEST(test_global_changes_at_the_next_frame),
         PLAYER_TEST(test_check_knows_globals),
         PLAYER_TEST(test_tree_gives_nodes_tags_and_attributes),
+        PLAYER_TEST(test_nodes_have_places),
         PLAYER_TEST(test_globals_retain_no_old_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
