@@ -11,8 +11,8 @@
 #include <string.h>
 
 const PromptCommand *prompt_command_at(size_t index) {
-    static const PromptCommand *const groups[] = {STEP_COMMANDS, PRINT_COMMANDS, WHY_COMMANDS,  PICTURE_COMMANDS,
-                                                  SET_COMMANDS,  HOST_COMMANDS,  OTHER_COMMANDS};
+    static const PromptCommand *const groups[] = {STEP_COMMANDS,    BREAK_COMMANDS, PRINT_COMMANDS, WHY_COMMANDS,
+                                                  PICTURE_COMMANDS, SET_COMMANDS,   HOST_COMMANDS,  OTHER_COMMANDS};
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
         for (const PromptCommand *command = groups[i]; command->name; command++)
             if (index-- == 0)
@@ -47,6 +47,29 @@ const char *bare_alias(const char *name, size_t length) {
     return NULL;
 }
 
+// The commands that an empty input repeats, with their short names.
+static const struct {
+    const char *name;
+    const char *command;
+} short_names[] = {{".s", ".step"}, {".b", ".back"}, {".u", ".until"}, {".r", ".run"}};
+
+// Returns the command with this name, or the only command that begins with it. Otherwise returns NULL and adds the
+// names of the commands that begin with it to `candidates`.
+static const PromptCommand *match_command(const char *name, TextList *candidates) {
+    const PromptCommand *command, *found = prompt_find_command(name, strlen(name));
+    for (size_t i = 0; i < sizeof short_names / sizeof short_names[0] && !found; i++)
+        if (strcmp(short_names[i].name, name) == 0)
+            found = prompt_find_command(short_names[i].command, strlen(short_names[i].command));
+    if (found || name[1] == '\0')
+        return found;
+    for (size_t i = 0; (command = prompt_command_at(i)); i++)
+        if (strncmp(command->name, name, strlen(name)) == 0) {
+            texts_add(candidates, command->name);
+            found = command;
+        }
+    return candidates->count == 1 ? found : NULL;
+}
+
 static void list_commands(Prompt *prompt, Text *text) {
     SCOPED_TEXT_TABLE table = text_table_new(2);
     const PromptCommand *command;
@@ -58,11 +81,14 @@ static void list_commands(Prompt *prompt, Text *text) {
         text_table_add(&table, command->help);
     }
     table_text(&table, text);
-    text_add_format(text,
-                    "A number can be given as an expression, as in '.resolution 1/240'. Input that is not a command is "
-                    "code: the value of an expression is printed; let, func, import and nodes are kept. %sTry '.help "
-                    "builtins', '.help nodes', '.help !particle', '.help polar' or '.help tempo'.\n",
-                    prompt->host->keys_help ? prompt->host->keys_help : "");
+    text_add_format(
+        text,
+        "A command can be shortened to letters with which no other command begins, as in .part; .s, .b, .u and "
+        ".r are .step, .back, .until and .run. "
+        "A number can be given as an expression, as in '.resolution 1/240'. Input that is not a command is "
+        "code: the value of an expression is printed; let, func, import and nodes are kept. %sTry '.help "
+        "builtins', '.help nodes', '.help !particle', '.help polar' or '.help tempo'.\n",
+        prompt->host->keys_help ? prompt->host->keys_help : "");
 }
 
 static void list_builtins(Text *text) {
@@ -111,7 +137,10 @@ static bool add_help(Prompt *prompt, Text *text, const char *topic) {
         list_nodes(text);
     } else {
         bool found = topic[0] != '.' && topics_print(text, topic);
-        const PromptCommand *command = prompt_find_command(topic, strlen(topic));
+        TextList candidates = {0};
+        const PromptCommand *command =
+            topic[0] == '.' ? match_command(topic, &candidates) : prompt_find_command(topic, strlen(topic));
+        texts_free(&candidates);
         if (command) {
             text_add_format(text, "%s%s%s\n    %s\n", command->name, command->operands[0] == '\0' ? "" : " ",
                             command->operands, command->help);
@@ -212,6 +241,13 @@ const PromptCommand OTHER_COMMANDS[] = {
     {0},
 };
 
+static void report_ambiguous(Prompt *prompt, const char *name, const TextList *candidates) {
+    SCOPED_TEXT list = {0};
+    for (size_t i = 0; i < candidates->count; i++)
+        text_add_format(&list, "%s%s", i == 0 ? "" : ", ", candidates->items[i]);
+    prompt_fail(prompt, "ambiguous command: '%.40s' begins %s", name, list.bytes);
+}
+
 static void report_unknown(Prompt *prompt, const char *name) {
     StrNearest nearest = str_nearest(str_from(name));
     const PromptCommand *command;
@@ -235,19 +271,36 @@ static bool run_command(Prompt *prompt, const PromptCommand *command, const char
     return own->name ? own->run(prompt, rest) : command->run(prompt, rest);
 }
 
+// Keeps a stepping command for an empty input. A command that is repeated keeps its own text.
+static void repeat_later(Prompt *prompt, const PromptCommand *command, const char *rest) {
+    for (size_t i = 0; i < sizeof short_names / sizeof short_names[0]; i++) {
+        SCOPED_TEXT line = {0};
+        if (strcmp(short_names[i].command, command->name) != 0)
+            continue;
+        text_add_format(&line, "%s %s", command->name, rest);
+        free(prompt->repeated);
+        prompt->repeated = memory_strdup(line.bytes);
+    }
+}
+
 void prompt_command(Prompt *prompt, const char *line) {
     size_t length = strcspn(line, " \t\n");
     SCOPED_STRING name = memory_strndup(line, length);
     SCOPED_STRING rest = argument_trimmed(line + length);
     const char *alias = bare_alias(name + 1, length - 1); // accepts .exit and .q too
-    const PromptCommand *command =
-        alias ? prompt_find_command(alias, strlen(alias)) : prompt_find_command(name, length);
-    if (!command)
+    TextList candidates = {0};
+    const PromptCommand *command = alias ? prompt_find_command(alias, strlen(alias)) : match_command(name, &candidates);
+    if (candidates.count > 1)
+        report_ambiguous(prompt, name, &candidates);
+    else if (!command)
         report_unknown(prompt, name);
     else if (command->operands[0] == '\0' && rest[0] != '\0')
-        prompt_fail(prompt, "%s takes no arguments: '%.40s'", name, rest);
+        prompt_fail(prompt, "%s takes no arguments: '%.40s'", command->name, rest);
     else if (command->needed && rest[0] == '\0')
         prompt_fail(prompt, "%s needs %s", command->name, command->needed);
-    else if (!run_command(prompt, command, rest))
+    else
+        repeat_later(prompt, command, rest);
+    if (command && !prompt->failed && !run_command(prompt, command, rest))
         prompt->failed = true;
+    texts_free(&candidates);
 }

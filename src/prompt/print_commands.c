@@ -244,29 +244,29 @@ static bool run_energy(Prompt *prompt, const char *wanted) {
 
 static bool run_watch(Prompt *prompt, const char *rest) {
     PetriEvaluation result;
+    Expression expression;
     for (size_t i = 0; i < prompt->watched.count && rest[0] == '\0'; i++)
-        prompt_note(prompt, "%s", prompt->watched.items[i]);
+        prompt_note(prompt, "%s", prompt->watched.items[i].typed);
     if (rest[0] == '\0')
         return true;
-    SCOPED_TEXT value = {0};
-    if (!prompt_status(prompt, petri_evaluate(prompt->session, rest, PETRI_NUL_TERMINATED, &result, sizeof result,
-                                              text_collect, &value)))
+    if (!expression_parse(prompt, rest, &expression))
         return false;
-    output_format(prompt->output, "%s = %s\n", rest, value.bytes);
-    if (!texts_contain(&prompt->watched, rest))
-        texts_add(&prompt->watched, rest);
+    if (!expression_learn(prompt, &expression)) {
+        expression_free(&expression);
+        return false;
+    }
+    SCOPED_TEXT value = {0};
+    expression_evaluate(prompt, &expression, &result, &value);
+    output_format(prompt->output, "%s = %s\n", rest, value.len > 0 ? value.bytes : "");
+    if (expressions_find(&prompt->watched, rest) < prompt->watched.count)
+        expression_free(&expression);
+    else
+        expressions_add(&prompt->watched, &expression);
     return true;
 }
 
 static bool run_unwatch(Prompt *prompt, const char *rest) {
-    size_t kept = 0, count = prompt->watched.count;
-    for (size_t i = 0; i < count; i++)
-        if (rest[0] == '\0' || strcmp(rest, prompt->watched.items[i]) == 0)
-            free(prompt->watched.items[i]);
-        else
-            prompt->watched.items[kept++] = prompt->watched.items[i];
-    prompt->watched.count = kept;
-    return rest[0] == '\0' || kept < count || prompt_fail(prompt, "not watched: '%s'", rest);
+    return expressions_remove(&prompt->watched, rest) || prompt_fail(prompt, "not watched: '%s'", rest);
 }
 
 const PromptCommand PRINT_COMMANDS[] = {

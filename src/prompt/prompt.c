@@ -1,12 +1,18 @@
 // prompt.c: executes inputs of the prompt; see prompt.h.
 #include "prompt/prompt.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static void execute_statement(Prompt *prompt, const char *text, size_t length) {
     PetriPromptResult done;
+    SCOPED_TEXT expanded = {0};
+    if (!expression_expand(prompt, text, &expanded))
+        return;
     prompt_busy(prompt);
-    PetriStatus status = petri_prompt(prompt->session, text, length, output_write, prompt->output, &done, sizeof done);
+    bool same = expanded.len == 0;
+    PetriStatus status = petri_prompt(prompt->session, same ? text : expanded.bytes, same ? length : expanded.len,
+                                      output_write, prompt->output, &done, sizeof done);
     prompt_idle(prompt);
     if (done.shadowed) {
         SCOPED_STRING name = memory_strdup(done.shadowed);
@@ -32,12 +38,17 @@ static void execute_text(Prompt *prompt, const char *text, size_t length) {
 
 bool prompt_execute(Prompt *prompt, const char *text, size_t length) {
     prompt->failed = false;
-    execute_text(prompt, text, length);
+    if (text[strspn(text, " \t\n")] != '\0')
+        execute_text(prompt, text, length);
+    else if (prompt->repeated)
+        prompt_command(prompt, prompt->repeated);
     output_flush(prompt->output);
     return !prompt->failed;
 }
 
 void prompt_end(Prompt *prompt) {
-    texts_free(&prompt->watched);
+    expressions_free(&prompt->watched);
+    expressions_free(&prompt->breaks);
+    free(prompt->repeated);
     texts_free(&prompt->definitions);
 }

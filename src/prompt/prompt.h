@@ -7,6 +7,8 @@
 //   complete.c               completion of words
 //   commands.c               table of all commands, and help
 //   *_commands.c, why_command.c   the commands
+//   breaks.c                 conditions that end commands
+//   expression.c             expressions that depend on the frame before
 //   arguments.c              their operands
 //   messages.c               notes, messages and interruption
 #pragma once
@@ -17,6 +19,50 @@
 #include "petri-live.h"
 
 typedef struct Prompt Prompt;
+
+// An expression that commands evaluate in several frames (expression.c). Its text may contain `prev(EXPR)`, the value
+// of EXPR in the frame before, and may begin with `changes`: true if the value differs from that of the frame before.
+typedef struct Inner {
+    size_t start; // of `prev(EXPR)` in Expression.text, in bytes
+    size_t end;
+    char *text;  // EXPR
+    char *value; // value of EXPR in the frame before; NULL: not known
+} Inner;
+typedef struct Expression {
+    char *typed; // as typed
+    char *text;  // without `changes`
+    bool changes;
+    char *before; // with `changes`: the value in the frame before; NULL: not known
+    Inner *inner;
+    size_t inner_count;
+} Expression;
+typedef struct Expressions {
+    Expression *items;
+    size_t count;
+} Expressions;
+
+// Reads an expression and evaluates it once in the current frame. Returns false, after a message, if it is not valid.
+// The caller frees *out with expression_free.
+bool expression_parse(Prompt *prompt, const char *text, Expression *out);
+void expression_free(Expression *expression);
+// Keeps what the expression needs of the frame before, to which it goes for this. Returns false after a message.
+bool expression_learn(Prompt *prompt, Expression *expression);
+// Appends a text of the language to `out`, with each `prev(EXPR)` replaced by the value of EXPR in the frame before, to
+// which it goes for this. Appends nothing if there is no `prev`. Returns false after a message.
+bool expression_expand(Prompt *prompt, const char *text, Text *out);
+// Returns true if the value depends on the frame before.
+bool expression_uses_previous(const Expression *expression);
+// Keeps what the expression needs of the current frame when it is evaluated in the next one.
+PetriStatus expression_remember(Prompt *prompt, Expression *expression);
+// Evaluates the expression in the current frame. Appends the printed value to `value` unless it is NULL.
+PetriStatus expression_evaluate(Prompt *prompt, const Expression *expression, PetriEvaluation *result, Text *value);
+// Takes over an expression.
+void expressions_add(Expressions *list, const Expression *expression);
+// Returns the index of the expression that was typed as this text, or list->count.
+size_t expressions_find(const Expressions *list, const char *typed);
+// Removes this expression, or all if the text is empty. Returns false if it is not in the list.
+bool expressions_remove(Expressions *list, const char *typed);
+void expressions_free(Expressions *list);
 
 // What a host does for a command.
 typedef struct PromptHostCommand {
@@ -67,7 +113,9 @@ struct Prompt {
     bool live;     // true if lines are shown as soon as a frame is computed
     bool colour;   // true if notes are dimmed
 
-    TextList watched;     // expressions that are printed after each step
+    Expressions watched;  // expressions that are printed after each step
+    Expressions breaks;   // expressions that end stepping commands
+    char *repeated;       // the last stepping command, which an empty input repeats; NULL: none
     TextList definitions; // definitions NAME=VALUE from -D and .set
     bool failed;          // true if the current input has failed
     bool quit;            // true if the user has asked to end the session
@@ -75,9 +123,9 @@ struct Prompt {
     bool rates_changed;   // true if .tempo or .fps was used since the script was loaded
 };
 
-// Executes one input, which must not be blank: a command, or statements and expressions of the language, with a line
-// feed at the end. Writes the result to prompt->output, which it flushes. Returns false, after a message, if the input
-// failed.
+// Executes one input: a command, or statements and expressions of the language, with a line feed at the end. A blank
+// input repeats the last stepping command. Writes the result to prompt->output, which it flushes. Returns false, after
+// a message, if the input failed.
 bool prompt_execute(Prompt *prompt, const char *text, size_t length);
 // Frees what the prompt owns, but not what its host has set.
 void prompt_end(Prompt *prompt);
@@ -113,6 +161,35 @@ PetriStatus prompt_go_to(Prompt *prompt, int64_t frame);
 // If the current frame was interrupted, computes it again, because an interrupted frame has no systems and no nodes.
 void prompt_complete_frame(Prompt *prompt);
 
+// Conditions that end stepping commands (breaks.c). An expression `until` is that of .until or `.back until`; NULL:
+// none.
+typedef enum StepOutcome {
+    STEP_RUNNING,
+    STEP_REACHED, // `until` is true
+    STEP_STOPPED, // a break is true
+    STEP_ABORTED, // a frame failed
+} StepOutcome;
+// Keep what expressions need of the current frame when they are evaluated in the next one: those of a list; `until`,
+// the breaks and the watched expressions.
+PetriStatus breaks_remember_all(Prompt *prompt, Expressions *list);
+PetriStatus breaks_remember(Prompt *prompt, Expression *until);
+// Evaluates `until` and the breaks in the current frame. Sets *outcome to STEP_REACHED, STEP_STOPPED or STEP_RUNNING;
+// if it is STEP_STOPPED, *number is the index of the break.
+PetriStatus breaks_test(Prompt *prompt, const Expression *until, StepOutcome *outcome, size_t *number);
+// Writes the note that a break has ended a command.
+void breaks_note(Prompt *prompt, size_t number);
+// A search backwards for the last frame in which `until` or a break is true.
+typedef struct BreakSearch {
+    Expression *until;
+    int64_t first;       // first frame of the timeline
+    int64_t found;       // the frame; INT64_MIN: none yet
+    StepOutcome outcome; // in the frame that was found
+    size_t number;       // of the break that is true there
+} BreakSearch;
+// Searches the frames before the current one, from `min` on, in parts that are about as long as the distance of two
+// stored frames. Afterwards, the session is at any of these frames.
+PetriStatus breaks_search(Prompt *prompt, BreakSearch *search, int64_t min);
+
 // Commands (commands.c). Each file that implements commands ends with a table of them. To add a command, add a row and
 // its function.
 typedef enum Completes {
@@ -134,11 +211,11 @@ typedef struct PromptCommand {
     Completes complete; // how the operand is completed
 } PromptCommand;
 // Each table ends with a row without a name.
-extern const PromptCommand STEP_COMMANDS[], PRINT_COMMANDS[], WHY_COMMANDS[], SET_COMMANDS[], PICTURE_COMMANDS[],
-    HOST_COMMANDS[], OTHER_COMMANDS[];
+extern const PromptCommand STEP_COMMANDS[], BREAK_COMMANDS[], PRINT_COMMANDS[], WHY_COMMANDS[], SET_COMMANDS[],
+    PICTURE_COMMANDS[], HOST_COMMANDS[], OTHER_COMMANDS[];
 // Returns the command at an index, in the order of .help. Returns NULL after the last command.
 const PromptCommand *prompt_command_at(size_t index);
-// Returns the command with this name, with or without the dot, or NULL.
+// Returns the command with this name, with or without the dot, or NULL. Names are not shortened.
 const PromptCommand *prompt_find_command(const char *name, size_t length);
 void prompt_command(Prompt *prompt, const char *line);
 

@@ -81,6 +81,8 @@ static void run_prompt(Repl *repl) {
         status = text.len > 0 ? LINE_READ : line_read(reader, prompt, &text);
         if (status == LINE_READ && !line_is_blank(text.bytes))
             status = execute_input(repl, reader, &text, &next);
+        else if (status == LINE_READ && repl->terminal)
+            prompt_execute(&repl->prompt, "", 0); // repeats the last stepping command
         text_free(&text);
         output_flush(&repl->output);
         if (status == LINE_INTERRUPTED && !repl->terminal) {

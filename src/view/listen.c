@@ -150,6 +150,8 @@ static bool run_command(LiveScript *live, const char *text, Text *text_out) {
         {".goto", NULL, ONLY "; .back N and .reset go back in the view"},
         {".watch", NULL, ONLY},
         {".unwatch", NULL, ONLY},
+        {".break", NULL, ONLY},
+        {".unbreak", NULL, ONLY},
         {".reload", NULL, ONLY "; the view reloads a script that has changed"},
         {0},
     };

@@ -103,6 +103,15 @@ if [ $edits = yes ]; then
     expect "a file is completed" 'broken.fl:1:11: error: '
 fi
 
+type_keys '.goto 20' Enter
+expect ".goto goes to a frame" '^@20> *$'
+type_keys '.s 2' Enter
+expect "a short name steps" '^@22> *$'
+type_keys Enter
+expect "an empty line repeats the step" '^@24> *$'
+type_keys 'frame' Enter Enter
+expect "an empty line repeats the last step, not the last input" '^@26> *$'
+type_keys C-l
 type_keys '.run' Enter
 expect ".run makes frames" "^> 'four'"
 type_keys C-c

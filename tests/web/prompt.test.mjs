@@ -34,6 +34,8 @@ const INPUTS = [
     '.state', '.state c', '.state :p;0', '.state :p 2', '.state nothing', '.tree', '.tree drag', '.tree !particle 2', '.tree none',
     '.particles', '.particles p 2', '.particles :q', '.particles none', '.particles all', '.energy', '.energy p', '.energy none',
     '.why 0', '.why 0 all', '.why 1 2', '.why :home', '.why 9', '.why (:p;3)', '.why 77', '.why', '.why 9 all',
+    '.goto 70', '.back until changes floor($:c*4)', 'prev($:c)', '.break prev($:c) < 0.5 and $:c >= 0.5', '.back 30', '.step 40', '.break',
+    '.b 9', '.s', '.st', '.part 1', '.unb', '.until 1 --limt 2', '.back until false', 'prev(prev(1))', '.goto 90',
     '.watch $:c', '.watch q+1', '.watch', '.watch 1+', '.step 2', '.unwatch q+1', '.unwatch q+1', '.step', '.unwatch', '.step',
     '.parameters', '.set', '.set SIZE', '.set NONE', '.set SIZE 6', '.set SIZE=7', '.step 3', '.particles p 1', '.tempo', '.fps',
     '!drag strength=2', '.step', '.tree drag', '.drop', '.drop everything', '.drop all', 'q*7', 'let SIZE=2', 'func f(x) x*2', 'f(4)',

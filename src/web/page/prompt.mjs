@@ -24,10 +24,9 @@ export class Prompt {
     }
 
     async take(text) {
-        if (!text.trim())
-            return;
         this.line.value = '';
-        this.before = [...this.before.filter(old => old !== text), text];
+        if (text.trim()) // an empty line repeats the last stepping command
+            this.before = [...this.before.filter(old => old !== text), text];
         this.at = this.before.length;
         this.print(`? ${text}\n`);
         const answer = await this.dish.ask('prompt', { text: `${text}\n` })
