@@ -45,6 +45,7 @@ $PYTHON_NEEDS
 pkg-config --exists cmocka: libcmocka-dev
 command -v tmux           : tmux
 command -v pgrep          : procps
+command -v gappa          : gappa
 command -v strace         : strace
 command -v sqlite3        : sqlite3
 command -v Xvfb           : xvfb

@@ -25,6 +25,21 @@ static bool is_supported(const char *name) {
 #define SUPPORTS(name, apple_name) __builtin_cpu_supports(name)
 #endif
 
+#if defined(__x86_64__)
+// Applies PETRI_CPU (cpu.h).
+static void limit_cpu(const char *wish) {
+    char name[16] = "";
+    size_t len = wish ? strcspn(wish, "+-") : 0;
+    if (len < sizeof name)
+        memcpy(name, wish ? wish : "", len);
+    cpu_choose(name, &cpu_detected.level);
+    const char *use = wish ? wish + len : "";
+    if (cpu_detected.level == CPU_SCALAR || !strcmp(use, "-fma"))
+        cpu_detected.fma = false;
+    cpu_detected.use_fma = !cpu_detected.fma ? CPU_FMA_NEVER : !strcmp(use, "+fma") ? CPU_FMA_ALWAYS : CPU_FMA_FASTER;
+}
+#endif
+
 // Runs before main, so that cpu_detected is constant afterwards.
 __attribute__((constructor)) static void detect_cpu(void) {
 #if defined(__x86_64__)
@@ -34,8 +49,10 @@ __attribute__((constructor)) static void detect_cpu(void) {
     bool wide = SUPPORTS("avx512f", "avx512f") && SUPPORTS("avx512dq", "avx512dq") &&
                 SUPPORTS("avx512vl", "avx512vl") && SUPPORTS("avx512bw", "avx512bw");
     cpu_detected.level = !SUPPORTS("avx2", "avx2_0") ? CPU_SCALAR : wide ? CPU_AVX512 : CPU_AVX2;
-    cpu_choose(getenv("PETRI_CPU"), &cpu_detected.level);
-    cpu_detected.fma = cpu_detected.level > CPU_SCALAR && SUPPORTS("fma", "fma");
+    cpu_detected.fma = SUPPORTS("fma", "fma");
+    limit_cpu(getenv("PETRI_CPU"));
+#else
+    cpu_detected.use_fma = CPU_FMA_NEVER;
 #endif
 }
 

@@ -1,5 +1,6 @@
 // force_pair.c: forces between all pairs of particles (spec physics.md 4.1), in passes. The formulas are in
 // pair_formulas.h.
+#include "base/clock.h"
 #include "physics/division.h"
 #include "physics/far_force.h"
 #include "physics/integrate.h"
@@ -37,7 +38,7 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces, bool divided) {
     pass.pairs.stop = system->options.division ? NULL : phys_stop(system);
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MAX_TERMS &&
         columns->count >= MIN_FOR_LANES && pass.pairs.term_count > 0)
-        pass.kernel = system->kernels->pair(&pass.pairs);
+        pass.kernel = system->kernels->pair(&pass.pairs, phys_fused_chosen(&system->fused));
     return pass;
 }
 
@@ -58,8 +59,8 @@ static void run_wavefront(const Pass *pass, const PairRegion *region, int thread
     move->done = true;
 }
 
-// Computes a region with the kernel of the pass, divided among processes if this pays off.
-static void compute_region(const Pass *pass, const PairRegion *region) {
+// Computes a region with the kernel of the pass, divided among processes or threads if this pays off.
+static void run_region(const Pass *pass, const PairRegion *region) {
     const PhysDivision *division = pass->system->options.division;
     if (division && division->compute_pairs(pass->system, region))
         return;
@@ -68,6 +69,14 @@ static void compute_region(const Pass *pass, const PairRegion *region) {
         run_wavefront(pass, region, threads);
     else
         pass->kernel(&pass->pairs, region->triangle, region->row, region->row_end, region->column, region->column_end);
+}
+
+static void compute_region(const Pass *pass, const PairRegion *region) {
+    FusedChoice *choice = &pass->system->fused;
+    uint64_t begin = phys_fused_measures(choice) ? clock_nanoseconds() : 0;
+    run_region(pass, region);
+    if (begin)
+        phys_fused_learn(choice, phys_region_pairs(region), clock_nanoseconds() - begin);
 }
 
 // Returns the number of vector operations of a rectangle with these numbers of rows and columns.

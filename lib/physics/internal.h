@@ -23,11 +23,12 @@
 //     far_force, grid, groups                 passes with `theta`; cells; the order of particles and forces
 //     far_tree, grid_search, integrate, kernel_pair, pair_wavefront, particles, reorder
 //     kernel_integrate, threads
-//     backoff, barrier, buffer, far_moments, far_sort, far_walk, pair_rows, the other kernels
+//     backoff, barrier, buffer, fused_choice, far_moments, far_sort, far_walk, pair_rows, the other kernels
 #pragma once
 
 #include "base/arena.h"
 #include "physics/forces.h"
+#include "physics/fused_choice.h"
 
 #include <math.h>
 
@@ -179,6 +180,7 @@ struct PhysSystem {
     bool any_from_attribute; // some element of `from_attribute` is set
     PhysOptions options;
     const struct Kernels *kernels; // for options.cpu
+    FusedChoice fused;             // whether pairs use fused multiply-add
     PhysThreads *threads;          // options.pool or the system's own pool; NULL: none
     // description
     uint32_t dimensions;

@@ -5,7 +5,17 @@ static bool needs_contact(const PairTerm *term) {
     return phys_force_row(term->kind).reach == REACH_CONTACT;
 }
 
-static PairKernel *pair_kernel(const PairPass *pass) {
+// Returns the table of the kernels with fused_roots, or NULL. In one dimension there are none.
+static const PairKernelTable *fused_table(size_t dimensions) {
+#if LANES > 2
+    return dimensions == 2 ? &PER_FUSED_ISA(pair_kernels_2d) : dimensions == 3 ? &PER_FUSED_ISA(pair_kernels_3d) : NULL;
+#else
+    (void)dimensions;
+    return NULL;
+#endif
+}
+
+static PairKernel *pair_kernel(const PairPass *pass, bool fused) {
     static const PairKernelTable *const tables[PHYS_VECTOR_DIMENSIONS] = {
         &PER_ISA(pair_kernels_1d), &PER_ISA(pair_kernels_2d), &PER_ISA(pair_kernels_3d)};
     const PairKernelTable *table = tables[pass->dimensions - 1];
@@ -16,6 +26,9 @@ static PairKernel *pair_kernel(const PairPass *pass) {
     for (size_t t = others; t < pass->term_count; t++)
         if (!needs_contact(&pass->terms[t]))
             return (*table)[LEAD_NONE][REST_ANY];
+    const PairKernelTable *with_fused = fused && lead != LEAD_NONE ? fused_table(pass->dimensions) : NULL;
+    if (with_fused)
+        return (*with_fused)[lead][rest];
     return (*table)[lead][rest];
 }
 

@@ -9,3 +9,7 @@ typedef PairKernel *PairKernelTable[LEAD_NONE + 1][REST_ANY + 1]; // by lead and
 extern const PairKernelTable PER_ISA(pair_kernels_1d);
 extern const PairKernelTable PER_ISA(pair_kernels_2d);
 extern const PairKernelTable PER_ISA(pair_kernels_3d);
+#if LANES > 2
+extern const PairKernelTable PER_FUSED_ISA(pair_kernels_2d);
+extern const PairKernelTable PER_FUSED_ISA(pair_kernels_3d);
+#endif

@@ -3,4 +3,4 @@
 
 enum { DIMENSIONS = 1 };
 
-DEFINE_PAIR_KERNELS(PER_ISA(pair_kernels_1d))
+DEFINE_PAIR_KERNELS(pair_kernels_1d)

@@ -3,4 +3,4 @@
 
 enum { DIMENSIONS = 2 };
 
-DEFINE_PAIR_KERNELS(PER_ISA(pair_kernels_2d))
+DEFINE_PAIR_KERNELS(pair_kernels_2d)

@@ -3,4 +3,4 @@
 
 enum { DIMENSIONS = 3 };
 
-DEFINE_PAIR_KERNELS(PER_ISA(pair_kernels_3d))
+DEFINE_PAIR_KERNELS(pair_kernels_3d)

@@ -8,7 +8,7 @@
 //   - a lane computes one target, or one pair whose term is added to the sums of both particles in the right order;
 //   - a term that does not apply does not change the sum. Adding +0.0 would change a sum of -0.0. So the old sum is
 //     selected, or the neutral zero of the operation is used: x + -0.0 and x - +0.0 are x for all x;
-//   - nothing is contracted, reassociated or approximated.
+//   - nothing is contracted, reassociated or approximated, except in fused_roots.h, whose results are proven.
 #pragma once
 
 #include "physics/system.h"
@@ -90,8 +90,8 @@ typedef struct FarKernels FarKernels; // far_field.h
 
 typedef struct Kernels {
     size_t lanes;
-    // Returns the fastest kernel for the forces of a pass.
-    PairKernel *(*pair)(const PairPass *pass);
+    // Returns the fastest kernel for the forces of a pass. `fused`: with fused_roots.h, if there is such a kernel.
+    PairKernel *(*pair)(const PairPass *pass, bool fused);
     // Updates `packed` and `sources` for sorted indices first to end - 1. Returns false if a particle has moved too far
     // or has grown.
     bool (*list_refresh)(const PairPass *pass, const ListView *view, size_t first, size_t end);

@@ -27,9 +27,16 @@
 #elif LANES == 4
 #define LANES_LEVEL CPU_AVX2
 #define PER_ISA(name) name##_avx2
+#define PER_FUSED_ISA(name) name##_avx2_fused
 #else
 #define LANES_LEVEL CPU_AVX512
 #define PER_ISA(name) name##_avx512
+#define PER_FUSED_ISA(name) name##_avx512_fused
+#endif
+
+// 1 in files that are compiled with fused multiply-add (fused_roots.h), else 0.
+#ifndef FUSED
+#define FUSED 0
 #endif
 
 // Evaluates CALL(n), where n is the number of dimensions, from 1 to 3, as a constant.

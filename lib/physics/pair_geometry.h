@@ -83,9 +83,8 @@ KERNEL Mask pair_near(Mask live, Real square, Real reach) {
     return real_less_where(live, square, wide + real_set(DBL_MIN));
 }
 
-// Computes the geometry of the pairs in `live`. Returns false if no force can act on any of them.
-KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd *partner, Mask live,
-                          PairGeometry *pair) {
+// Sets the differences of position in pair->unit, and pair->reach. Returns the squares of the distances.
+KERNEL Real pair_square(PairShape shape, const PairEnd *target, const PairEnd *partner, PairGeometry *pair) {
     Real square = real_zero();
     for (size_t k = 0; k < shape.dimensions; k++) {
         pair->unit[k] = partner->position[k] - target->position[k];
@@ -93,6 +92,19 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
         square = k ? square + part : part; // 0 + part equals part, because a square is never -0
     }
     pair->reach = target->radius + partner->radius;
+    return square;
+}
+
+// Divides the differences in pair->unit by the distances.
+KERNEL void pair_direct(PairShape shape, Real inverse, PairGeometry *pair) {
+    for (size_t k = 0; k < shape.dimensions; k++)
+        pair->unit[k] *= inverse;
+}
+
+// Computes the geometry of the pairs in `live`. Returns false if no force can act on any of them.
+KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd *partner, Mask live,
+                          PairGeometry *pair) {
+    Real square = pair_square(shape, target, partner, pair);
     bool contact_only = shape.lead == LEAD_NONE && rest_needs_contact(shape);
     if (contact_only) {
         live = pair_near(live, square, pair->reach);
@@ -103,9 +115,7 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
     pair->valid = real_less_where(live, real_zero(), square);
     if (!contact_only) // pairs that passed pair_near are finite
         pair->valid = real_at_most_where(pair->valid, square, real_set(DBL_MAX));
-    Real inverse = real_set(1) / pair->length;
-    for (size_t k = 0; k < shape.dimensions; k++)
-        pair->unit[k] *= inverse;
+    pair_direct(shape, real_set(1) / pair->length, pair);
     return true;
 }
 

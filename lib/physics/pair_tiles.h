@@ -6,6 +6,7 @@
 // particle sums its partners in ascending order, as in pair_rows.c.
 #pragma once
 
+#include "physics/fused_roots.h"
 #include "physics/kernel_pair.h"
 
 // The rows of a tile.
@@ -16,27 +17,81 @@ typedef struct Rows {
     Real sum[PHYS_VECTOR_DIMENSIONS];
 } Rows;
 
-// Adds all forces between the `live` rows and column j, which is number k in its tile. If `lead_applies` is set, the
-// leading force is known to act on the column; otherwise this is tested. `tile` receives the terms to subtract from the
-// sum of the column; NULL: they are not needed.
-KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool lead_applies,
-                       Tile *tile, size_t k) {
+// Adds all forces between the rows and one column, which is number k in its tile. If `lead_applies` is set, the leading
+// force is known to act on the column; otherwise this is tested. `tile` receives the terms to subtract from the sum of
+// the column; NULL: they are not needed.
+KERNEL void add_forces(const PairPass *pass, PairShape shape, Rows *rows, const PairEnd *partner,
+                       const PairGeometry *pair, bool lead_applies, Tile *tile, size_t k) {
     const PairEnd *target = &rows->target;
-    PairEnd partner = pair_partner(pass, shape, j);
-    PairGeometry pair;
-    if (!pair_geometry(shape, target, &partner, live, &pair))
-        return;
     if (shape.lead != LEAD_NONE) {
-        Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid, false, false};
-        Mask applies = pair.valid & rows->lead;
+        Pairs pairs = {&pass->terms[0], pair, target, partner, pair->valid, false, false};
+        Mask applies = pair->valid & rows->lead;
         if (!lead_applies)
-            applies = real_differs_where(applies, pair_source(lead_need(shape), &partner), real_zero());
+            applies = real_differs_where(applies, pair_source(lead_need(shape), partner), real_zero());
         Real coefficient = lead_coefficient(shape, &pairs);
-        add_term(shape, &pair, applies, coefficient, rows->sum, tile ? tile->lead : NULL, k);
+        add_term(shape, pair, applies, coefficient, rows->sum, tile ? tile->lead : NULL, k);
     }
     if (shape.rest != REST_NONE)
-        add_rest(pass, shape, &pair, target, &partner, rows->sum, tile, k);
+        add_rest(pass, shape, pair, target, partner, rows->sum, tile, k);
 }
+
+// Adds all forces between the `live` rows and column j, like add_forces.
+KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool lead_applies,
+                       Tile *tile, size_t k) {
+    PairEnd partner = pair_partner(pass, shape, j);
+    PairGeometry pair;
+    if (pair_geometry(shape, &rows->target, &partner, live, &pair))
+        add_forces(pass, shape, rows, &partner, &pair, lead_applies, tile, k);
+}
+
+// Returns the rows other than row k of a tile on the diagonal.
+KERNEL Mask rows_except(const Rows *rows, size_t k) {
+    return rows->live & mask_not(mask_first(k + 1) & mask_not(mask_first(k)));
+}
+
+#if FUSED
+// Like add_column for columns j and j + 1, by fused_roots. `diagonal`: each column is also row k, or k + 1, which is
+// excluded. Returns the lanes of `exact` in which the results are exact.
+KERNEL Mask add_fused(const PairPass *pass, PairShape shape, Rows *rows, bool diagonal, size_t j, bool lead_applies,
+                      Tile *tile, size_t k, Mask exact) {
+    PairEnd partner[2];
+    PairGeometry pair[2];
+    Real square[2], length[2], inverse[2];
+    for (size_t c = 0; c < 2; c++) {
+        Mask live = diagonal ? rows_except(rows, k + c) : rows->live;
+        partner[c] = pair_partner(pass, shape, j + c);
+        square[c] = pair_square(shape, &rows->target, &partner[c], &pair[c]);
+        pair[c].valid = real_at_most_where(live, square[c], real_set(DBL_MAX));
+        if (diagonal)
+            square[c] = real_select(live, square[c], real_set(2)); // any number that root_is_exact_where accepts
+        exact = root_is_exact_where(exact, square[c]);             // implies that no square is 0
+    }
+    fused_roots(2, square, length, inverse);
+    for (size_t c = 0; c < 2; c++) {
+        pair[c].length = length[c];
+        pair_direct(shape, inverse[c], &pair[c]);
+        add_forces(pass, shape, rows, &partner[c], &pair[c], lead_applies, tile, k + c);
+    }
+    return exact;
+}
+
+// Adds the forces between LANES rows and columns by add_fused. If that is not exact in all lanes, changes nothing but
+// the terms in `tile`, and returns false.
+KERNEL bool add_all_fused(const PairPass *pass, PairShape shape, Rows *rows, bool diagonal, size_t j, Tile *tile) {
+    Real sum[PHYS_VECTOR_DIMENSIONS];
+    for (size_t m = 0; m < shape.dimensions; m++)
+        sum[m] = rows->sum[m];
+    Mask exact = mask_first(LANES);
+#pragma GCC unroll 4
+    for (size_t k = 0; k < LANES; k += 2)
+        exact = add_fused(pass, shape, rows, diagonal, j + k, !diagonal, tile, k, exact);
+    if (__builtin_expect(mask_bits(exact) == ALL_LANES, 1))
+        return true;
+    for (size_t m = 0; m < shape.dimensions; m++)
+        rows->sum[m] = sum[m];
+    return false;
+}
+#endif
 
 // Subtracts component m of the terms of all forces from the columns' sums in *total. The order is row by row, and
 // within a row the order of the forces.
@@ -90,9 +145,18 @@ KERNEL bool lead_acts_on_all(const PairPass *pass, PairShape shape, size_t j) {
 KERNEL void full_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j) {
     Tile tile;
     tile.hits = 0;
+#if FUSED
+    bool done = mask_bits(rows->live) == ALL_LANES && add_all_fused(pass, shape, rows, false, j, &tile);
+    if (__builtin_expect(!done, 0)) {
+        tile.hits = 0;
+        for (size_t k = 0; k < LANES; k++)
+            add_column(pass, shape, rows, rows->live, j + k, true, &tile, k);
+    }
+#else
 #pragma GCC unroll 8
     for (size_t k = 0; k < LANES; k++)
         add_column(pass, shape, rows, rows->live, j + k, true, &tile, k);
+#endif
     finish_tile(pass, shape, &tile, j, LANES);
 }
 
@@ -110,10 +174,12 @@ KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size
 // Computes a tile on the diagonal, in which each particle is both a row and a column. So each pair is computed twice,
 // and only the sums of the rows are needed.
 KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
-    for (size_t k = 0; k < count; k++) {
-        Mask self = mask_first(k + 1) & mask_not(mask_first(k));
-        add_column(pass, shape, rows, rows->live & mask_not(self), i + k, false, NULL, 0);
-    }
+#if FUSED
+    if (count == LANES && add_all_fused(pass, shape, rows, true, i, NULL))
+        return;
+#endif
+    for (size_t k = 0; k < count; k++)
+        add_column(pass, shape, rows, rows_except(rows, k), i + k, false, NULL, 0);
 }
 
 // Computes up to LANES rows with all their columns. In a triangle, the diagonal tile comes first, then the columns to
@@ -162,9 +228,15 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
 #define LEAD_KERNELS(KIND, name, SIGN, SOURCE, REACH) LEAD_##REACH(PAIR_KERNEL, KIND)
 #define LEAD_ENTRIES(KIND, name, SIGN, SOURCE, REACH) LEAD_##REACH(PAIR_ENTRY, KIND)
 
-// Defines `table` and its kernels.
+// Defines `table` and its kernels. Kernels with fused_roots exist only for forces without a range.
+#if FUSED
+#define DEFINE_PAIR_KERNELS(table)                                                                                     \
+    PHYS_FORCES(LEAD_KERNELS, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)                                                   \
+    const PairKernelTable PER_FUSED_ISA(table) = {PHYS_FORCES(LEAD_ENTRIES, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)};
+#else
 #define DEFINE_PAIR_KERNELS(table)                                                                                     \
     PHYS_FORCES(LEAD_KERNELS, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)                                                   \
     LEADERLESS(PAIR_KERNEL)                                                                                            \
-    const PairKernelTable table = {PHYS_FORCES(LEAD_ENTRIES, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)                    \
-                                       LEADERLESS(PAIR_ENTRY)};
+    const PairKernelTable PER_ISA(table) = {PHYS_FORCES(LEAD_ENTRIES, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)           \
+                                                LEADERLESS(PAIR_ENTRY)};
+#endif

@@ -67,6 +67,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     if (!phys_charge(system, work))
         return false;
     phys_start_step(system, clock);
+    phys_fused_next_step(&system->fused);
     // 1. Forces between particles. A particle moves only when all forces that need its position are complete.
     Move move = {delta, speed_of_light, false};
     for (uint32_t g = 0; g < system->group_count; g++) {

@@ -96,6 +96,9 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
         system->options.threads = PHYS_MAX_THREADS;
     if (options->cpu > best)
         system->options.cpu = best;
+    if (options->use_fma == CPU_FMA_FASTER || cpu_detected.use_fma == CPU_FMA_NEVER)
+        system->options.use_fma = cpu_detected.use_fma;
+    system->fused = (FusedChoice){.use = system->options.use_fma};
     system->kernels = levels[system->options.cpu];
     bool needs_pool = !options->pool && system->options.threads > 1;
     system->threads = needs_pool ? phys_threads_new(system->options.threads) : options->pool;

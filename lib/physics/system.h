@@ -90,8 +90,9 @@ typedef struct PhysDivision PhysDivision;
 
 // How a system is computed. Results are bit-identical with all options.
 typedef struct PhysOptions {
-    int threads;  // maximum number of threads, including the caller; <= 0: one per processor
-    CpuLevel cpu; // instruction set; limited to cpu_detected.level
+    int threads;    // maximum number of threads, including the caller; <= 0: one per processor
+    CpuLevel cpu;   // instruction set; limited to cpu_detected.level
+    CpuFma use_fma; // for square roots of pairs; CPU_FMA_FASTER: cpu_detected.use_fma
     PhysNeighbours neighbours;
     PhysThreads *pool; // shared pool, which must outlive the system; NULL: the system creates its own
     Budget *budget;    // charged for work and memory; must outlive the system; NULL: none

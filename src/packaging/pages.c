@@ -11,7 +11,9 @@
 
 const PageRow PAGE_VARIABLES[] = {
     {"NO_COLOR", "if not empty, messages and terminal pictures have no colours"},
-    {"PETRI_CPU", "highest level of vector instructions to use: scalar, avx2 or avx512; results do not change"},
+    {"PETRI_CPU",
+     "highest level of vector instructions to use: scalar, avx2 or avx512; -fma or +fma after it disables or forces "
+     "fused multiply-add; results do not change"},
     {"TMPDIR", "folder in which '-o -' stores its output until it is complete (default: /tmp)"},
     {"XDG_STATE_HOME", "folder that contains petri/history, the history of the prompt (default: ~/.local/state)"},
     {0},

@@ -1,5 +1,4 @@
-// test_base_cpu.c: PETRI_CPU limits the detected level. meson also runs this test with PETRI_CPU=scalar and with an
-// invalid level.
+// test_base_cpu.c: PETRI_CPU limits the detected level. meson also runs this test with other values of PETRI_CPU.
 #include "base/cpu.h"
 #include "check.h"
 
@@ -8,14 +7,21 @@
 static void test_environment_limits_detected_level(void **state) {
     (void)state;
     const char *wish = getenv("PETRI_CPU");
+    const char *use = wish ? wish + strcspn(wish, "+-") : "";
+    assert_int_equal(cpu_detected.use_fma, !cpu_detected.fma      ? CPU_FMA_NEVER
+                                           : !strcmp(use, "+fma") ? CPU_FMA_ALWAYS
+                                                                  : CPU_FMA_FASTER);
     if (wish && !strcmp(wish, "scalar")) {
         assert_int_equal(cpu_detected.level, CPU_SCALAR);
         assert_false(cpu_detected.fma);
         return;
     }
+    if (wish && !strncmp(wish, "avx2", 4))
+        assert_true(cpu_detected.level <= CPU_AVX2);
 #if defined(__x86_64__)
     assert_int_equal(cpu_detected.level > CPU_SCALAR, __builtin_cpu_supports("avx2") != 0);
-    assert_int_equal(cpu_detected.fma, cpu_detected.level > CPU_SCALAR && __builtin_cpu_supports("fma"));
+    bool allowed = cpu_detected.level > CPU_SCALAR && strcmp(use, "-fma");
+    assert_int_equal(cpu_detected.fma, allowed && __builtin_cpu_supports("fma"));
 #endif
 }
 

@@ -8,8 +8,11 @@ typedef void Check(const PhysOptions *options, void *context);
 // level is slow, so it has fewer variants.
 static void for_each_variant(Check *check, void *context) {
     static const PhysOptions options[] = {
-        {.threads = 1, .neighbours = PHYS_NEIGHBOURS_NEVER},  {.threads = 3, .neighbours = PHYS_NEIGHBOURS_NEVER},
-        {.threads = 1, .neighbours = PHYS_NEIGHBOURS_ALWAYS}, {.threads = 8, .neighbours = PHYS_NEIGHBOURS_ALWAYS},
+        {.threads = 1, .neighbours = PHYS_NEIGHBOURS_NEVER, .use_fma = CPU_FMA_NEVER},
+        {.threads = 1, .neighbours = PHYS_NEIGHBOURS_NEVER, .use_fma = CPU_FMA_ALWAYS},
+        {.threads = 3, .neighbours = PHYS_NEIGHBOURS_NEVER, .use_fma = CPU_FMA_ALWAYS},
+        {.threads = 1, .neighbours = PHYS_NEIGHBOURS_ALWAYS},
+        {.threads = 8, .neighbours = PHYS_NEIGHBOURS_ALWAYS},
         {.threads = 2, .neighbours = PHYS_NEIGHBOURS_AUTO},
     };
     for (int cpu = 0; cpu <= (int)cpu_detected.level; cpu++)
