@@ -97,8 +97,9 @@ extern const Command VERIFY_COMMAND, INFO_COMMAND, CITE_COMMAND, UNPACK_COMMAND;
 extern const Command RUN_LINK_COMMAND, VIEW_LINK_COMMAND, SEND_COMMAND, OLD_SEND_COMMAND;
 // The form of test with --new.
 extern const Command TEST_NEW_COMMAND;
-// Commands that help does not list: `petri complete`, for the completion scripts of shells, and the test of a shader.
-extern const Command COMPLETE_COMMAND, SHADER_TEST_COMMAND;
+// Commands that help does not list: `petri complete`, for the completion scripts of shells, and the tests of a shader
+// and of pictures.
+extern const Command COMPLETE_COMMAND, SHADER_TEST_COMMAND, COMPARE_PICTURES_COMMAND;
 
 // Returns the part of a command that this operand selects, or NULL.
 const Command *command_part(const Command *command, const char *operand);

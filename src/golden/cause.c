@@ -2,7 +2,6 @@
 #include "base/source.h"
 #include "cli/script.h"
 #include "golden/suite.h"
-#include "run/options.h"
 
 #include <string.h>
 #include <sys/wait.h>
@@ -27,7 +26,7 @@ static void add_options(const Golden *golden, TextList *words) {
     static const char kept[] = "frames fps define allow-read no-files memory work";
     for (size_t i = 0; i < golden->options.count; i++) {
         const char *word = golden->options.items[i];
-        const OptionSpec *spec = golden_option(RUN_OPTIONS.rows, word);
+        const OptionSpec *spec = golden_option(golden_rows(golden), word);
         bool used = spec && str_word_number(str_from(spec->name), kept) >= 0;
         bool more = spec && spec->value && golden_option_is_alone(word);
         if (used)

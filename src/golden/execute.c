@@ -9,6 +9,7 @@
 void execute_start(const CommandContext *host, const Options *options, TestCase *test) {
     SCOPED_STRING folder = memory_folder(test->script);
     TextList words = {0};
+    test->host = host;
     texts_add(&words, "petri");
     test->result.seconds = clock_seconds();
     test->done = !test->kind->begin(options, test, &words);

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/source.h"
+#include "render/options.h"
 #include "run/options.h"
 
 #include <inttypes.h>
@@ -89,15 +90,19 @@ const OptionSpec *golden_option(const OptionSpec *rows, const char *word) {
     return NULL;
 }
 
+const OptionSpec *golden_rows(const Golden *golden) {
+    return golden->renders ? RENDER_OPTIONS.rows : RUN_OPTIONS.rows;
+}
+
 bool golden_option_is_alone(const char *word) {
     size_t length = strcspn(word, "=");
     return word[length] == '\0' && (word[1] == '-' || length == 2);
 }
 
-bool golden_check_options(const TextList *words, Text *error_text) {
+bool golden_check_options(const OptionSpec *rows, const TextList *words, Text *error_text) {
     for (size_t i = 0; i < words->count; i++) {
         const char *word = words->items[i];
-        const OptionSpec *spec = golden_option(RUN_OPTIONS.rows, word);
+        const OptionSpec *spec = golden_option(rows, word);
         if (spec && spec->not_in_goldens) {
             text_add_format(error_text, "option '--%s' is not allowed in goldens: tests write no files", spec->name);
             return false;
@@ -110,14 +115,23 @@ bool golden_check_options(const TextList *words, Text *error_text) {
 static bool read_head_line(Golden *golden, const char *line, size_t length, Text *error_text) {
     if (golden->body_line > 1)
         return read_remark(golden, line, length, error_text);
-    if (length < 5 || memcmp(line, "# run", 5) != 0 || (length > 5 && line[5] != ' ')) {
-        text_add_format(error_text, "line 1: expected '# run' and the options");
+    static const char *const commands[] = {"# run", "# render"};
+    size_t start = 0;
+    for (int i = 0; i < 2; i++) {
+        size_t end = strlen(commands[i]);
+        if (length >= end && memcmp(line, commands[i], end) == 0 && (length == end || line[end] == ' ')) {
+            start = end;
+            golden->renders = i == 1;
+        }
+    }
+    if (start == 0) {
+        text_add_format(error_text, "line 1: expected '# run' or '# render', and the options");
         return false;
     }
     SCOPED_TEXT problem = {0};
-    if (!split_options(golden, line + 5, length - 5, error_text))
+    if (!split_options(golden, line + start, length - start, error_text))
         return false;
-    if (!golden_check_options(&golden->options, &problem))
+    if (!golden_check_options(golden_rows(golden), &golden->options, &problem))
         text_add_format(error_text, "line 1: %s", problem.bytes);
     return problem.len == 0;
 }

@@ -18,8 +18,10 @@ typedef struct Golden {
     Text text;          // the whole file
     size_t body;        // offset of the recorded output in `text`
     uint32_t body_line; // line number of the recorded output, from 1
-    TextList options;   // words after `# run`
-    double tolerance;   // relative tolerance for numbers; 0: numbers must be equal
+    bool renders;       // true: the first line begins with `# render`, false: with `# run`
+    TextList options;   // words after that
+    double tolerance;   // of pictures: of each channel, in 255ths; otherwise relative tolerance for numbers; 0: numbers
+                        // must be equal
     int64_t horizon;    // last frame that is compared if there is a tolerance
     int64_t strict;     // last frame that is compared with `tolerance`; later frames get a larger tolerance
 } Golden;
@@ -46,7 +48,10 @@ const OptionSpec *golden_option(const OptionSpec *rows, const char *word);
 bool golden_option_is_alone(const char *word);
 // Rejects options that write files, because a golden from another author must not write files on this machine. Returns
 // false if there is one and adds the reason to error_text.
-bool golden_check_options(const TextList *words, Text *error_text);
+// `rows` are the options of the command.
+bool golden_check_options(const OptionSpec *rows, const TextList *words, Text *error_text);
+// Returns the options of the command that the golden records.
+const OptionSpec *golden_rows(const Golden *golden);
 // Reads a file, without a byte-order mark and with LF instead of CR LF: editors and version control on Windows add
 // them. On failure, returns false and adds the reason to error_text.
 bool golden_read_text(Text *text, const char *path, Text *error_text);

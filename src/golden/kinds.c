@@ -3,9 +3,31 @@
 
 #include <string.h>
 
+// --- goldens: their first line says which command they record
+
+static bool golden_begin(const Options *options, TestCase *test, TextList *words) {
+    if (!golden_read(&test->golden, test->recorded, &test->result.error_text))
+        return false;
+    return test->golden.renders ? pictures_begin(options, test, words) : run_kind_begin(options, test, words);
+}
+
+static void golden_end(const Options *options, TestCase *test, const RunOutput *run) {
+    if (test->golden.renders)
+        pictures_end(options, test, run);
+    else
+        run_kind_end(options, test, run);
+}
+
+// --- all kinds
+
 // In the order of execution for one script.
 const TestKind TEST_KINDS[] = {
-    {.suffix = ".golden", .begin = run_kind_begin, .end = run_kind_end, .follows_runs = true},
+    {.suffix = ".golden",
+     .begin = golden_begin,
+     .end = golden_end,
+     .follows_runs = true,
+     .show = pictures_show,
+     .discard = pictures_discard},
     {.suffix = ".err", .begin = rejection_begin, .end = rejection_end},
     {.suffix = NULL},
 };

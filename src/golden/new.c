@@ -5,6 +5,7 @@
 #include "cli/script.h"
 #include "cli/words.h"
 #include "golden/suite.h"
+#include "render/options.h"
 #include "run/options.h"
 
 #include <errno.h>
@@ -18,8 +19,13 @@ typedef struct NewGolden {
     const char *script;
     TextList words;   // as given, without --new
     TextList options; // of the run
+    bool renders;     // true if the golden contains pictures
     RunOutput run;
 } NewGolden;
+
+// Parses the options of `petri render`, whose command is in another program.
+static const Command RENDER_WORDS = {
+    .name = "render", .operands = "SCRIPT", .options = &RENDER_OPTIONS, .missing_operand = "no script given"};
 
 static bool fail(const char *what, const char *path, const char *problem) {
     message("cannot %s %s: %s", what, path, problem);
@@ -83,13 +89,14 @@ static bool write_rejection(NewGolden *new) {
 
 static bool write_golden(const NewGolden *new) {
     SCOPED_TEXT text = {0};
-    text_add_c(&text, "# run");
+    text_add_c(&text, new->renders ? "# render" : "# run");
     for (size_t i = 0; i < new->options.count; i++) {
         text_add_c(&text, " ");
         shell_add_word(&text, new->options.items[i]);
     }
     text_add_c(&text, "\n");
-    text_add(&text, text_str(&new->run.output));
+    if (new->run.output.len > 0)
+        text_add(&text, text_str(&new->run.output));
     return write_file(new->script, ".golden", &text);
 }
 
@@ -124,16 +131,40 @@ static bool create(NewGolden *new, const Options *run) {
     return write_golden(new);
 }
 
+// Writes a golden without pictures, and then records them like `petri test --update`.
+static bool create_pictures(NewGolden *new, Options *options) {
+    SCOPED_STRING golden = kind_path(new->script, ".golden");
+    TestCase test = {.kind = kind_of_file(golden), .script = memory_strdup(new->script), .recorded = golden};
+    test.name = test.script + path_directory(str_from(test.script)).len;
+    TestOptions own = {.update = true};
+    options->own = &own;
+    bool created = write_golden(new);
+    if (created) {
+        execute_again(new->host, options, &test);
+        created = test.result.passed;
+        if (!created) {
+            message("no golden is created: the run %s", test.result.error_text.bytes);
+            unlink(golden);
+        }
+    }
+    options->own = NULL;
+    test.recorded = NULL;
+    test_free(&test);
+    return created;
+}
+
 // Splits the arguments into the script and the options of the run, which are checked.
 static int read_words(NewGolden *new, const Options *given, Options *run) {
     for (int i = 0; i < given->argc; i++)
-        if (!word_is_option(given->argv[i], "new"))
+        if (!word_is_option(given->argv[i], "new") && !word_is_option(given->argv[i], "render"))
             texts_add(&new->words, given->argv[i]);
     if (new->words.count == 0) {
         message("no script given; usage: petri %s %s", TEST_NEW_COMMAND.name, TEST_NEW_COMMAND.operands);
         return STATUS_USAGE;
     }
-    int status = options_parse(run, &RUN_COMMAND, new->host, (int)new->words.count, new->words.items);
+    new->renders = words_have_option(given->argv, "render");
+    int status = options_parse(run, new->renders ? &RENDER_WORDS : &RUN_COMMAND, new->host, (int)new->words.count,
+                               new->words.items);
     if (status == OPTIONS_READ && (script_is_stdin(run->script) || run->replayed)) {
         message("cannot create a golden for %s; give a script", run->script);
         status = STATUS_USAGE;
@@ -148,7 +179,7 @@ static int read_words(NewGolden *new, const Options *given, Options *run) {
 // Checks that the script has no test yet, and that a golden may contain the options.
 static bool is_possible(const NewGolden *new) {
     SCOPED_TEXT problem = {0};
-    if (!golden_check_options(&new->options, &problem)) {
+    if (!golden_check_options(new->renders ? RENDER_OPTIONS.rows : RUN_OPTIONS.rows, &new->options, &problem)) {
         message("no golden is created: %s", problem.bytes);
         return false;
     }
@@ -169,7 +200,8 @@ static int new_run(const CommandContext *host, Options *given) {
         return help_for(&TEST_NEW_COMMAND);
     int status = read_words(&new, given, &run);
     if (status == OPTIONS_READ)
-        status = is_possible(&new) && create(&new, &run) ? STATUS_DONE : STATUS_FAILED;
+        status = is_possible(&new) && (new.renders ? create_pictures(&new, given) : create(&new, &run)) ? STATUS_DONE
+                                                                                                        : STATUS_FAILED;
     options_free(&run);
     texts_free(&new.words);
     texts_free(&new.options);
@@ -182,11 +214,14 @@ const Command TEST_NEW_COMMAND = {
     .name = "test --new",
     .operands = "SCRIPT [OPTION...]",
     .summary = "create the golden of a script",
-    .details = "Runs the script with these options of 'petri run' and writes NAME.golden, which 'petri test' compares\n"
-               "with later runs. The default is the state of every 20th of 61 frames. If the script has an error,\n"
-               "NAME.err is written instead, with the line of the error and the messages.",
+    .details =
+        "Runs the script with these options of 'petri run' and writes NAME.golden, which 'petri test' compares\n"
+        "with later runs. The default is the state of every 20th of 61 frames. If the script has an error,\n"
+        "NAME.err is written instead, with the line of the error and the messages. With --render, the options are\n"
+        "those of 'petri render', and the golden contains pictures, NAME.0000.png and so on.",
     .examples = "  petri test --new dish.fl\n"
-                "  petri test --new dish.fl --frames 300 --print hash -D N=5\n",
+                "  petri test --new dish.fl --frames 300 --print hash -D N=5\n"
+                "  petri test --new dish.fl --render --frames 3 --size 200x150\n",
     .parses_arguments = true,
     .run = new_run,
 };

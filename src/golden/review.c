@@ -26,8 +26,8 @@ static void show_cause(const Review *review, Output *output, TestCase *test) {
     test->result.details = details;
 }
 
-static void show_pictures(const Review *review, Output *output, TestCase *test) {
-    if (!test->kind->show || !test->kind->show(review->host, output, test))
+static void show_pictures(Output *output, TestCase *test) {
+    if (!test->kind->show || !test->kind->show(output, test))
         output_format(output, "this test has no pictures\n");
 }
 
@@ -51,7 +51,7 @@ static bool answer(Review *review, Output *output, TestCase *test, char letter) 
         show_cause(review, output, test);
         return false;
     case 'p':
-        show_pictures(review, output, test);
+        show_pictures(output, test);
         return false;
     default:
         output_format(output,

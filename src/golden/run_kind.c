@@ -2,8 +2,6 @@
 #include "golden/suite.h"
 
 bool run_kind_begin(const Options *options, TestCase *test, TextList *words) {
-    if (!golden_read(&test->golden, test->recorded, &test->result.error_text))
-        return false;
     texts_add(words, "run");
     // One thread for each script, because the scripts already run in parallel. A golden can set another number of
     // threads. Results never depend on it.

@@ -1,4 +1,4 @@
-// run_output.c: the output of a run of `petri`, and the words that all runs have; see suite.h.
+// run_output.c: the output of a run, and the words that all runs have; see suite.h.
 #include "golden/suite.h"
 
 #include <stdlib.h>
@@ -14,7 +14,7 @@ void run_add_common(const Options *options, const TestCase *test, TextList *word
         texts_add_format(words, "--neighbours=%s", own->as_neighbours);
     if (options->unsimplified)
         texts_add(words, "--nosimplify");
-    if (options->no_batches)
+    if (options->no_batches && !test->golden.renders)
         texts_add(words, "--no-batches");
     texts_add(words, "--");
     texts_add(words, test->name);

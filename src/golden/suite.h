@@ -13,11 +13,13 @@
 typedef struct TestKind TestKind;
 
 typedef struct TestCase {
+    const CommandContext *host;
     Result result;
     const TestKind *kind;
     char *script;   // path of the script
     char *name;     // file name of the script, without folders; part of `script`
     char *recorded; // path of the file that records what the script does
+    char *drawn;    // folder that the run draws into; NULL: none
     Golden golden;  // of kinds that begin with a line of options; valid while the script runs
     Subprocess child;
     bool done;
@@ -41,7 +43,7 @@ struct TestKind {
     void (*end)(const Options *options, TestCase *test, const RunOutput *run);
     // Shows what was recorded and what there is now, as pictures. Returns false if there are none. NULL: never
     // possible.
-    bool (*show)(const CommandContext *host, Output *output, TestCase *test);
+    bool (*show)(Output *output, TestCase *test);
     void (*discard)(TestCase *test); // deletes files that a failure has left; NULL: there are none
 };
 
@@ -57,7 +59,13 @@ char *kind_path(const char *path, const char *suffix);
 bool run_kind_begin(const Options *options, TestCase *test, TextList *words);
 void run_kind_end(const Options *options, TestCase *test, const RunOutput *run);
 
-// run_output.c: the output of a run of `petri`.
+// pictures.c: goldens of `petri render`.
+bool pictures_begin(const Options *options, TestCase *test, TextList *words);
+void pictures_end(const Options *options, TestCase *test, const RunOutput *run);
+bool pictures_show(Output *output, TestCase *test);
+void pictures_discard(TestCase *test);
+
+// run_output.c: the output of a run.
 
 // Adds the words that all runs have: overrides of options, and the script after `--`.
 void run_add_common(const Options *options, const TestCase *test, TextList *words);

@@ -24,8 +24,8 @@ static bool read_size(const Args *args, void *field) {
 
 // clang-format off
 static const OptionSpec ROWS[] = {
-    OWN("output", 'o', "FILE", option_text, output, "write to OUT.png, OUT%05d.png (one per frame), OUT.svg, OUT.pdf, or a video such as OUT.mp4 or OUT.gif; - for standard output")
-    OWN("format", 0, "F", option_text, format, "select the format for '-o -': png, svg, pdf, mp4, m4v, mov, mkv, webm, ogg or gif (default: png)")
+    OWN("output", 'o', "FILE", NOT_IN_GOLDENS(option_text), output, "write to OUT.png, OUT%05d.png (one per frame), OUT.svg, OUT.pdf, or a video such as OUT.mp4 or OUT.gif; - for standard output")
+    OWN("format", 0, "F", NOT_IN_GOLDENS(option_text), format, "select the format for '-o -': png, svg, pdf, mp4, m4v, mov, mkv, webm, ogg or gif (default: png)")
     SHARED("frame", 0, "N", WHOLE(0, INT64_MAX - 1), frame, "draw only frame N, counted from 0 (default: the last)")
     LENGTH_OPTIONS
     OWN("every", 0, "K", WHOLE(1, INT64_MAX), every, "draw every K-th frame, starting with the first")
