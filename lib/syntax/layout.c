@@ -11,7 +11,7 @@ void layout_init(Layout *layout, const Source *source) {
     layout->level_count = 1;
     layout->levels[0] = (LayoutLevel){0};
     layout->paren_count = 0;
-    layout->indent_pending = layout->indent_mismatch = false;
+    layout->indent_pending = layout->indent_mismatch = layout->dropping = false;
 }
 
 // Returns the indentation after a newline token: spaces plus eight per tab, without tab stops.
@@ -57,6 +57,14 @@ static Token begin_newline(Layout *layout, Token token) {
     return token;
 }
 
+// Returns true if the line after a newline is omitted.
+static bool is_dropped(Layout *layout, const Token *newline) {
+    if (layout->dropping)
+        layout->dropping =
+            indentation(layout->lexer.source, newline->span) > layout->levels[layout->level_count - 1].indent;
+    return layout->dropping;
+}
+
 static Token next_token(Layout *layout) {
     if (layout->indent_pending) {
         Token token = newline_token(layout);
@@ -67,7 +75,7 @@ static Token next_token(Layout *layout) {
         Token token = lexer_next(&layout->lexer);
         switch (token.kind) {
         case NEWLINE:
-            if (layout->paren_count > 0)
+            if (layout->paren_count > 0 || is_dropped(layout, &token))
                 continue;
             return begin_newline(layout, token);
         case '(':
@@ -96,8 +104,9 @@ void layout_resume(Layout *layout, uint32_t offset) {
     layout->lexer.at = offset;
 }
 
-void layout_recover(Layout *layout, const Token *token) {
+void layout_recover(Layout *layout, const Token *token, bool drop) {
     layout->paren_count = 0;
+    layout->dropping = drop;
     if (token->kind == INDENT)
         layout->levels[layout->level_count - 1].rejected = true;
 }

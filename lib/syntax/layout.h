@@ -24,6 +24,7 @@ typedef struct Layout {
     Span line;                                // span of the newline token after which an INDENT or DEDENTs are inserted
     uint32_t indent;                          // indentation of the line after `line`
     bool indent_pending;                      // the INDENT or DEDENTs of `line` have not all been returned yet
+    bool dropping;                            // omits lines that are further indented than the level
     bool indent_mismatch;                     // the indentation matches no line above; the next token gets an error
 } Layout;
 
@@ -34,6 +35,7 @@ Token layout_next(Layout *layout);
 // Continues scanning at `offset`, which is inside or before the last returned token. That token must not be a newline
 // or parenthesis.
 void layout_resume(Layout *layout, uint32_t offset);
-// Recovers from a syntax error at `token`: closes all parentheses, so that the next line is parsed normally. If
-// `token` is an INDENT, its DEDENT will be omitted.
-void layout_recover(Layout *layout, const Token *token);
+// Recovers from a syntax error at `token`: closes all parentheses, so that the next line is parsed normally. With
+// `drop`, the lines below that are further indented belong to the broken statement. If `token` is an INDENT, its DEDENT
+// will be omitted.
+void layout_recover(Layout *layout, const Token *token, bool drop);

@@ -300,15 +300,18 @@ static void resolve_keyword(const ParseContext *context, Layout *layout, const g
     }
 }
 
-// Adds a hint to the error of a token that follows an unclosed parenthesis on an earlier line.
-static void add_paren_hint(ParseContext *context, const Layout *layout, const Token *token, uint32_t errors_before) {
-    if (layout->paren_count == 0 || context->diags->count == errors_before)
-        return;
+// Adds a hint to the error of a token that follows an unclosed parenthesis on an earlier line. Returns true if there is
+// such a parenthesis.
+static bool add_paren_hint(ParseContext *context, const Layout *layout, const Token *token, uint32_t errors_before) {
+    if (layout->paren_count == 0)
+        return false;
     SourcePosition open = source_locate(context->source, layout->parens[layout->paren_count - 1]);
-    if (token->kind == END || source_line(context->source, token->span.start) > open.line)
+    bool later = token->kind == END || source_line(context->source, token->span.start) > open.line;
+    if (later && context->diags->count > errors_before)
         context->diags->items[context->diags->count - 1].hint =
             str_format(context->diags->arena, "the parenthesis opened at line %u, column %u is not closed", open.line,
                        open.column);
+    return later;
 }
 
 // Passes a token to the parser. Returns YYPUSH_MORE, 0 at the end of the program, or 1 if the parser could not recover
@@ -329,8 +332,8 @@ static int push_token(ParseContext *context, Layout *layout, gr_pstate *parser, 
     if (context->unexpected.found && !context->reported)
         report_unexpected(context, &context->unexpected);
     if (context->diags->count > errors_before || context->reported) {
-        add_paren_hint(context, layout, token, errors_before);
-        layout_recover(layout, token);
+        bool unclosed = add_paren_hint(context, layout, token, errors_before);
+        layout_recover(layout, token, unclosed && !context->error_tolerant);
     }
     return status;
 }

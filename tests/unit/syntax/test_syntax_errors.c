@@ -123,6 +123,16 @@ static void test_each_mistake_is_reported_once(void **state) {
          "1:8: unexpected number 2 | separate vector elements with semicolons: 1;2;3\n"
          "3:12: unexpected number 3\n"
          "5:4: unexpected number 5"},
+        {"let a=(1;)\n    b=2\n    c=max(1, 2)\n    d=4\n!e )", "1:10: unexpected ')'\n"
+                                                                "5:4: unexpected ')', expected end of line or '<<'"},
+        // Lines below an open parenthesis that are further indented belong to the broken statement.
+        {"let a=4+(1;\n    b=2\n    c=max(1, 2)\n        d=4\n    e=5\n\n!f )",
+         "2:6: unexpected '=' | the parenthesis opened at line 1, column 9 is not closed\n"
+         "7:4: unexpected ')', expected end of line or '<<'"},
+        {"!a\n    !b x=(\n        !c\n        !d y=2 3\n    !e )\n!f )",
+         "4:9: unexpected node !d | the parenthesis opened at line 2, column 10 is not closed\n"
+         "5:8: unexpected ')', expected end of line or '<<'\n"
+         "6:4: unexpected ')', expected end of line or '<<'"},
         // The grammar cannot recover from an error in a pragma.
         {"%pragma fps\n!a )\n", "1:12: unexpected end of line, expected an expression\n"
                                 "2:4: unexpected ')', expected end of line or '<<'"},
