@@ -163,9 +163,25 @@ static void add_comment_above(Text *out, const Document *document, size_t start)
     }
 }
 
+// Returns the end of a binding with the parentheses that enclose its value, which value_end does not include.
+static size_t binding_end(const Document *document, const PetriBinding *name) {
+    size_t end = name->value_end > name->end ? name->value_end : name->end, open = 0;
+    for (size_t i = document_token_at(document, name->end); i < document->token_count; i++) {
+        const PetriToken *token = &document->tokens[i];
+        bool closes = document_is(document, i, ")");
+        if (token->start >= end && token->kind != PETRI_TOKEN_COMMENT && (open == 0 || !closes))
+            break;
+        open += document_is(document, i, "(");
+        open -= closes && open > 0;
+        if (closes && token->end > end)
+            end = token->end;
+    }
+    return end;
+}
+
 void hover_binding(Text *out, Server *server, Document *document, const PetriBinding *name) {
     static const char *const kinds[] = {"", "let ", "", "parameter ", "for ", "import "};
-    size_t end = name->value_end > name->end ? name->value_end : name->end;
+    size_t end = binding_end(document, name);
     size_t start = name->kind == PETRI_NAME_FUNC ? name->value_start : name->start;
     Str text = document_slice(document, start, end);
     const char *stop = memchr(text.bytes, '\n', text.len);

@@ -134,6 +134,11 @@ check("hover shows a keyword", "repeats" in answer_at("fo§r i in 3\n    !n\n", 
 hover = answer_at("-- How large\nlet SIZE=2*150   -- it is\n!n a=SI§ZE\n", "hover")["contents"]["value"]
 check("hover shows the value of a constant", "= `300`" in hover)
 check("hover shows the comments at a binding", "How large" in hover and "it is" in hover)
+for binding in ("A=(1;2)", "A=((1;2)*(3))", "A=1;(2;3)", "A=(1;\n    2)", "A=(')')", "A=sin(0.5)", "A=(1 -- one)\n    )", "A=(1)[(0)]"):
+    text = answer_at(f"let {binding}  -- note\n    B=(3)\n!n a=§A b=B\n", "hover")["contents"]["value"]
+    check(f"hover shows all of {binding}", f"let {binding}\n```" in text and "note" in text)
+check("hover of a parameter has no foreign parenthesis", "x=2\n```" in answer_at(
+    "func f(x=2)\n    §x\n!n a=f()\n", "hover")["contents"]["value"])
 check("hover shows no value of a variable name", "= `" in answer_at("let a=frame\n!n a=§a\n", "hover")["contents"]["value"], False)
 check("hover shows the value of a number with a suffix", answer_at("!n a=9§0deg\n", "hover")["contents"]["value"], "= `0.25`")
 check("hover shows nothing on blanks", answer_at("!n  §  a=1\n", "hover"), None)
