@@ -79,6 +79,14 @@ check "the extension has the version of petri" has unpacked/extension/package.js
 check "the extension has an icon of 128 pixels" \
     [ "$(od -An -tx1 -j16 -N8 unpacked/extension/icon.png)" = " 00 00 00 80 00 00 00 80" ]
 check "pictures of its page have complete addresses" [ "$(grep -o '](https*://[^)]*\.png)' unpacked/extension/[Rr][Ee][Aa][Dd][Mm][Ee].md | wc -l)" -ge 1 ]
+readme=$(find unpacked/extension -iname readme.md)
+check "links of its page lead to pages, not to raw text" \
+    [ "$(grep -o '](https*://[^)]*/\(raw\|blob\)/[^)]*)' "$readme" | grep -c -e '/raw/.*\.md' -e '/blob/.*\.png')" -eq 0 ]
+check "its page has links to pages" [ "$(grep -c '](https*://[^)]*/blob/[^)]*\.md' "$readme")" -ge 1 ]
+changes=$(find unpacked/extension -iname changelog.md)
+check "its changes are about editors" [ "$(grep -c '^- ' "$changes")" -eq "$(grep -cE '^- (\w+, )*(editors|lsp|fmt|check)\b|^- no changes' "$changes")" ]
+check "its changes have all versions" [ "$(grep '^## ' "$changes")" = "$(grep '^## ' "$root/CHANGELOG.md")" ]
+check "lsp is among its changes" has "$changes" "- lsp: "
 check "the extension has a publisher" has unpacked/extension/package.json '"publisher": "'
 NODE_PATH=$folder/node_modules node "$here/client.js" "$petri" >out 2>err
 status=$?

@@ -3,6 +3,7 @@
 ./dev web makes, by vsce. `npm run bundle` must run first. The output is reproducible."""
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -21,6 +22,15 @@ def fill(path):
     return subprocess.run([root / "src/packaging/fill.sh", path], check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
+def changes():
+    """Returns the changes of petri that concern editors, below the headings of their versions."""
+    text = "# Changelog\n"
+    for version in re.split(r"(?m)^(?=## )", (root / "CHANGELOG.md").read_text())[1:]:
+        items = re.findall(r"(?m)^- (?:\w+, )*(?:editors|lsp|fmt|check)\b.*\n(?:  .*\n)*", version)
+        text += "\n" + version.splitlines()[0] + "\n\n" + ("".join(items) or "- no changes for editors\n")
+    return re.sub(r"\]\((?!https?:|#)", "](../../../", text)  # links from the extension's folder
+
+
 about = json.loads((here / "package.json").read_text()) | json.loads(fill(here / "identity.json"))
 for only_for_building in ("dependencies", "devDependencies", "scripts", "private"):
     about.pop(only_for_building)
@@ -36,12 +46,14 @@ with tempfile.TemporaryDirectory() as name:
     shutil.copy(here / "dist/third-party-licences.txt", folder)
     for path in ENGINE:
         shutil.copy(Path(sys.argv[2]) / path, folder / "engine" / path)
-    for path in ("LICENSE", "CHANGELOG.md", "src/packaging/icon.png", "samples/dish.fl", "samples/pictures/dish.png"):
+    (folder / "CHANGELOG.md").write_text(changes())
+    for path in ("LICENSE", "src/packaging/icon.png", "samples/dish.fl", "samples/pictures/dish.png"):
         shutil.copy(root / path, folder)
-    # The marketplace shows only pictures with a complete address.
-    pictures = f"{about['repository']['url'].removesuffix('.git')}/raw/v{about['version']}/src/editors/vscode"
+    # The marketplace needs complete addresses: of the files as such for pictures, and of pages for links.
+    address = about["repository"]["url"].removesuffix(".git") + "/{}/v" + about["version"] + "/src/editors/vscode"
     vsce = subprocess.run([here / "node_modules/.bin/vsce", "package", "--no-dependencies", "--no-update-package-json",
-                           "--baseContentUrl", pictures, "--baseImagesUrl", pictures, "--out", folder / "packed.vsix"],
+                           "--baseContentUrl", address.format("blob"), "--baseImagesUrl", address.format("raw"),
+                           "--out", folder / "packed.vsix"],
                           cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if vsce.returncode != 0:
         sys.exit(vsce.stdout)
