@@ -167,6 +167,22 @@ petri link count.fl --html other.html
 check "link --html names the missing page" one_message "standalone.html, is not installed"
 check "link --html writes no page on failure" [ ! -e other.html ]
 unset PETRI_STANDALONE
+# A copy of the program, in a folder as in a build and as in an installation. A link to it must find the same page.
+mkdir -p "a build/src" "a build/web" "an install/bin" "an install/share/petri"
+echo '<i id="petri-data">null</i>' >"a build/web/standalone.html"
+echo '<u id="petri-data">null</u>' >"an install/share/petri/standalone.html"
+for place in "a build/src" "an install/bin"; do
+    cp "$petri" "$place/petri"
+    [ ! -e "$petri-pictures" ] || cp "$petri-pictures" "$place"
+    ln -sf "$place/petri" linked_program
+    for program in "$place/petri" ./linked_program; do
+        rm -f page.html
+        "$program" link count.fl --html page.html >out 2>err
+        status=$?
+        check "link --html finds the page beside $program of $place" grep -q '^<[iu] id="petri-data">{"link"' page.html
+    done
+    rm -f "$place"/petri*
+done
 petri link count.fl -D N=x=
 check "link rejects an invalid definition" status_is 2
 
