@@ -28,6 +28,10 @@
 #define BELOW "put the node on the next line, indented"
 #define WHILE "use 'for i in ..10' to repeat, 'if' to test, or a !counter to count from frame to frame"
 
+// Lines that begin with %.
+HINT(BEGIN "$", "^%" BLANK "pragma" GAP, "move the pragma to the top of the script, before all other lines")
+HINT(BEGIN "$", "^%[A-Za-z_]", "lines that begin with % are '%pragma NAME VALUE' and '%include \"FILE.fl\"'")
+
 // Comments.
 HINT(BEGIN "$", "^#" BLANK "include", FILES)
 HINT(BEGIN "$", "^(//|/[*])", COMMENT)

@@ -53,7 +53,7 @@ static void test_common_mistakes_have_hints(void **state) {
         {"let x=1 2", "1:9: unexpected number 2 | separate vector elements with semicolons: 1;2;3"},
         {"%pragma fps", "1:12: unexpected end of line, expected an expression"},
         {"%pragma fps x", "1:13: unexpected name x"},
-        {"x\n%pragma fps 3", "2:1: unexpected '%'"},
+        {"x\n%pragma fps 3", "2:1: unexpected '%' | move the pragma to the top of the script, before all other lines"},
         {"%include", "1:9: unexpected end of line, expected an expression"},
         {"!a & !b", "1:4: unexpected character '&' (U+0026) | write 'A and B'"},
         {"a² ", "1:2: unexpected character '²' (U+00B2)"},
