@@ -10,7 +10,7 @@ const section = (env, level, wanted, title, text = '') => {
     return `<h${level} id="${id}">${escape(title)} <a class="here" href="#${id}" aria-label="Link to ${escape(title)}">#</a></h${level}>\n`;
 };
 const cells = (kind, row) => `<tr>${row.map(cell => `<${kind}>${cell}</${kind}>`).join('')}</tr>\n`;
-const table = (heads, rows) => `<div class="table" tabindex="0" role="region" aria-label="Table"><table>\n${
+const table = (heads, rows) => `<div class="table" tabindex="0" role="group" aria-label="Table"><table>\n${
     cells('th', heads)}${rows.map(row => cells('td', row)).join('')}</table></div>\n`;
 const code = text => text ? `<code>${escape(text)}</code>` : '';
 

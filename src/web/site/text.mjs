@@ -60,7 +60,7 @@ export class Text {
             return target === null ? '' : `<a href="${escape(target)}">`;
         };
         rules.link_close = (tokens, i, _, env) => env.open.pop() ? '</a>' : '';
-        rules.table_open = () => '<div class="table" tabindex="0" role="region" aria-label="Table"><table>\n';
+        rules.table_open = () => '<div class="table" tabindex="0" role="group" aria-label="Table"><table>\n';
         rules.table_close = (tokens, i, _, env) => `</table></div>\n${own.behind(env)}`;
         rules.paragraph_close = (tokens, i, _, env) => tokens[i].hidden ? '' : `</p>\n${own.behind(env)}`;
         // A header cell without text becomes a normal cell.
