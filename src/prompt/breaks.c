@@ -92,6 +92,6 @@ static bool run_unbreak(Prompt *prompt, const char *rest) {
 const PromptCommand BREAK_COMMANDS[] = {
     {".break", "[EXPR]", NULL, "end these commands in frames in which EXPR is true; without EXPR, list the breaks",
      run_break, COMPLETE_LANGUAGE},
-    {".unbreak", "[EXPR]", NULL, "remove the break EXPR, or all breaks", run_unbreak, COMPLETE_LANGUAGE},
+    {".unbreak", "[EXPR]", NULL, "remove the break EXPR, or all breaks", run_unbreak, COMPLETE_BREAKS},
     {0},
 };

@@ -11,8 +11,9 @@
 #include <string.h>
 
 const PromptCommand *prompt_command_at(size_t index) {
-    static const PromptCommand *const groups[] = {STEP_COMMANDS,    BREAK_COMMANDS, PRINT_COMMANDS, WHY_COMMANDS,
-                                                  PICTURE_COMMANDS, SET_COMMANDS,   HOST_COMMANDS,  OTHER_COMMANDS};
+    static const PromptCommand *const groups[] = {STEP_COMMANDS, BREAK_COMMANDS,   PRINT_COMMANDS,
+                                                  WHY_COMMANDS,  PICTURE_COMMANDS, SET_COMMANDS,
+                                                  HOST_COMMANDS, RECALL_COMMANDS,  OTHER_COMMANDS};
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
         for (const PromptCommand *command = groups[i]; command->name; command++)
             if (index-- == 0)
@@ -213,7 +214,7 @@ static bool run_drop(Prompt *prompt, const char *rest) {
 
 // The commands of hosts, except .drop.
 const PromptCommand PICTURE_COMMANDS[] = {
-    {".plot", "EXPR [N]", "an expression", "plot the number EXPR over the last N frames (default: 60)", NULL,
+    {".plot", "EXPR [N]", "an expression", "plot EXPR, a number or vector, over the last N frames (default: 60)", NULL,
      COMPLETE_LANGUAGE},
     {".show", "", NULL, "show the frame's picture in the terminal", NULL, COMPLETE_LANGUAGE},
     {0},
@@ -283,6 +284,17 @@ static void repeat_later(Prompt *prompt, const PromptCommand *command, const cha
     }
 }
 
+// Runs a command whose operand is complete. In expressions, `_` is an earlier value.
+static void run_with(Prompt *prompt, const PromptCommand *command, const char *rest) {
+    SCOPED_TEXT operand = {0};
+    bool is_name = command->complete == COMPLETE_FILES || command->complete == COMPLETE_TOPICS;
+    text_add_c(&operand, is_name ? rest : "");
+    repeat_later(prompt, command, rest);
+    if ((!is_name && !recall_expand(prompt, rest, strlen(rest), &operand)) ||
+        !run_command(prompt, command, operand.bytes))
+        prompt->failed = true;
+}
+
 void prompt_command(Prompt *prompt, const char *line) {
     size_t length = strcspn(line, " \t\n");
     SCOPED_STRING name = memory_strndup(line, length);
@@ -299,8 +311,6 @@ void prompt_command(Prompt *prompt, const char *line) {
     else if (command->needed && rest[0] == '\0')
         prompt_fail(prompt, "%s needs %s", command->name, command->needed);
     else
-        repeat_later(prompt, command, rest);
-    if (command && !prompt->failed && !run_command(prompt, command, rest))
-        prompt->failed = true;
+        run_with(prompt, command, rest);
     texts_free(&candidates);
 }

@@ -4,6 +4,8 @@
 #include "prompt/prompt.h"
 
 #include <ctype.h>
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -155,6 +157,49 @@ static void offer_parameters(Search *search) {
         add_candidate(search, parameter.name);
 }
 
+// Offers the default, current, smallest and largest value of a parameter.
+static void offer_parameter_values(Search *search, const char *name, size_t length) {
+    PetriParameter parameter;
+    for (size_t i = 0; petri_parameter(search->prompt->session, i, &parameter, sizeof parameter); i++) {
+        if (!str_equal(str_from(parameter.name), (Str){name, length}))
+            continue;
+        const double ends[] = {parameter.min, parameter.max};
+        add_candidate(search, parameter.value);
+        add_candidate(search, parameter.default_value);
+        for (int k = 0; k < 2; k++) {
+            char text[40];
+            snprintf(text, sizeof text, "%.15g", ends[k]);
+            if (isfinite(ends[k]))
+                add_candidate(search, text);
+        }
+    }
+}
+
+// Offers the ids of particles.
+static void offer_ids(Search *search) {
+    enum { MAX_IDS = 1000 }; // of each system
+    PetriSession *session = search->prompt->session;
+    PetriSystem system;
+    for (size_t i = 0; petri_system(session, i, &system, sizeof system); i++)
+        for (uint32_t k = 0; k < system.particle_count && k < MAX_IDS; k++) {
+            const char *id = petri_format_value(session, petri_particle_id(session, i, k));
+            add_candidate(search, id ? id : "");
+        }
+}
+
+static void offer_expressions(Search *search, const Expressions *list) {
+    for (size_t i = 0; i < list->count; i++)
+        add_candidate(search, list->items[i].typed);
+}
+
+static void offer_breaks(Search *search) {
+    offer_expressions(search, &search->prompt->breaks);
+}
+
+static void offer_watched(Search *search) {
+    offer_expressions(search, &search->prompt->watched);
+}
+
 static void offer_topics(Search *search) {
     PetriNodeKind kind;
     offer_commands(search);
@@ -168,13 +213,21 @@ static void offer_topics(Search *search) {
 // Completes the operand of a command; `name` is the length of the command's name.
 static void search_operand(Search *search, const char *line, size_t name, size_t length) {
     static void (*const offers[])(Search *) = {
-        [COMPLETE_FILES] = offer_files, [COMPLETE_SYSTEMS] = offer_systems,       [COMPLETE_KEYS] = offer_keys,
-        [COMPLETE_KINDS] = offer_kinds, [COMPLETE_PARAMETERS] = offer_parameters, [COMPLETE_TOPICS] = offer_topics,
+        [COMPLETE_BREAKS] = offer_breaks,   [COMPLETE_IDS] = offer_ids,
+        [COMPLETE_WATCHED] = offer_watched, [COMPLETE_FILES] = offer_files,
+        [COMPLETE_SYSTEMS] = offer_systems, [COMPLETE_KEYS] = offer_keys,
+        [COMPLETE_KINDS] = offer_kinds,     [COMPLETE_PARAMETERS] = offer_parameters,
+        [COMPLETE_TOPICS] = offer_topics,
     };
     size_t start = name + strspn(line + name, " \t");
     begin_search(search, line, start < length ? start : length, length);
     const PromptCommand *command = prompt_find_command(line, name);
-    if (command && command->complete != COMPLETE_LANGUAGE)
+    size_t word = start + strcspn(line + start, " \t");
+    if (command && command->complete == COMPLETE_PARAMETERS && word < length) {
+        size_t value = word + strspn(line + word, " \t");
+        begin_search(search, line, value, length);
+        offer_parameter_values(search, line + start, word - start);
+    } else if (command && command->complete != COMPLETE_LANGUAGE)
         offers[command->complete](search);
     else
         search_language(search, line, length);

@@ -20,7 +20,10 @@ typedef struct Filter {
     size_t depth;       // depth of the node whose subtree is being written; SIZE_MAX: none
     size_t found;       // number of matching entries or nodes
     size_t lines;       // number of selected lines
-    size_t max_lines;   // only the first max_lines selected lines are written
+    size_t rows;        // their height on the screen
+    size_t columns;     // width of the screen; 0: lines are counted, whatever their length
+    size_t omitted;     // number of selected lines that were not written
+    size_t max_lines;   // maximum height of the lines that are written
     void (*handle_line)(struct Filter *filter, const char *line, size_t length);
 } Filter;
 
@@ -52,16 +55,22 @@ static size_t print_filtered(Prompt *prompt, unsigned section, Filter *filter) {
 }
 
 static void write_line(Filter *filter, const char *line, size_t length) {
-    if (filter->lines++ < filter->max_lines)
+    // A long line takes several lines of the screen. The first line is always written.
+    size_t columns = filter->columns,
+           rows = columns == 0 ? 1 : (utf8_length((Str){line, length - 1}) + columns - 1) / columns;
+    filter->rows += rows > 1 ? rows : 1;
+    if (filter->lines++ == 0 || filter->rows <= filter->max_lines)
         output_write(filter->prompt->output, line, length);
+    else
+        filter->omitted++;
 }
 
 // Writes a note about the number of omitted lines and how to see them. `asked` is the operand without its number of
 // lines.
 static void note_remaining(const Filter *filter, const char *command, const char *asked) {
-    if (filter->lines > filter->max_lines) {
-        prompt_note(filter->prompt, "%zu more lines; '%s%s%s all' shows all lines", filter->lines - filter->max_lines,
-                    command, asked[0] == '\0' ? "" : " ", asked);
+    if (filter->omitted > 0) {
+        prompt_note(filter->prompt, "%zu more lines; '%s%s%s all' shows all lines", filter->omitted, command,
+                    asked[0] == '\0' ? "" : " ", asked);
     }
 }
 
@@ -79,6 +88,13 @@ static void filter_entry(Filter *filter, const char *line, size_t length) {
     }
 }
 
+// Returns the width of the screen if lines are omitted because they do not fit on it, else 0. `given` is true if the
+// user has given a number of lines.
+static size_t fitted_columns(Prompt *prompt, bool given) {
+    const PromptHost *host = prompt->host;
+    return !given && host->columns && host->rows && host->rows(prompt) != SIZE_MAX ? host->columns(prompt) : 0;
+}
+
 static bool run_state(Prompt *prompt, const char *rest) {
     SCOPED_STRING asked = memory_strdup(rest);
     // If the operand is only a number, the number is the wanted key, not the number of lines.
@@ -89,7 +105,11 @@ static bool run_state(Prompt *prompt, const char *rest) {
     size_t length = strlen(prefix) - enclosed;
     length -= enclosed && length > 0 && prefix[length] == ')';
     SCOPED_STRING wanted = memory_strndup(prefix + enclosed, length);
-    Filter filter = {.wanted = wanted, .prompt = prompt, .handle_line = filter_entry, .max_lines = max_lines};
+    Filter filter = {.wanted = wanted,
+                     .prompt = prompt,
+                     .handle_line = filter_entry,
+                     .max_lines = max_lines,
+                     .columns = fitted_columns(prompt, strlen(asked) < strlen(rest))};
     if (print_filtered(prompt, PETRI_PRINT_STATE, &filter) == 0)
         prompt_note(prompt, wanted[0] == '\0' ? "the state is empty" : "the state has no entry under %s", wanted);
     note_remaining(&filter, ".state", asked);
@@ -117,7 +137,11 @@ static bool run_tree(Prompt *prompt, const char *rest) {
     prompt_busy(prompt);
     PetriStatus status = petri_preview(prompt->session);
     prompt_idle(prompt);
-    Filter filter = {.prompt = prompt, .wanted = kind, .handle_line = filter_node, .max_lines = max_lines};
+    Filter filter = {.prompt = prompt,
+                     .wanted = kind,
+                     .handle_line = filter_node,
+                     .max_lines = max_lines,
+                     .columns = fitted_columns(prompt, strlen(asked) < strlen(rest))};
     if (status == PETRI_OK && print_filtered(prompt, PETRI_PRINT_TREE, &filter) == 0)
         prompt_note(prompt, kind[0] == '\0' ? "the frame has no nodes" : "the frame has no node !%s", kind);
     note_remaining(&filter, ".tree", asked);
@@ -159,7 +183,7 @@ static bool print_systems(Prompt *prompt, const SystemRequest *request,
 static void add_vector(TextTable *table, const double *vector, uint32_t dimensions) {
     SCOPED_TEXT cell = {0};
     for (uint32_t k = 0; k < dimensions && vector; k++)
-        text_add_format(&cell, "%s%.6g", k == 0 ? "" : ";", vector[k]);
+        text_add_format(&cell, isnan(vector[k]) ? "%snan" : "%s%.6g", k == 0 ? "" : ";", vector[k]);
     text_table_add(table, !vector ? "-" : cell.bytes);
 }
 
@@ -280,6 +304,6 @@ const PromptCommand PRINT_COMMANDS[] = {
      COMPLETE_SYSTEMS},
     {".watch", "[EXPR]", NULL, "print EXPR after each step; without EXPR, list the watched expressions", run_watch,
      COMPLETE_LANGUAGE},
-    {".unwatch", "[EXPR]", NULL, "stop watching EXPR, or everything", run_unwatch, COMPLETE_LANGUAGE},
+    {".unwatch", "[EXPR]", NULL, "stop watching EXPR, or everything", run_unwatch, COMPLETE_WATCHED},
     {0},
 };

@@ -4,16 +4,34 @@
 #include <stdlib.h>
 #include <string.h>
 
+// Writes to the output and keeps what is written; a PetriWriteCallback.
+typedef struct Printed {
+    Output *output;
+    Text text;
+} Printed;
+
+static bool print_and_keep(void *user_data, const char *text, size_t length) {
+    Printed *printed = user_data;
+    text_add(&printed->text, (Str){text, length});
+    return output_write(printed->output, text, length);
+}
+
 static void execute_statement(Prompt *prompt, const char *text, size_t length) {
     PetriPromptResult done;
+    SCOPED_TEXT recalled = {0};
     SCOPED_TEXT expanded = {0};
-    if (!expression_expand(prompt, text, &expanded))
+    Printed printed = {.output = prompt->output};
+    if (!recall_expand(prompt, text, length, &recalled) || !expression_expand(prompt, recalled.bytes, &expanded))
         return;
+    if (expanded.len == 0)
+        text_add(&expanded, text_str(&recalled));
     prompt_busy(prompt);
-    bool same = expanded.len == 0;
-    PetriStatus status = petri_prompt(prompt->session, same ? text : expanded.bytes, same ? length : expanded.len,
-                                      output_write, prompt->output, &done, sizeof done);
+    PetriStatus status =
+        petri_prompt(prompt->session, expanded.bytes, expanded.len, print_and_keep, &printed, &done, sizeof done);
     prompt_idle(prompt);
+    if (status == PETRI_OK && done.values > 0)
+        recall_add_value(prompt, &printed.text);
+    text_free(&printed.text);
     if (done.shadowed) {
         SCOPED_STRING name = memory_strdup(done.shadowed);
         prompt_warn_shadowed(prompt, name);
@@ -38,9 +56,10 @@ static void execute_text(Prompt *prompt, const char *text, size_t length) {
 
 bool prompt_execute(Prompt *prompt, const char *text, size_t length) {
     prompt->failed = false;
-    if (text[strspn(text, " \t\n")] != '\0')
+    if (text[strspn(text, " \t\n")] != '\0') {
+        recall_add_input(prompt, text);
         execute_text(prompt, text, length);
-    else if (prompt->repeated)
+    } else if (prompt->repeated)
         prompt_command(prompt, prompt->repeated);
     output_flush(prompt->output);
     return !prompt->failed;
@@ -49,6 +68,8 @@ bool prompt_execute(Prompt *prompt, const char *text, size_t length) {
 void prompt_end(Prompt *prompt) {
     expressions_free(&prompt->watched);
     expressions_free(&prompt->breaks);
+    texts_free(&prompt->inputs);
+    texts_free(&prompt->values);
     free(prompt->repeated);
     texts_free(&prompt->definitions);
 }

@@ -8,6 +8,7 @@
 //   commands.c               table of all commands, and help
 //   *_commands.c, why_command.c   the commands
 //   breaks.c                 conditions that end commands
+//   recall.c                 earlier values and inputs
 //   expression.c             expressions that depend on the frame before
 //   arguments.c              their operands
 //   messages.c               notes, messages and interruption
@@ -115,6 +116,8 @@ struct Prompt {
 
     Expressions watched;  // expressions that are printed after each step
     Expressions breaks;   // expressions that end stepping commands
+    TextList inputs;      // earlier inputs, oldest first
+    TextList values;      // printed forms of earlier values, oldest first
     char *repeated;       // the last stepping command, which an empty input repeats; NULL: none
     TextList definitions; // definitions NAME=VALUE from -D and .set
     bool failed;          // true if the current input has failed
@@ -194,12 +197,15 @@ PetriStatus breaks_search(Prompt *prompt, BreakSearch *search, int64_t min);
 // its function.
 typedef enum Completes {
     COMPLETE_LANGUAGE,
+    COMPLETE_BREAKS,
     COMPLETE_FILES,
+    COMPLETE_IDS,
     COMPLETE_KEYS,
     COMPLETE_KINDS,
     COMPLETE_PARAMETERS,
     COMPLETE_SYSTEMS,
-    COMPLETE_TOPICS
+    COMPLETE_TOPICS,
+    COMPLETE_WATCHED
 } Completes;
 typedef struct PromptCommand {
     const char *name;     // with its dot
@@ -211,13 +217,22 @@ typedef struct PromptCommand {
     Completes complete; // how the operand is completed
 } PromptCommand;
 // Each table ends with a row without a name.
-extern const PromptCommand STEP_COMMANDS[], BREAK_COMMANDS[], PRINT_COMMANDS[], WHY_COMMANDS[], SET_COMMANDS[],
-    PICTURE_COMMANDS[], HOST_COMMANDS[], OTHER_COMMANDS[];
+extern const PromptCommand STEP_COMMANDS[], BREAK_COMMANDS[], RECALL_COMMANDS[], PRINT_COMMANDS[], WHY_COMMANDS[],
+    SET_COMMANDS[], PICTURE_COMMANDS[], HOST_COMMANDS[], OTHER_COMMANDS[];
 // Returns the command at an index, in the order of .help. Returns NULL after the last command.
 const PromptCommand *prompt_command_at(size_t index);
 // Returns the command with this name, with or without the dot, or NULL. Names are not shortened.
 const PromptCommand *prompt_find_command(const char *name, size_t length);
 void prompt_command(Prompt *prompt, const char *line);
+
+// Earlier inputs and values (recall.c).
+// Keeps an input, without blanks at its ends.
+void recall_add_input(Prompt *prompt, const char *text);
+// Keeps the value in the last line of what an input has printed, unless it is a node.
+void recall_add_value(Prompt *prompt, const Text *output);
+// Appends a text to `out` with each `_` replaced by the last value, and `_1`, `_2` ... by the values before it. Returns
+// false after a message.
+bool recall_expand(Prompt *prompt, const char *text, size_t length, Text *out);
 
 // Commands without a dot (bare.c; bare_alias is in commands.c).
 // Executes the text if its first word is `help`, `?`, `h`, `quit`, `exit` or `q`. If the first word is the name of

@@ -198,6 +198,6 @@ static bool run_why(Prompt *prompt, const char *rest) {
 
 const PromptCommand WHY_COMMANDS[] = {
     {".why", "ID [N|all]", "the id of a particle",
-     "print the forces on a particle; `all` or N lists single contributions", run_why, COMPLETE_LANGUAGE},
+     "print the forces on a particle; `all` or N lists single contributions", run_why, COMPLETE_IDS},
     {0},
 };

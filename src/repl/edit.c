@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <histedit.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -124,7 +125,12 @@ static unsigned char handle_enter(EditLine *line, wint_t character) {
     el_cursor(line, (int)text.len); // moves the cursor to the end, because libedit stops there
     if (!more)
         return push_keys(line, KEY_ACCEPT);
-    return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;
+    // Pasted lines have their own indentation; the rest of them waits.
+    struct pollfd input = {STDIN_FILENO, POLLIN, 0};
+    size_t blanks = poll(&input, 1, 0) > 0 ? 0 : line_indentation(editor->repl, text.bytes, text.len);
+    SCOPED_TEXT next = {0};
+    text_add_format(&next, "\n%*s", (int)blanks, "");
+    return el_insertstr(line, next.bytes) == 0 ? CC_REFRESH : CC_ERROR;
 }
 
 // Alt-Enter: inserts a line feed at the cursor.
@@ -309,12 +315,12 @@ void editor_free(Editor *editor) {
     free(editor);
 }
 
-// Adds a block to the history as one entry, without the empty line at its end.
+// Adds a block to the history as one entry, without the blank line at its end.
 static void add_to_history(Editor *editor, const Text *lines) {
     HistEvent event;
     enum { MAX_BLOCK_LENGTH = 10000 };
     size_t length = lines->len;
-    while (length > 0 && lines->bytes[length - 1] == '\n')
+    while (length > 0 && strchr(" \n", lines->bytes[length - 1]))
         length--;
     if (length == 0 || length > MAX_BLOCK_LENGTH)
         return;

@@ -160,6 +160,17 @@ bool line_needs_more(Repl *repl, const char *text, size_t length, size_t *consum
     return petri_prompt_check(repl->prompt.session, text, length) != PETRI_COMPLETE;
 }
 
+size_t line_indentation(Repl *repl, const char *text, size_t length) {
+    enum { INDENTATION = 4 };
+    size_t last = last_line(text, length), own = strspn(text + last, " ");
+    PetriCompleteness all = petri_prompt_check(repl->prompt.session, text, length);
+    // Nodes may have children. Those of the first line often have, others rarely.
+    bool opens =
+        petri_prompt_check(repl->prompt.session, text + last + own, length - last - own) == PETRI_NEEDS_BLOCK ||
+        (last == 0 && all == PETRI_EXTENDABLE);
+    return own + (opens && all != PETRI_INCOMPLETE ? INDENTATION : 0);
+}
+
 // Appends the path of the history file. Returns false if the environment names no folder for it.
 static bool file_path(Text *path) {
     const char *folder = getenv("XDG_STATE_HOME"), *home = getenv("HOME");

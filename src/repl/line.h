@@ -22,6 +22,9 @@ LineStatus line_read(LineReader *reader, const char *prompt, Text *line);
 // the blank line after a block.
 bool line_needs_more(Repl *repl, const char *text, size_t length, size_t *consumed);
 bool line_is_blank(const char *line);
+// Returns the number of blanks with which the line after `text` probably begins. The lines of `text` all end with a
+// line feed, and its statement needs more lines.
+size_t line_indentation(Repl *repl, const char *text, size_t length);
 
 // For the editor.
 

@@ -63,6 +63,8 @@ HOST(archived_file) void host_archived_file(const char *name, double frame, cons
 // Lets the host of a prompt act: "step"; "goTo" a frame; "set" the parameter `name` to `value`; "run" the script;
 // "plot" the expression `name`. Returns the PetriStatus.
 HOST(prompt) int host_prompt(const char *act, double frame, const char *name, const char *value);
+// Returns true if a regular expression matches a part of a text.
+HOST(matches) bool host_matches(const char *pattern, const char *text);
 HOST(token) void host_token(int kind, size_t start, size_t end);
 // Receives a row of the help tables.
 HOST(help)

@@ -97,7 +97,9 @@ if [ $edits = yes ]; then
     expect "a node and its attributes are completed" '^@1> !particle radius=1 charge=$'
     type_keys C-u '$(:cells;1' '\;' Tab Enter
     expect "a key of the state is completed" '^@1> \$(:cells;1;:velocity)$'
-    type_keys '.help !elec' Tab Enter
+    type_keys '.why :h' Tab
+    expect "the id of a particle is completed" '^@1> \.why :home$'
+    type_keys C-u '.help !elec' Tab Enter
     expect "a topic is completed" '^!electrostatic (physics)'
     type_keys '.load bro' Tab Enter
     expect "a file is completed" 'broken.fl:1:11: error: '
@@ -192,6 +194,21 @@ if [ $edits = yes ]; then
     type_keys C-l 'for i in ..3' Enter Tab 'if i' Enter Tab Tab 'i*11' Enter Enter
     expect "Tab indents at the start of a line" '^        i\*11$'
     expect "a block indented by Tab is executed" '^11;22$'
+    type_keys C-l 'func q(i)' Enter
+    expect "a block is begun" '^petri> func q(i)$'
+    sleep 0.3
+    type_keys 'hypot(i)'
+    expect "the line after the head of a block is indented" '^    hypot(i)$'
+    type_keys Enter
+    sleep 0.3
+    type_keys '+1'
+    expect "a line of a block is indented like the line above" '^    +1$'
+    type_keys Enter
+    sleep 0.3
+    type_keys Enter 'q(3)' Enter
+    expect "an indented empty line ends the block" '^3;1$'
+    type_keys '_*2' Enter
+    expect "_ is the last value" '^6;2$'
     type_keys C-l 'let five=5' Down '+1' Enter 'five' Enter
     expect "Down in the last line does not change the line" '^6$'
     expect "the prompt appears after Down" '^petri> *$'

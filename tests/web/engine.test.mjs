@@ -70,7 +70,7 @@ test('petri.d.ts declares exactly the methods that exist', () => {
     const declared = [...types.matchAll(/^ {4}(?:readonly )?(\w+)[(:]/gm)].map(match => match[1]).sort();
     const session = engine.open();
     const inner = ['constructor', 'run', 'check', 'with', 'report', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'imagePixels',
-        'openPainter', 'closePainter', 'forgetPicture', 'drawList', 'servePainter'];
+        'openPainter', 'closePainter', 'forgetPicture', 'drawList', 'servePainter', 'actForPrompt'];
     const real = Object.getOwnPropertyNames(Object.getPrototypeOf(session)).filter(name => !inner.includes(name)).sort();
     assert.deepEqual(declared, real);
     session.close();
@@ -276,4 +276,18 @@ test('sessions are independent, and closing them frees all memory', () => {
     for (let i = 0; i < 40; i++)
         round();
     assert.equal(grown(), before);
+});
+
+// The engine uses the regular expressions of JavaScript for hints.
+test('mistakes from other languages have the hints of petri check', () => {
+    const rows = read('tests/cli/syntax_hints.txt').split('\n').filter(row => row && !row.startsWith('#'));
+    const session = engine.open();
+    for (const row of rows) {
+        const [wrong, message, hint] = row.split(' ~ '), text = wrong.replace(/\\([nt\\])/g, (_, c) => ({ n: '\n', t: '\t' })[c] ?? c);
+        const rendered = session.diagnose(`${text}\n`, 'mistake.fl').map(one => one.rendered).join('');
+        assert.ok(rendered.includes(`mistake.fl:${message}`), `${wrong}: ${rendered}`);
+        assert.ok(hint === '-' || rendered.split('\n').includes(`    ${hint}`), `${wrong}: ${rendered}`);
+    }
+    session.close();
+    assert.ok(rows.length > 100);
 });

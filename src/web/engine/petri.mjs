@@ -91,6 +91,7 @@ class Engine {
             archived_file: (name, frame, at, length) =>
                 now().results.push({ name: text(name), frame, bytes: this.memory.bytes().slice(at, at + length) }),
             prompt: (act, frame, name, value) => now().actForPrompt(text(act), frame, text(name), text(value)),
+            matches: (pattern, string) => (new RegExp(text(pattern)).test(text(string)) ? 1 : 0),
             token: (kind, start, end) => now().results.push({ kind: TOKENS[kind], start, end }),
             help: (kind, name, parameters, defaultValue, unit, help) =>
                 now().results.push({
@@ -306,8 +307,8 @@ export class Session {
             ? { name: this.results[0].key, id: this.results[0].value } : null;
     }
 
-    // Describes a particle of the last frame, given as by `pick`: entries of the state, the node that makes it, and the contributions to the
-    // force on it, as by `explain`. `note` is the reason why something is missing.
+    // Describes a particle of the last frame, given as by `pick`: entries of the state, the node that makes it, and the contributions to
+    // the force on it, as by `explain`. `note` is the reason why something is missing.
     describe({ name, id }) {
         this.check('explain the force', this.with(name, (wasm, at) =>
             this.memory.withText(id, text => wasm.web_describe(this.handle, at, text))));
