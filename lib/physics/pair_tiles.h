@@ -70,8 +70,17 @@ KERNEL Mask add_fused(const PairPass *pass, PairShape shape, Rows *rows, bool di
     for (size_t c = 0; c < 2; c++) {
         pair[c].length = length[c];
         pair_direct(shape, inverse[c], &pair[c]);
-        add_forces(pass, shape, rows, &partner[c], &pair[c], lead_applies, tile, k + c);
     }
+    // One branch for both columns, because most columns have no contacts, and branches separate their instructions.
+    bool contact = shape.rest != REST_NONE && mask_any(pair_in_contact(&pair[0]) | pair_in_contact(&pair[1]));
+    if (rest_needs_contact(shape) && __builtin_expect(!contact, 1))
+        shape.rest = REST_NONE;
+    if (shape.rest == REST_NONE)
+        for (size_t c = 0; c < 2; c++)
+            add_forces(pass, shape, rows, &partner[c], &pair[c], lead_applies, tile, k + c);
+    else
+        for (size_t c = 0; c < 2; c++)
+            add_forces(pass, shape, rows, &partner[c], &pair[c], lead_applies, tile, k + c);
     return exact;
 }
 
