@@ -1,7 +1,8 @@
 // tree_sitter.c: prints the syntax tree that the tree-sitter grammar builds, in the form of `petri run --dump=ast`.
 //
 // usage: tree_sitter FILE... Prints "FILE" and the tree, or "error LINE:COLUMN", for each file. `--query FILE` checks
-// the query in that file; after `--captures FILE`, prints the captures of that query instead of trees.
+// the query in that file; after `--captures FILE`, prints the captures of that query instead of trees; after `--own`,
+// prints trees as tree-sitter does, with errors.
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -50,6 +51,12 @@ static void print_place(const char *text, TSNode node) {
 }
 
 static void print_node(const char *text, TSNode node, int depth);
+
+static void print_own(TSNode root) {
+    char *tree = ts_node_string(root);
+    puts(tree);
+    free(tree);
+}
 
 static void print_line(const char *kind, int depth) {
     printf("%*s%s\n", 2 * depth, "", kind);
@@ -173,6 +180,7 @@ static void print_captures(const char *text, TSNode root, const TSQuery *query) 
 
 int main(int argc, char **argv) {
     TSQuery *captures = NULL;
+    bool own = false;
     TSParser *parser = ts_parser_new();
     if (!ts_parser_set_language(parser, tree_sitter_flitter()))
         return 1;
@@ -186,6 +194,10 @@ int main(int argc, char **argv) {
             captures = captures_follow ? query : captures;
             continue;
         }
+        if (strcmp(argv[i], "--own") == 0) {
+            own = true;
+            continue;
+        }
         uint32_t length;
         char *text = read_file(argv[i], &length);
         TSTree *tree = text ? ts_parser_parse_string(parser, NULL, text, length) : NULL;
@@ -193,7 +205,9 @@ int main(int argc, char **argv) {
             return 1;
         puts(argv[i]);
         TSNode root = ts_tree_root_node(tree);
-        if (ts_node_has_error(root)) {
+        if (own) {
+            print_own(root);
+        } else if (ts_node_has_error(root)) {
             printf("error");
             print_place(text, find_error(root));
             puts("");

@@ -1,12 +1,14 @@
 """tree_sitter.py: the tree-sitter grammar accepts the scripts that petri accepts, builds the same trees and classifies the
-tokens in the same way.
+tokens in the same way. The corpus for `tree-sitter test` has the trees of the grammar.
 
 usage: tree_sitter.py PATH-OF-PETRI PATH-OF-PRINTER PATH-OF-PROJECT HIGHLIGHTS [QUERY...]. PRINTER is tree_sitter.c.
 HIGHLIGHTS is the generated query for colours. All queries must fit the grammar."""
 
+import json
 import re
 import subprocess
 import sys
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -100,6 +102,24 @@ for path, tree, captures in list(zip(scripts, trees, print_all("--captures", hig
     if found != expected:
         faults.append((path, f"classes: {sorted(found.items() ^ expected.items())[:4]}"))
 client.end()
+
+# The corpus for `tree-sitter test`: titles between lines of =, the script, a line of -, the tree.
+folder = root / "src/editors/tree-sitter-flitter"
+examples = re.findall(r"(?ms)^=+\n(.*?)\n=+\n(.*?)\n---\n(.*?)(?=^=+\n|\Z)", (folder / "test/corpus/flitter.txt").read_text())
+for title, script, tree in examples:
+    with tempfile.NamedTemporaryFile("w", suffix=".fl") as file:
+        file.write(script)
+        file.flush()
+        done = subprocess.run([printer, "--own", file.name], capture_output=True, text=True)
+        if done.stdout.split("\n", 1)[1].split() != re.sub(r"\s+\)", ")", tree).split() or "ERROR" in tree:
+            faults.append((title, f"another tree: {done.stdout}"))
+assert len(examples) >= 8, "too few examples in the corpus"
+about = json.loads((folder / "tree-sitter.json").read_text())
+for grammar in about["grammars"]:
+    for query in (grammar[kind] for kind in ("highlights", "locals")):
+        if not (folder / query).exists() and not (folder / (query + ".in")).exists():
+            faults.append(("tree-sitter.json", f"no such query: {query}"))
+assert about["grammars"][0]["name"] == re.search(r'name: "(\w+)"', (folder / "grammar.js").read_text())[1]
 
 for path, fault in faults:
     print(f"{path}: {fault}")
