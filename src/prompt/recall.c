@@ -28,7 +28,7 @@ void recall_add_value(Prompt *prompt, const Text *output) {
     for (start = end; start > 0 && output->bytes[start - 1] != '\n';)
         start--;
     if (end - start > MAX_VALUE_BYTES || end == start || output->bytes[start] == '!')
-        return; // nodes are not kept, because their printed form is no expression
+        return; // nodes are not kept, because their printed form is not an expression
     SCOPED_STRING value = memory_strndup(output->bytes + start, end - start);
     if (prompt->values.count == MAX_VALUES)
         drop_first(&prompt->values);
@@ -64,11 +64,8 @@ static void replace_token(void *user_data, const PetriToken *token) {
     if ((end && end != word.bytes + word.len) || is_bound(prompt, word) || !replacement->good)
         return;
     if (ago >= prompt->values.count) {
-        replacement->good =
-            prompt_fail(prompt,
-                        prompt->values.count == 0 ? "'%.*s' is no value yet: no expression was evaluated here"
-                                                  : "'%.*s' is no value: there are fewer earlier values",
-                        (int)word.len, word.bytes);
+        replacement->good = prompt_fail(prompt, "'%.*s' has no value: there are %zu earlier values", (int)word.len,
+                                        word.bytes, prompt->values.count);
         return;
     }
     text_add(replacement->out, (Str){replacement->text + replacement->copied, token->start - replacement->copied});
