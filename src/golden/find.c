@@ -20,7 +20,7 @@ static void add_test(TestList *list, const TestKind *kind, const char *script, c
 static void add_file(TestList *list, const TestKind *kind, const char *path) {
     SCOPED_STRING script = kind_path(path, ".fl");
     add_test(list, kind, script, memory_strdup(path));
-    if (file_exists(script))
+    if (kind->names_script || file_exists(script))
         return;
     TestCase *test = &list->items[list->count - 1];
     test->result.name = test->recorded;

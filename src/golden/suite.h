@@ -35,6 +35,7 @@ typedef struct RunOutput {
 struct TestKind {
     const char *suffix; // of the file, such as ".golden"
     bool follows_runs;  // true if a difference can be followed with `petri diff`
+    bool names_script;  // true if the file names its script itself, which need not be NAME.fl
     bool own_name;      // true if results have the name of the file, false if they have that of the script
     // Reads the file and adds the words of the command to execute in the script's folder, after the program. On failure
     // returns false and adds the reason to result.error_text.
@@ -85,6 +86,10 @@ void rejection_end(const Options *options, TestCase *test, const RunOutput *run)
 // Returns the contents of an .err file for the errors of a run of the script `name`: `line N` and the messages. Empty
 // if no error has a line.
 Text rejection_text(const char *name, const Text *errors);
+
+// session.c: NAME.session, transcripts of `petri repl`.
+bool session_begin(const Options *options, TestCase *test, TextList *words);
+void session_end(const Options *options, TestCase *test, const RunOutput *run);
 
 // execute.c: execution of one test.
 

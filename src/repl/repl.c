@@ -210,6 +210,8 @@ static const PromptHost HOST = {
 
 static int repl_run(const CommandContext *context, Options *options) {
     const Own *own = options->own;
+    if (options->script && transcript_is_named(options->script))
+        return transcript_run(context, options->script);
     Repl repl = {.options = options, .output.fd = STDOUT_FILENO};
     repl.prompt = (Prompt){
         .host = &HOST, .user_data = &repl, .output = &repl.output, .limit = own->limit, .colour = options->colour};
@@ -252,7 +254,9 @@ const Command REPL_COMMAND = {
         "Reads code and commands. Prints the values of expressions; keeps let, func, import and nodes. Commands begin\n"
         "with a dot: .step computes a frame, .help lists the others. When the script changes, it is reloaded and its\n"
         "state is kept. Ctrl-C interrupts; Ctrl-D or .quit quits. Exits with 0, or with 1 if input from a file or a\n"
-        "pipe had an error.",
+        "pipe had an error. The output of such a session can be kept as NAME.session: 'petri repl NAME.session' "
+        "repeats\n"
+        "its inputs, and 'petri test NAME.session' compares the answers.",
     .examples = "  petri repl dish.fl                              then: .step 60, .particles 5, .help\n"
                 "  petri repl                                      start without a script\n",
     .no_stdin = "cannot read the script from standard input: the prompt uses it",

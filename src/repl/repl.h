@@ -4,6 +4,7 @@
 //   repl.c                   the session: reads input, which the prompt executes; functions of the host
 //   line.c, edit.c           reading lines, with libedit on a terminal
 //   plot.c, record.c, script.c, show.c   commands that only this host has
+//   transcript.c             repeating a recorded session
 //   interrupt.c              Ctrl-C
 #pragma once
 
@@ -56,6 +57,12 @@ bool repl_report_changes(Repl *repl, bool at_prompt);
 void repl_refresh(Prompt *prompt);
 // Watches the script and all files that it uses.
 void repl_watch_files(Repl *repl);
+
+// Repeats a session (transcript.c). A file with this suffix is a transcript.
+#define TRANSCRIPT_SUFFIX ".session"
+bool transcript_is_named(const char *path);
+// Runs the prompt with the inputs of a transcript and prints the new one. Returns the exit status.
+int transcript_run(const CommandContext *context, const char *path);
 
 // The commands, as PromptHostCommand.run.
 bool repl_run_load(Prompt *prompt, const char *rest);

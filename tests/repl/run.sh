@@ -1,20 +1,18 @@
 #!/bin/sh
-# run.sh PETRI [--update] [FILE...]: replays recorded sessions of `petri repl` and compares the output.
-#
-# NAME.session is a transcript. Its first line holds the options, `# repl [VARIABLE=VALUE...] [options] [SCRIPT]`.
-# Lines that begin with a prompt (`petri> `, `@12> `, `... `) are input, all others output; the last line is the exit
-# status. If the last prompt is empty, it is the end of the input. Times such as `147 us` are not compared.
-# `petri test` must reproduce the goldens that a session records.
+# run.sh PETRI [--update] [FILE...]: repeats recorded sessions of `petri repl` with `petri test`, each in its own copy of
+# this folder, because sessions write files. `petri test` must also reproduce the goldens that a session records.
+# Without FILE, also tests the transcripts themselves.
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 shift
-update=no
+update=
 if [ "${1:-}" = --update ]; then
-    update=yes
+    update=--update
     shift
 fi
-[ $# -gt 0 ] || set -- "$here"/*.session
+all=
+[ $# -gt 0 ] || { all=yes && set -- "$here"/*.session; }
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
@@ -22,65 +20,67 @@ unset NO_COLOR
 passed=0
 failed=0
 
-# typed SESSION: prints the input, which is the text after the prompts.
-typed() {
-    awk '
-        match($0, /^(petri|@[0-9]+)> /) || match($0, /^\.\.\. /) { line[++count] = substr($0, RLENGTH + 1) }
-        END {
-            last = count - (line[count] == "")
-            for (i = 1; i <= last; i++)
-                print line[i]
-        }' "$1"
+# check NAME COMMAND...: counts a check and, if the command fails, prints the output of the last `petri test`.
+check() {
+    name=$1
+    shift
+    if "$@"; then
+        passed=$((passed + 1))
+        echo "ok $name"
+    else
+        failed=$((failed + 1))
+        echo "FAIL $name"
+        cat "$work/out"
+    fi
 }
-
-plain_times() { sed -E 's/^-- [0-9.e+-]+ (s|ms|us|ns)(,|$)/-- TIME\2/' "$1"; }
+run() { "$petri" test "$@" >"$work/out" 2>&1; }
+has() { grep -Fq -e "$1" "$work/out"; }
 
 for session in "$@"; do
     name=$(basename "$session" .session)
     folder=$work/$name
     mkdir "$folder"
-    cp -R "$here"/*.fl "$here"/lib "$folder"/
-    options=$(sed -n '1s/^# repl *//p' "$session")
-    typed "$session" >"$work/in"
-    (
-        cd "$folder" || exit 1
-        # shellcheck disable=SC2086 # options are words
-        set -- $options
-        variables=
-        while [ $# -gt 0 ]; do
-            case $1 in
-            [A-Z]*=*) variables="$variables $1" && shift ;;
-            *) break ;;
-            esac
-        done
-        echo "# repl${options:+ $options}"
-        # shellcheck disable=SC2086 # variables are words
-        env LC_ALL=C $variables timeout 60 "$petri" repl "$@" <"$work/in" 2>&1
-        echo "# exit status $?"
-    ) >"$work/out"
-    plain_times "$work/out" >"$work/got"
-    plain_times "$session" >"$work/want"
-    if cmp -s "$work/want" "$work/got"; then
-        passed=$((passed + 1))
-        echo "ok $name"
-    elif [ $update = yes ]; then
-        cp "$work/got" "$session"
+    cp -R "$here"/*.fl "$here"/lib "$session" "$folder"/
+    check "$name" run $update "$folder/$name.session"
+    [ -z "$update" ] || cmp -s "$folder/$name.session" "$session" || {
+        cp "$folder/$name.session" "$session"
         echo "updated $name"
-    else
-        failed=$((failed + 1))
-        echo "FAIL $name"
-        diff "$work/want" "$work/got"
-    fi
-    if ls "$folder"/*.golden >/dev/null 2>&1; then
-        if "$petri" test "$folder" >"$work/test" 2>&1; then
-            passed=$((passed + 1))
-            echo "ok $name: petri test reproduces its goldens"
-        else
-            failed=$((failed + 1))
-            echo "FAIL $name: petri test reproduces its goldens"
-            cat "$work/test"
-        fi
-    fi
+    }
+    set -- "$folder"/*.golden
+    [ ! -f "$1" ] || check "$name: petri test reproduces its goldens" run "$@"
 done
+
+if [ -n "$all" ]; then
+    mkdir "$work/own"
+    cd "$work/own" || exit 1
+    printf '!counter state=:n rate=60\n' >count.fl
+    printf '.step 3\n$:n\n.step 1+\n.time 1\n' >inputs
+    "$petri" repl count.fl <inputs >count.session 2>/dev/null
+    check "what petri repl prints is a transcript, but for its messages" [ "$(head -n 1 count.session)" = "petri> .step 3" ]
+    run count.session
+    check "a missing message is a difference" has "the answers differ"
+    check "the difference is shown" has "+prompt:1:3: error: "
+    check "the name of the test is that of the file" has "FAIL count.session"
+    run --update count.session
+    check "--update records the messages" grep -q '^prompt:1:3: error: ' count.session
+    check "--update records the exit status" grep -qx '# exit status 1' count.session
+    check "the recorded session passes" run .
+    check "the folder has one test" has "1 passed, 0 failed"
+    sed 's/ *$//; s/^-- [0-9.e-]* [munk]*s,/-- 77 s,/' count.session >edited && mv edited count.session
+    check "blanks after prompts and times are not compared" grep -q '^@2>$' count.session
+    check "such a session passes" run count.session
+    printf 'petri> 1+1\n3\n' >count.session
+    run count.session
+    check "a wrong answer fails" has "-3"
+    check "the answer is shown" has "+2"
+    printf '# repl -D N=5 other.fl\npetri> N\n5\npetri>\n' >count.session
+    printf 'let N=N or 2\n' >other.fl
+    check "a transcript names its options and script" run count.session
+    printf '# repl nowhere.fl\npetri> 1\n1\n' >alone.session
+    run alone.session
+    check "a missing script is reported where it was" has "+error: cannot read 'nowhere.fl'"
+    : >count.session
+    check "an empty transcript has no inputs" run count.session
+fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
