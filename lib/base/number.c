@@ -1,10 +1,10 @@
 // number.c: see number.h.
 //
-// number_format writes the shortest decimal that parses as the same double. It has three methods, from the fastest to
-// the most general: for integers, for fractions in 128-bit integers, and by trial with printf.
+// number_format does not use printf, which is ten times slower and depends on the locale.
 #include "base/number.h"
 
 #include "base/heap.h"
+#include "base/shortest.h"
 
 #include <locale.h>
 #include <math.h>
@@ -47,186 +47,154 @@ static size_t format_special(double x, char *text) {
     return strlen(word);
 }
 
-// A positive decimal number in the form d.ddd * 10^exponent. `digits` holds `count` digits, and the decimal point is
-// after the first.
-typedef struct Decimal {
-    char digits[20];
-    int count;
-    int exponent;
-} Decimal;
+static const char digit_pairs[] = "0001020304050607080910111213141516171819202122232425262728293031323334353637383940"
+                                  "4142434445464748495051525354555657585960616263646566676869707172737475767778798081"
+                                  "828384858687888990919293949596979899";
 
-static void drop_zeros(Decimal *decimal) {
-    while (decimal->count > 1 && decimal->digits[decimal->count - 1] == '0')
-        decimal->count--;
+static void write_pair(char *at, uint32_t pair) {
+    memcpy(at, digit_pairs + 2 * pair, 2);
 }
 
-__extension__ typedef unsigned __int128 Product;
-
-enum { MAX_DIGITS = 17 };
-// Smallest x for which integer arithmetic is used. Its scale (see Scaled) is 21, and 5^21 has 49 bits.
-#define MIN_FRACTION 1e-5
-#define MIN_17_DIGITS 10000000000000000u // smallest integer with 17 digits
-
-// A double x = significand * 2^exponent, represented exactly as product * 2^-shift in units of 10^-scale. For x from
-// MIN_FRACTION to 2^53 the product is below 2^53 * 5^21 < 2^102.
-typedef struct Scaled {
-    Product product;
-    Product power; // 5^scale; also the distance between x and the next double, in the unit of `product`
-    int shift;
-} Scaled;
-
-static bool scale_by(Scaled *scaled, uint64_t significand, int exponent, int scale) {
-    scaled->power = 1;
-    for (int i = 0; i < scale; i++)
-        scaled->power *= 5;
-    scaled->product = significand * scaled->power;
-    scaled->shift = -(exponent + scale);
-    return scale > 0 && scaled->shift > 0;
+static int count_digits(uint64_t x) {
+    int count = 1;
+    for (uint64_t limit = 10; x >= limit; limit *= 10)
+        count++;
+    return count;
 }
 
-// Returns true if the decimal whole * 10^-scale parses as x. It does if its distance to x is less than half the
-// distance between x and the next double.
-static bool reads_back(const Scaled *scaled, uint64_t whole) {
-    Product there = (Product)whole << scaled->shift;
-    Product distance = there > scaled->product ? there - scaled->product : scaled->product - there;
-    return 2 * distance < scaled->power; // never equal, because a power of five is odd
-}
-
-// Returns x in units of 10^-scale, rounded to a multiple of `unit`, which is a power of ten. Ties are rounded to the
-// even multiple.
-static uint64_t round_units(const Scaled *scaled, uint64_t unit) {
-    Product rest = scaled->product & (((Product)1 << scaled->shift) - 1);
-    uint64_t units = (uint64_t)(scaled->product >> scaled->shift), whole = units / unit;
-    rest += (Product)(units % unit) << scaled->shift;
-    Product half = ((Product)unit << scaled->shift) / 2;
-    return (whole + (rest > half || (rest == half && whole % 2 == 1))) * unit;
-}
-
-// Uses integer arithmetic to find the shortest decimal that parses as x. Returns false for the few x to which this
-// method does not apply.
-static bool shortest_of_fraction(double x, Decimal *decimal) {
-    int exponent;
-    uint64_t significand = (uint64_t)ldexp(frexp(x, &exponent), 53);
-    exponent -= 53;
-    // Powers of two are excluded, because the next lower double is nearer to x than the next higher one.
-    if (!(x >= MIN_FRACTION && x < 9007199254740992.0) || significand == UINT64_C(1) << 52)
-        return false;
-    // `first` estimates the decimal exponent of x, and is exact or too low by one. 78913 / 2^18 approximates log10(2).
-    int first = (int)floor((exponent + 52) * (78913.0 / 262144));
-    Scaled scaled;
-    if (!scale_by(&scaled, significand, exponent, MAX_DIGITS - 1 - first))
-        return false;
-    if (scaled.product >> scaled.shift >= (Product)10 * MIN_17_DIGITS) {
-        first++;
-        if (!scale_by(&scaled, significand, exponent, MAX_DIGITS - 1 - first))
-            return false;
+// Writes the digits of an integer before `end`.
+static void write_digits(uint64_t digits, char *end) {
+    const uint32_t EIGHT_DIGITS = 100000000;
+    for (; digits >= EIGHT_DIGITS; digits /= EIGHT_DIGITS) {
+        uint32_t part = (uint32_t)(digits % EIGHT_DIGITS), high = part / 10000, low = part % 10000;
+        write_pair(end -= 2, low % 100);
+        write_pair(end -= 2, low / 100);
+        write_pair(end -= 2, high % 100);
+        write_pair(end -= 2, high / 100);
     }
-    uint64_t units = 0, unit = 100;
-    for (; unit > 0; unit /= 10) {
-        units = round_units(&scaled, unit);
-        if (unit == 1 || reads_back(&scaled, units))
-            break;
-    }
-    if (units < MIN_17_DIGITS || units >= 10 * MIN_17_DIGITS)
-        return false;
-    decimal->count = MAX_DIGITS;
-    decimal->exponent = first;
-    for (int i = MAX_DIGITS - 1; i >= 0; i--, units /= 10)
-        decimal->digits[i] = (char)('0' + units % 10);
-    drop_zeros(decimal);
-    return true;
+    uint32_t rest = (uint32_t)digits;
+    for (; rest >= 100; rest /= 100)
+        write_pair(end -= 2, rest % 100);
+    if (rest >= 10)
+        write_pair(end - 2, rest);
+    else
+        end[-1] = (char)('0' + rest);
 }
 
-// Finds the shortest decimal for any finite x other than 0 by increasing the precision until the result parses as x.
-static void shortest_by_trial(double x, Decimal *decimal) {
-    char text[NUMBER_TEXT];
-    char point = decimal_point();
-    // 17 digits suffice for every normal double. 15 suffice for most, so the trial starts with 15 digits. Trailing
-    // zeros are dropped below.
-    int precision = fabs(x) >= 2.2250738585072014e-308 ? 15 : 1;
-    for (;; precision++) {
-        snprintf(text, sizeof text, "%.*e", precision - 1, x);
-        if (precision >= 17 || strtod(text, NULL) == x)
-            break;
-        // At a power of two, the interval of decimals that parse as x is half as wide below x as above. So the nearest
-        // decimal may be outside that interval while the next higher decimal of the same length is inside.
-        int binary_exponent;
-        if (fabs(frexp(x, &binary_exponent)) == 0.5) {
-            char *last = strchr(text, 'e') - 1;
-            if (*last >= '0' && *last < '9') {
-                ++*last;
-                if (strtod(text, NULL) == x)
-                    break;
-            }
-        }
-    }
-    replace_char(text, point, '.');
-    decimal->count = 0;
-    const char *at = text;
-    for (; *at != 'e'; at++)
-        if (*at >= '0' && *at <= '9')
-            decimal->digits[decimal->count++] = *at;
-    decimal->exponent = atoi(at + 1);
-    drop_zeros(decimal);
+// The first 17 digits of a number: one, then two words of eight. The first of eight is in the lowest byte.
+typedef struct Digits {
+    char first;
+    uint64_t words[2];
+    int count; // number of digits without zeros at the end
+} Digits;
+
+// Returns eight digits, each in a byte, from 0 to 9. Splits 32-bit halves into pairs of digits, and these into digits;
+// the factors are 1/100 and 1/10 in binary, rounded up.
+static uint64_t eight_digits(uint32_t x) {
+    uint64_t parts = x / 10000 | (uint64_t)(x % 10000) << 32;
+    uint64_t high = (parts * 5243 >> 19) & UINT64_C(0x0000007f0000007f);
+    parts = high | (parts - 100 * high) << 16;
+    high = (parts * 103 >> 10) & UINT64_C(0x000f000f000f000f);
+    return high | (parts - 10 * high) << 8;
 }
 
-// Writes an integer below 2^53, by far the most common case. Returns the length.
-static size_t format_integer(long long whole, bool negative, char *text) {
-    char digits[20], *first = digits + sizeof digits, *at = text;
-    do
-        *--first = (char)('0' + whole % 10);
-    while ((whole /= 10) > 0);
-    if (negative)
-        *at++ = '-';
-    size_t length = (size_t)(digits + sizeof digits - first);
-    memcpy(at, first, length);
-    at[length] = 0;
-    return (size_t)(at - text) + length;
+static Digits split_digits(uint64_t digits) {
+    const uint32_t EIGHT_DIGITS = 100000000;
+    uint64_t first = digits / ((uint64_t)EIGHT_DIGITS * EIGHT_DIGITS);
+    digits %= (uint64_t)EIGHT_DIGITS * EIGHT_DIGITS;
+    uint64_t high = eight_digits((uint32_t)(digits / EIGHT_DIGITS)),
+             low = eight_digits((uint32_t)(digits % EIGHT_DIGITS));
+    int count = low ? 17 - __builtin_clzll(low) / 8 : high ? 9 - __builtin_clzll(high) / 8 : 1;
+    const uint64_t ZEROS = UINT64_C(0x3030303030303030);
+    return (Digits){(char)('0' + first), {high | ZEROS, low | ZEROS}, count};
+}
+
+static void write_word(char *at, uint64_t word) {
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    word = __builtin_bswap64(word);
+#endif
+    memcpy(at, &word, sizeof word);
+}
+
+static void write_all(char *at, const Digits *digits) {
+    *at = digits->first;
+    write_word(at + 1, digits->words[0]);
+    write_word(at + 9, digits->words[1]);
+}
+
+static char *write_scientific(char *at, const Digits *digits, int exponent) {
+    write_all(at + 1, digits);
+    at[0] = at[1];
+    at[1] = '.';
+    at += digits->count > 1 ? digits->count + 1 : 1;
+    *at++ = 'e';
+    *at++ = exponent < 0 ? '-' : '+';
+    uint32_t magnitude = (uint32_t)abs(exponent);
+    if (magnitude >= 100)
+        *at++ = (char)('0' + magnitude / 100);
+    write_pair(at, magnitude % 100);
+    return at + 2;
+}
+
+// Writes the decimal point after `whole` digits.
+static char *write_fixed(char *at, const Digits *digits, int whole) {
+    if (digits->count <= whole) {
+        write_all(at, digits);
+        return at + whole;
+    }
+    write_all(at + 1, digits);
+    if (whole < 8) { // the usual case; reading the bytes again would wait for the processor to write them
+        uint64_t first = (unsigned char)digits->first | digits->words[0] << 8;
+        uint64_t mask = ((uint64_t)1 << 8 * whole) - 1;
+        write_word(at, (first & mask) | (uint64_t)'.' << 8 * whole | (first & ~mask) << 8);
+    } else {
+        memmove(at, at + 1, (size_t)whole);
+        at[whole] = '.';
+    }
+    return at + digits->count + 1;
+}
+
+// Writes a positive number. Returns its end.
+static char *write_decimal(char *at, Decimal decimal) {
+    const uint64_t MIN_17_DIGITS = 10000000000000000;
+    bool shorter = decimal.digits < MIN_17_DIGITS; // often, so without a branch
+    int exponent = decimal.exponent + 16 - shorter;
+    decimal.digits *= shorter ? 10 : 1;
+    for (; decimal.digits < MIN_17_DIGITS; decimal.digits *= 10)
+        exponent--;
+    Digits digits = split_digits(decimal.digits);
+    if (exponent < -4 || exponent > 15)
+        return write_scientific(at, &digits, exponent);
+    if (exponent >= 0)
+        return write_fixed(at, &digits, exponent + 1);
+    memcpy(at, "0.000", 5);
+    at += 1 - exponent;
+    write_all(at, &digits);
+    return at + digits.count;
 }
 
 size_t number_format(double x, char text[NUMBER_TEXT]) {
     if (!isfinite(x))
         return format_special(x, text);
     double magnitude = fabs(x);
-    if (magnitude < 9007199254740992.0 && magnitude == floor(magnitude))
-        return format_integer((long long)magnitude, signbit(x), text);
-    Decimal decimal;
-    if (!shortest_of_fraction(magnitude, &decimal))
-        shortest_by_trial(magnitude, &decimal);
-    const char *digits = decimal.digits;
-    int count = decimal.count, exponent = decimal.exponent;
     char *at = text;
     if (signbit(x))
         *at++ = '-';
-    if (exponent < -4 || exponent > 15) {
-        *at++ = digits[0];
-        if (count > 1) {
-            *at++ = '.';
-            memcpy(at, digits + 1, (size_t)count - 1);
-            at += count - 1;
-        }
-        at += sprintf(at, "e%c%02d", exponent < 0 ? '-' : '+', abs(exponent));
-    } else if (exponent < 0) {
-        *at++ = '0';
-        *at++ = '.';
-        for (int i = exponent; i < -1; i++)
-            *at++ = '0';
-        memcpy(at, digits, (size_t)count);
-        at += count;
+    uint64_t whole = magnitude < 9007199254740992.0 ? (uint64_t)magnitude : 0;
+    if (magnitude != (double)whole) {
+        at = write_decimal(at, number_shortest(magnitude));
+    } else if (whole < 10) { // by far the most common case
+        *at++ = (char)('0' + whole);
     } else {
-        for (int i = 0; i < count || i <= exponent; i++) {
-            if (i == exponent + 1)
-                *at++ = '.';
-            *at++ = i < count ? digits[i] : '0';
-        }
+        at += count_digits(whole);
+        write_digits(whole, at);
     }
     *at = 0;
     return (size_t)(at - text);
 }
 
 void text_add_number(Text *text, double x) {
-    char digits[NUMBER_TEXT];
-    text_add(text, (Str){digits, number_format(x, digits)});
+    text->len += number_format(x, text_reserve(text, NUMBER_TEXT));
 }
 
 size_t number_format_short(double x, char text[NUMBER_TEXT]) {

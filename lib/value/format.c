@@ -177,6 +177,10 @@ static int key_class(const SymbolTable *symbols, Item item) {
 }
 
 static int key_item_compare(const SymbolTable *symbols, Item a, Item b) {
+    // Most keys begin like the key before them.
+    if (a.type == ITEM_NUMBER && b.type == ITEM_NUMBER && a.as.number == b.as.number &&
+        !signbit(a.as.number) == !signbit(b.as.number))
+        return 0;
     int class_a = key_class(symbols, a), class_b = key_class(symbols, b);
     if (class_a != class_b)
         return class_a < class_b ? -1 : 1;

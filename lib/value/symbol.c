@@ -73,6 +73,8 @@ const Symbol *symbol_register(SymbolTable *table, Str name) {
         return NULL;
     if (!hash_index_add(&table->by_number, hash, entry))
         arena_exhausted(table->arena);
+    const Symbol **direct = &table->direct[number_bits(symbol->number) % DIRECT_SYMBOLS];
+    *direct = *direct ? *direct : symbol;
     symbol->registered = true;
     return symbol;
 }
@@ -80,6 +82,9 @@ const Symbol *symbol_register(SymbolTable *table, Str name) {
 const Symbol *symbol_of_number(const SymbolTable *table, double number) {
     if (!(number < -8.9e307)) // symbols are in (-1.8e308, -8.9e307], so most numbers return here
         return NULL;
+    const Symbol *direct = table->direct[number_bits(number) % DIRECT_SYMBOLS];
+    if (direct && direct->number == number)
+        return direct;
     uint32_t entry = hash_index_find(&table->by_number, hash_mix(number_bits(number)), has_number, table, &number);
     return entry == HASH_INDEX_NONE ? NULL : table->items[entry];
 }

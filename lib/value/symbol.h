@@ -16,6 +16,8 @@ typedef struct Symbol {
     bool batched;    // loops store nodes of this kind as batches (value/node_batch.h)
 } Symbol;
 
+enum { DIRECT_SYMBOLS = 64 };
+
 typedef struct SymbolTable {
     Arena *arena; // arena of the session
     Symbol **items;
@@ -23,6 +25,8 @@ typedef struct SymbolTable {
     uint32_t capacity;
     HashIndex by_name;
     HashIndex by_number; // contains only registered symbols
+    // The first registered symbol for each value of the last bits of the number, or NULL. Looked up before by_number.
+    const Symbol *direct[DIRECT_SYMBOLS];
 } SymbolTable;
 
 // Returns the 64-bit FNV-1a hash of the code points of a string (L4.3).

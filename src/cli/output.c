@@ -2,6 +2,7 @@
 #include "cli/output.h"
 
 #include "base/file.h"
+#include "base/number.h"
 #include "cli/cli.h"
 #include "cli/memory.h"
 
@@ -48,6 +49,17 @@ bool output_write(void *user_data, const char *text, size_t length) {
         atomic_signal_fence(memory_order_seq_cst);
         output->used += length;
     }
+    return output->error == 0;
+}
+
+bool output_number(Output *output, char before, double x) {
+    if (output->used + 1 + NUMBER_TEXT > sizeof output->buffer)
+        output_flush(output);
+    char *at = output->buffer + output->used;
+    *at = before;
+    size_t length = 1 + number_format(x, at + 1);
+    atomic_signal_fence(memory_order_seq_cst);
+    output->used += length;
     return output->error == 0;
 }
 

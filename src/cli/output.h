@@ -25,6 +25,8 @@ typedef struct Output {
 void output_start(Output *output, int fd);
 // Writes to the Output that `user_data` points to. Can be used as a PetriWriteCallback. Returns false after an error.
 bool output_write(void *user_data, const char *text, size_t length);
+// Writes a character, then a number as number_format does.
+bool output_number(Output *output, char before, double x);
 __attribute__((format(printf, 2, 3))) bool output_format(Output *output, const char *format, ...);
 bool output_flush(Output *output);
 // Flushes the buffer. Returns `status`, or STATUS_FAILED after a message if an error has occurred. A closed pipe is not

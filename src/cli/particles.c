@@ -1,25 +1,43 @@
 // particles.c: see particles.h.
 #include "cli/particles.h"
 
+#include "base/number.h"
+#include "cli/memory.h"
+
 #include <inttypes.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
+// Collects rows, so that the host gets few and long texts.
 typedef struct RowWriter {
     uint32_t dimensions;
     PetriWriteCallback *write;
     void *host;
+    size_t used; // bytes in the buffer
+    char buffer[1 << 12];
 } RowWriter;
 
-// Writes formatted text of at most 63 bytes.
-__attribute__((format(printf, 2, 3))) static void write_format(const RowWriter *writer, const char *format, ...) {
-    char text[64];
-    va_list list;
-    va_start(list, format);
-    int length = vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    writer->write(writer->host, text, (size_t)length);
+static void flush(RowWriter *writer) {
+    writer->write(writer->host, writer->buffer, writer->used);
+    writer->used = 0;
+}
+
+// A PetriWriteCallback.
+static bool add_text(void *user_data, const char *text, size_t length) {
+    RowWriter *writer = user_data;
+    if (writer->used + length > sizeof writer->buffer)
+        flush(writer);
+    if (length > sizeof writer->buffer)
+        return writer->write(writer->host, text, length);
+    memcpy(writer->buffer + writer->used, text, length);
+    writer->used += length;
+    return true;
+}
+
+static void add_number(RowWriter *writer, double x) {
+    if (writer->used + 1 + NUMBER_TEXT > sizeof writer->buffer)
+        flush(writer);
+    writer->buffer[writer->used++] = ',';
+    writer->used += number_format(x, writer->buffer + writer->used);
 }
 
 void csv_write(Str cell, PetriWriteCallback *write, void *user_data) {
@@ -36,16 +54,27 @@ void csv_write(Str cell, PetriWriteCallback *write, void *user_data) {
     write(user_data, "\"", 1);
 }
 
-static void write_vector(const RowWriter *writer, const PetriSystem *system, PetriColumn column, uint32_t particle) {
+static void add_vector(RowWriter *writer, const PetriSystem *system, PetriColumn column, uint32_t particle) {
     for (uint32_t k = 0; k < writer->dimensions; k++)
         if (k < system->dimensions)
-            write_format(writer, ",%.17g", column.data[particle * column.stride + k]);
+            add_number(writer, column.data[particle * column.stride + k]);
         else
-            write_format(writer, ",");
+            add_text(writer, ",", 1);
 }
 
-static void write_number(const RowWriter *writer, PetriColumn column, uint32_t particle) {
-    write_format(writer, ",%.17g", column.data[particle * column.stride]);
+// Adds the id of a particle. `ids` is the column of numeric ids, or empty. Returns false if out of memory.
+static bool add_id(RowWriter *writer, PetriSession *session, size_t system, PetriColumn ids, uint32_t particle) {
+    double number = ids.data ? ids.data[particle * ids.stride] : -1;
+    if (number >= 0) { // not a symbol
+        add_number(writer, number);
+        return true;
+    }
+    const char *id = petri_format_value(session, petri_particle_id(session, system, particle));
+    if (!id)
+        return false;
+    add_text(writer, ",", 1);
+    csv_write(str_from(id), add_text, writer);
+    return true;
 }
 
 uint32_t particles_dimensions(PetriSession *session) {
@@ -57,39 +86,59 @@ uint32_t particles_dimensions(PetriSession *session) {
 }
 
 void particles_header(uint32_t dimensions, bool energies, PetriWriteCallback *write, void *user_data) {
-    const RowWriter writer = {dimensions, write, user_data};
-    write_format(&writer, "frame,time,system,id,anchor");
+    SCOPED_TEXT line = {0};
+    text_add_c(&line, "frame,time,system,id,anchor");
     for (const char *name = "xv"; *name != '\0'; name++)
         for (uint32_t k = 1; k <= dimensions; k++)
-            write_format(&writer, ",%c%" PRIu32, *name, k);
-    write_format(&writer, ",radius,mass,charge%s\n", energies ? ",kinetic_energy,potential_energy" : "");
+            text_add_format(&line, ",%c%" PRIu32, *name, k);
+    text_add_format(&line, ",radius,mass,charge%s\n", energies ? ",kinetic_energy,potential_energy" : "");
+    write(user_data, line.bytes, line.len);
+}
+
+// A PetriWriteCallback.
+static bool add_to_head(void *head, const char *text, size_t length) {
+    text_add(head, (Str){text, length});
+    return true;
+}
+
+// Adds the rows of a system. `head` is the text before the ids.
+static bool add_rows(RowWriter *writer, PetriSession *session, size_t number, const PetriSystem *system, Str head,
+                     const ParticlesEnergies *energies) {
+    PetriColumn ids = petri_particle_ids(session, number);
+    for (uint32_t i = 0; i < system->particle_count; i++) {
+        add_text(writer, head.bytes, head.len);
+        if (!add_id(writer, session, number, ids, i))
+            return false;
+        add_text(writer, system->anchor[i * system->anchor_stride] ? ",1" : ",0", 2);
+        add_vector(writer, system, system->position, i);
+        add_vector(writer, system, system->velocity, i);
+        add_number(writer, system->radius.data[i * system->radius.stride]);
+        add_number(writer, system->mass.data[i * system->mass.stride]);
+        add_number(writer, system->charge.data[i * system->charge.stride]);
+        if (energies) {
+            add_number(writer, energies->kinetic);
+            add_number(writer, energies->potential);
+        }
+        add_text(writer, "\n", 1);
+    }
+    return true;
 }
 
 bool particles_rows(PetriSession *session, uint32_t dimensions, const ParticlesEnergies *energies,
                     PetriWriteCallback *write, void *user_data) {
-    const RowWriter writer = {dimensions, write, user_data};
+    RowWriter writer = {.dimensions = dimensions, .write = write, .host = user_data};
     PetriFrame frame;
     petri_frame(session, &frame, sizeof frame);
     PetriSystem system;
-    for (size_t s = 0; petri_system(session, s, &system, sizeof system); s++) {
-        for (uint32_t i = 0; i < system.particle_count; i++) {
-            const char *id = petri_format_value(session, petri_particle_id(session, s, i));
-            if (!id)
-                return false;
-            write_format(&writer, "%" PRId64 ",%.17g,", frame.number, frame.time);
-            csv_write(str_from(system.name), write, user_data);
-            write_format(&writer, ",");
-            csv_write(str_from(id), write, user_data);
-            write_format(&writer, ",%d", system.anchor[i * system.anchor_stride] ? 1 : 0);
-            write_vector(&writer, &system, system.position, i);
-            write_vector(&writer, &system, system.velocity, i);
-            write_number(&writer, system.radius, i);
-            write_number(&writer, system.mass, i);
-            write_number(&writer, system.charge, i);
-            if (energies)
-                write_format(&writer, ",%.17g,%.17g", energies[s].kinetic, energies[s].potential);
-            write_format(&writer, "\n");
-        }
+    bool complete = true;
+    for (size_t s = 0; complete && petri_system(session, s, &system, sizeof system); s++) {
+        SCOPED_TEXT head = {0};
+        text_add_format(&head, "%" PRId64 ",", frame.number);
+        text_add_number(&head, frame.time);
+        text_add_c(&head, ",");
+        csv_write(str_from(system.name), add_to_head, &head);
+        complete = add_rows(&writer, session, s, &system, text_str(&head), energies ? &energies[s] : NULL);
     }
-    return true;
+    flush(&writer);
+    return complete;
 }

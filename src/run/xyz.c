@@ -121,13 +121,18 @@ static void write_head(Output *output, PetriSession *session, const XyzFrame *fr
     for (const char *name = "xv"; *name != '\0'; name++)
         for (uint32_t k = XYZ_DIMENSIONS + 1; k <= frame->dimensions; k++)
             output_format(output, ":%c%" PRIu32 ":R:1", *name, k);
-    if (energies)
-        output_format(output, " kinetic_energy=%.17g potential_energy=%.17g", frame->energies.kinetic,
-                      frame->energies.potential);
+    if (energies) {
+        output_format(output, " kinetic_energy");
+        output_number(output, '=', frame->energies.kinetic);
+        output_format(output, " potential_energy");
+        output_number(output, '=', frame->energies.potential);
+    }
     output_format(output, " systems=\"%s\"", frame->systems.len > 0 ? frame->systems.bytes : "");
     if (frame->id_texts.len > 0)
         output_format(output, " id_texts=\"%s\"", frame->id_texts.bytes);
-    output_format(output, " Time=%.17g Frame=%" PRId64 "\n", now.time, now.number);
+    output_format(output, " Time");
+    output_number(output, '=', now.time);
+    output_format(output, " Frame=%" PRId64 "\n", now.number);
 }
 
 static double column_number(PetriColumn column, uint32_t particle) {
@@ -138,20 +143,23 @@ static double column_number(PetriColumn column, uint32_t particle) {
 static void write_vector(Output *output, const PetriSystem *system, PetriColumn column, uint32_t particle,
                          uint32_t first, uint32_t end) {
     for (uint32_t k = first; k < end; k++)
-        output_format(output, " %.17g", k < system->dimensions ? column.data[particle * column.stride + k] : 0);
+        output_number(output, ' ', k < system->dimensions ? column.data[particle * column.stride + k] : 0);
 }
 
 static void write_particle(Output *output, const PetriSystem *system, uint32_t i, int64_t id, uint32_t system_number,
                            uint32_t dimensions) {
-    output_format(output, "X");
+    output_write(output, "X", 1);
     write_vector(output, system, system->position, i, 0, XYZ_DIMENSIONS);
     write_vector(output, system, system->velocity, i, 0, XYZ_DIMENSIONS);
-    output_format(output, " %.17g %.17g %.17g %" PRId64 " %" PRIu32 " %d", column_number(system->radius, i),
-                  column_number(system->mass, i), column_number(system->charge, i), id, system_number,
-                  system->anchor[i * system->anchor_stride] ? 1 : 0);
+    output_number(output, ' ', column_number(system->radius, i));
+    output_number(output, ' ', column_number(system->mass, i));
+    output_number(output, ' ', column_number(system->charge, i));
+    output_number(output, ' ', (double)id); // at most 2^53
+    output_number(output, ' ', system_number);
+    output_write(output, system->anchor[i * system->anchor_stride] ? " 1" : " 0", 2);
     write_vector(output, system, system->position, i, XYZ_DIMENSIONS, dimensions);
     write_vector(output, system, system->velocity, i, XYZ_DIMENSIONS, dimensions);
-    output_format(output, "\n");
+    output_write(output, "\n", 1);
 }
 
 static void write_particles(Output *output, PetriSession *session, const XyzFrame *frame) {

@@ -14,8 +14,8 @@ check "a trajectory is written" status_is 0
 check "a CSV trajectory has a row for each particle and frame" lines_are run.csv 13
 check "a CSV trajectory has a header" has run.csv "frame,time,system,id,anchor,x1,x2,v1,v2,radius,mass,charge"
 check "CSV quotes ids that contain commas or quotes" has run.csv "0,0,:w,\"'a,\"\"b'\",1,1,2,0,0,0,1,0"
-check "CSV contains position and velocity" has run.csv "2,0.20000000000000001,:w,7,0,4,4,5,0,0.5,2,-3"
-check "CSV leaves missing components empty" has run.csv "0,0,:line,:p,0,0.10000000000000001,,0,,0,1,0"
+check "CSV contains position and velocity" has run.csv "2,0.2,:w,7,0,4,4,5,0,0.5,2,-3"
+check "CSV leaves missing components empty" has run.csv "0,0,:line,:p,0,0.1,,0,,0,1,0"
 check "a trajectory leaves no temporary files" [ -z "$(find . -name '*.tmp')" ]
 petri run pair.fl --frames 5 --every 2 --trajectory run.xyz
 check "extended XYZ has a block for every K-th frame" count_is run.xyz "Properties=species:S:1:pos:R:3:velo:R:3:" 3

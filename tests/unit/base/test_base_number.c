@@ -107,26 +107,103 @@ static void test_random_numbers_read_back(void **state) {
     assert_true(hash == UINT64_C(0x1fb3382a90909f4a));
 }
 
-// Fractions such as coordinates, up to 2^43; only those of 1e-4 or more are compared. Many have few digits, or lie
-// halfway between two decimal numbers.
-static void test_fractions_are_shortest(void **state) {
+// Writes the shortest decimal to `digits` and returns its exponent in d.ddde+XX, by search: the first precision of
+// printf whose result reads back. At a power of two, the next higher decimal may be the only one that does.
+static int search_shortest(double x, char digits[NUMBER_TEXT]) {
+    char text[NUMBER_TEXT];
+    for (int precision = x >= 0x1p-1022 ? 15 : 1; precision <= 17;
+         precision++) { // 15 digits always have their own double
+        snprintf(text, sizeof text, "%.*e", precision - 1, x);
+        int binary_exponent;
+        char *last = strchr(text, 'e') - 1;
+        if (strtod(text, NULL) != x && frexp(x, &binary_exponent) == 0.5 && *last >= '0' && *last < '9')
+            ++*last;
+        if (strtod(text, NULL) == x)
+            break;
+    }
+    size_t count = 0;
+    for (const char *at = text; *at != 'e'; at++)
+        if (*at >= '0' && *at <= '9')
+            digits[count++] = *at;
+    while (count > 1 && digits[count - 1] == '0')
+        count--;
+    digits[count] = 0;
+    return atoi(strchr(text, 'e') + 1);
+}
+
+static void check_shortest(double x) {
+    char digits[NUMBER_TEXT], wanted[2 * NUMBER_TEXT], *at = wanted;
+    int exponent = search_shortest(x, digits), count = (int)strlen(digits);
+    if (exponent < -4 || exponent > 15)
+        sprintf(wanted, "%c%s%se%c%02d", digits[0], count > 1 ? "." : "", digits + 1, exponent < 0 ? '-' : '+',
+                abs(exponent));
+    else if (exponent < 0)
+        sprintf(wanted, "0.%.*s%s", -exponent - 1, "000", digits);
+    else
+        for (int i = 0; i < count || i <= exponent; i++)
+            at += sprintf(at, "%s%c", i == exponent + 1 ? "." : "", i < count ? digits[i] : '0');
+    const char *found = printed(x);
+    if (strcmp(found, wanted) != 0)
+        fail_msg("%a: %s instead of %s", x, found, wanted);
+    if (strtod(found, NULL) != x)
+        fail_msg("%a: %s does not read back", x, found);
+}
+
+// All exponents, with the first, last and some other significands; these are powers of two, their neighbours, the
+// largest and smallest subnormal numbers.
+static void test_all_exponents_are_shortest(void **state) {
     (void)state;
-    uint64_t seed = 2;
-    for (int i = 0; i < 200000; i++) {
-        uint64_t bits = next_bits(&seed);
-        double x = ldexp((double)(bits >> (11 + bits % 40)), (int)(bits >> 20 & 63) - 73);
-        x = i % 4 ? x : (double)(bits % 20000000) / 10000;
-        // Returns the shortest of printf's results with 15, 16 and 17 digits that reads back exactly. For powers of
-        // two, a shorter string may exist.
-        char wanted[NUMBER_TEXT];
-        for (int digits = 15; digits <= 17; digits++) {
-            snprintf(wanted, sizeof wanted, "%.*g", digits, x);
-            if (strtod(wanted, NULL) == x)
-                break;
+    uint64_t seed = 4;
+    const uint64_t END = UINT64_C(1) << 52;
+    for (uint64_t field = 0; field < 2047; field++) {
+        const uint64_t significands[] = {0, 1, 2, 3, END / 2, END - 2, END - 1, next_bits(&seed) % END};
+        for (size_t i = 0; i < COUNT_OF(significands); i++)
+            if (field > 0 || significands[i] > 0)
+                check_shortest(of_bits(field << 52 | significands[i]));
+    }
+    for (uint64_t bits = 1; bits < 2000; bits++)
+        check_shortest(of_bits(bits));
+    for (int bit = 0; bit < 52; bit++)
+        check_shortest(of_bits(UINT64_C(1) << bit));
+}
+
+// Powers of ten, their neighbours, and decimals of all lengths.
+static void test_decimals_are_shortest(void **state) {
+    (void)state;
+    uint64_t seed = 5;
+    for (int power = -323; power <= 308; power++) {
+        char text[NUMBER_TEXT];
+        snprintf(text, sizeof text, "1e%d", power);
+        uint64_t bits;
+        double x = strtod(text, NULL);
+        memcpy(&bits, &x, sizeof bits);
+        for (uint64_t near = bits > 4 ? bits - 4 : 1; near <= bits + 4; near++)
+            check_shortest(of_bits(near));
+        for (int digits = 1; digits <= 17; digits++) {
+            uint64_t limit = 1;
+            for (int i = 0; i < digits; i++)
+                limit *= 10;
+            snprintf(text, sizeof text, "%llue%d", (unsigned long long)(1 + next_bits(&seed) % limit), power - digits);
+            x = strtod(text, NULL);
+            if (x > 0 && isfinite(x))
+                check_shortest(x);
         }
-        int exponent;
-        if (x >= 1e-4 && x < 1e15 && frexp(x, &exponent) != 0.5)
-            assert_text(wanted, printed(x), wanted);
+    }
+}
+
+// Random bits, fractions of the size of coordinates, and integers above 2^53, in equal parts. TRIES=100000000 tries
+// that many.
+static void test_random_numbers_are_shortest(void **state) {
+    (void)state;
+    const char *tries = getenv("TRIES");
+    uint64_t seed = 6;
+    for (long i = tries ? strtol(tries, NULL, 10) : 1000000; i > 0; i--) {
+        uint64_t bits = next_bits(&seed);
+        double x = i % 3 == 0   ? fabs(of_bits(bits))
+                   : i % 3 == 1 ? ldexp((double)(bits >> 11), (int)(bits % 64) - 90)
+                                : ldexp((double)(bits >> 11), (int)(bits % 40));
+        if (isfinite(x) && x > 0)
+            check_shortest(x);
     }
 }
 
@@ -208,9 +285,14 @@ static void test_floor_matches_c(void **state) {
 
 TEST_GROUP(base_number) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_floor_matches_c),         cmocka_unit_test(test_known_numbers_are_printed),
-        cmocka_unit_test(test_powers_of_two_read_back), cmocka_unit_test(test_random_numbers_read_back),
-        cmocka_unit_test(test_fractions_are_shortest),  cmocka_unit_test(test_parse_rounds_correctly),
+        cmocka_unit_test(test_floor_matches_c),
+        cmocka_unit_test(test_known_numbers_are_printed),
+        cmocka_unit_test(test_powers_of_two_read_back),
+        cmocka_unit_test(test_random_numbers_read_back),
+        cmocka_unit_test(test_all_exponents_are_shortest),
+        cmocka_unit_test(test_decimals_are_shortest),
+        cmocka_unit_test(test_random_numbers_are_shortest),
+        cmocka_unit_test(test_parse_rounds_correctly),
         cmocka_unit_test(test_locale_has_no_effect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
