@@ -5,8 +5,13 @@
 
 #include <stdlib.h>
 #include <string.h>
+#ifdef __x86_64__
+#include <cpuid.h>
+#endif
 #ifdef __APPLE__
 #include <sys/sysctl.h>
+#elif defined(__aarch64__) && defined(__linux__)
+#include <sys/auxv.h>
 #endif
 
 static const char *const names[CPU_LEVELS] = {"scalar", "avx2", "avx512"};
@@ -40,8 +45,23 @@ static void limit_cpu(const char *wish) {
 }
 #endif
 
+static bool has_sha256(void) {
+#if defined(__x86_64__)
+    unsigned eax, ebx = 0, ecx, edx;
+    return __get_cpuid_count(7, 0, &eax, &ebx, &ecx, &edx) && ebx & bit_SHA;
+#elif defined(__aarch64__) && defined(__APPLE__)
+    return true;
+#elif defined(__aarch64__) && defined(__linux__)
+    const unsigned long HAS_SHA2 = 1 << 6; // HWCAP_SHA2
+    return getauxval(AT_HWCAP) & HAS_SHA2;
+#else
+    return false;
+#endif
+}
+
 // Runs before main, so that cpu_detected is constant afterwards.
 __attribute__((constructor)) static void detect_cpu(void) {
+    const char *requested = getenv("PETRI_CPU");
 #if defined(__x86_64__)
 #ifndef __APPLE__
     __builtin_cpu_init();
@@ -50,10 +70,11 @@ __attribute__((constructor)) static void detect_cpu(void) {
                 SUPPORTS("avx512vl", "avx512vl") && SUPPORTS("avx512bw", "avx512bw");
     cpu_detected.level = !SUPPORTS("avx2", "avx2_0") ? CPU_SCALAR : wide ? CPU_AVX512 : CPU_AVX2;
     cpu_detected.fma = SUPPORTS("fma", "fma");
-    limit_cpu(getenv("PETRI_CPU"));
+    limit_cpu(requested);
 #else
     cpu_detected.use_fma = CPU_FMA_NEVER;
 #endif
+    cpu_detected.sha256 = has_sha256() && !(requested && strcmp(requested, names[CPU_SCALAR]) == 0);
 }
 
 bool cpu_choose(const char *requested, CpuLevel *level) {

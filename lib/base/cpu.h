@@ -20,6 +20,7 @@ typedef struct Cpu {
     CpuLevel level; // highest supported level
     bool fma;       // true if fused multiply-add may be used: the processor has it and the level is above scalar
     CpuFma use_fma; // CPU_FMA_NEVER if `fma` is false
+    bool sha256; // true if instructions for SHA-256 may be used: the processor has them and `scalar` is not requested
 } Cpu;
 extern Cpu cpu_detected;
 

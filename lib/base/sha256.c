@@ -1,19 +1,9 @@
 // sha256.c: see sha256.h.
 #include "base/sha256.h"
 
-#include <string.h>
+#include "base/sha256_blocks.h"
 
-// Round constants: the first 32 bits of the fractional parts of the cube roots of the first 64 primes.
-static const uint32_t constants[64] = {
-    0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
-    0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
-    0xe49b69c1, 0xefbe4786, 0x0fc19dc6, 0x240ca1cc, 0x2de92c6f, 0x4a7484aa, 0x5cb0a9dc, 0x76f988da,
-    0x983e5152, 0xa831c66d, 0xb00327c8, 0xbf597fc7, 0xc6e00bf3, 0xd5a79147, 0x06ca6351, 0x14292967,
-    0x27b70a85, 0x2e1b2138, 0x4d2c6dfc, 0x53380d13, 0x650a7354, 0x766a0abb, 0x81c2c92e, 0x92722c85,
-    0xa2bfe8a1, 0xa81a664b, 0xc24b8b70, 0xc76c51a3, 0xd192e819, 0xd6990624, 0xf40e3585, 0x106aa070,
-    0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
-    0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2,
-};
+#include <string.h>
 
 // Returns the initial state: the first 32 bits of the fractional parts of the square roots of the first 8 primes.
 Sha256 sha256_new(void) {
@@ -21,56 +11,22 @@ Sha256 sha256_new(void) {
         .state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19}};
 }
 
-static uint32_t rotated(uint32_t x, int right) {
-    return x >> right | x << (32 - right);
-}
-
-// Computes the message schedule: the block's 16 words and 48 words derived from them.
-static void schedule(const unsigned char *block, uint32_t words[64]) {
-    for (int i = 0; i < 16; i++, block += 4)
-        words[i] = (uint32_t)block[0] << 24 | (uint32_t)block[1] << 16 | (uint32_t)block[2] << 8 | block[3];
-    for (int i = 16; i < 64; i++) {
-        uint32_t old = words[i - 15], recent = words[i - 2];
-        words[i] = words[i - 16] + (rotated(old, 7) ^ rotated(old, 18) ^ old >> 3) + words[i - 7] +
-                   (rotated(recent, 17) ^ rotated(recent, 19) ^ recent >> 10);
-    }
-}
-
-// One variable for each of a to h of the standard, which compilers keep in registers. An array would be moved in memory
-// in each of the 64 rounds.
-static void compress(uint32_t state[8], const unsigned char *block) {
-    uint32_t words[64], a = state[0], b = state[1], c = state[2], d = state[3];
-    uint32_t e = state[4], f = state[5], g = state[6], h = state[7];
-    schedule(block, words);
-    for (int i = 0; i < 64; i++) {
-        uint32_t choice = (e & f) ^ (~e & g), majority = (a & b) ^ (a & c) ^ (b & c);
-        uint32_t first = h + (rotated(e, 6) ^ rotated(e, 11) ^ rotated(e, 25)) + choice + constants[i] + words[i];
-        uint32_t second = (rotated(a, 2) ^ rotated(a, 13) ^ rotated(a, 22)) + majority;
-        h = g;
-        g = f;
-        f = e;
-        e = d + first;
-        d = c;
-        c = b;
-        b = a;
-        a = first + second;
-    }
-    const uint32_t added[8] = {a, b, c, d, e, f, g, h};
-    for (int i = 0; i < 8; i++)
-        state[i] += added[i];
-}
-
 void sha256_add(Sha256 *hash, const char *text, size_t length) {
-    while (length > 0) {
-        size_t used = hash->length % sizeof hash->block, room = sizeof hash->block - used;
-        size_t part = length < room ? length : room;
+    size_t used = hash->length % sizeof hash->block;
+    hash->length += length;
+    if (used > 0) {
+        size_t room = sizeof hash->block - used, part = length < room ? length : room;
         memcpy(hash->block + used, text, part);
-        hash->length += part;
+        if (part < room)
+            return;
+        sha256_blocks(hash->state, hash->block, 1);
         text += part;
         length -= part;
-        if (part == room)
-            compress(hash->state, hash->block);
     }
+    size_t blocks = length / sizeof hash->block, rest = length % sizeof hash->block;
+    sha256_blocks(hash->state, (const unsigned char *)text, blocks);
+    if (rest > 0)
+        memcpy(hash->block, text + length - rest, rest);
 }
 
 void sha256_end(Sha256 *hash, char digits[SHA256_DIGITS]) {

@@ -1,6 +1,8 @@
 // test_base_sha256.c: SHA-256, compared with the examples of the standard and, near block boundaries, with
 // sha256sum(1).
+#include "base/cpu.h"
 #include "base/sha256.h"
+#include "base/sha256_blocks.h"
 #include "check.h"
 
 // Returns the hash of `count` copies of the string, added in chunks of `piece` bytes.
@@ -47,7 +49,30 @@ static void test_hashes_match_standard(void **state) {
             assert_string_equal(hashed(rows[i].text, rows[i].count, pieces[j]), rows[i].hash);
 }
 
+// The processor's instructions and the portable code give equal states, for any state, data, alignment and number of
+// blocks. Run again with PETRI_CPU=scalar, this compares the portable code with itself.
+static void test_instructions_match_portable_code(void **state) {
+    (void)state;
+    enum { MAX_BLOCKS = 9 };
+    unsigned char bytes[(MAX_BLOCKS + 1) * SHA256_BLOCK];
+    uint64_t seed = 3;
+    for (int i = 0; i < 2000; i++) {
+        uint32_t states[2][8];
+        for (size_t k = 0; k < sizeof bytes; k++)
+            bytes[k] = (unsigned char)(i == 0 ? 0 : i == 1 ? 0xff : next_bits(&seed) >> 56);
+        for (size_t k = 0; k < 8; k++)
+            states[0][k] = states[1][k] = (uint32_t)(next_bits(&seed) >> 32);
+        const unsigned char *start = bytes + next_bits(&seed) % SHA256_BLOCK;
+        size_t count = next_bits(&seed) % (MAX_BLOCKS + 1);
+        sha256_blocks(states[0], start, count);
+        sha256_blocks_portable(states[1], start, count);
+        assert_memory_equal(states[0], states[1], sizeof states[0]);
+    }
+    printf("instructions: %s\n", cpu_detected.sha256 ? "yes" : "no");
+}
+
 TEST_GROUP(base_sha256) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_hashes_match_standard)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_hashes_match_standard),
+                                       cmocka_unit_test(test_instructions_match_portable_code)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
