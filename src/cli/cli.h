@@ -100,6 +100,8 @@ extern const Command TEST_NEW_COMMAND;
 // Commands that help does not list: `petri complete`, for the completion scripts of shells, and the tests of a shader
 // and of pictures.
 extern const Command COMPLETE_COMMAND, SHADER_TEST_COMMAND, COMPARE_PICTURES_COMMAND;
+// Part of petri test.
+extern const Command CHECK_PROPERTIES_COMMAND;
 
 // Returns the part of a command that this operand selects, or NULL.
 const Command *command_part(const Command *command, const char *operand);

@@ -30,9 +30,10 @@ const TestKind TEST_KINDS[] = {
      .discard = pictures_discard},
     {.suffix = ".err", .begin = rejection_begin, .end = rejection_end},
     {.suffix = ".session", .own_name = true, .names_script = true, .begin = session_begin, .end = session_end},
+    {.suffix = ".properties", .own_name = true, .begin = properties_begin, .end = properties_end},
     {.suffix = NULL},
 };
-const char *const TEST_SUFFIXES[] = {".golden", ".err", ".session", NULL};
+const char *const TEST_SUFFIXES[] = {".golden", ".err", ".session", ".properties", NULL};
 
 const TestKind *kind_of_file(const char *path) {
     for (const TestKind *kind = TEST_KINDS; kind->suffix; kind++)

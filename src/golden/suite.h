@@ -66,6 +66,10 @@ void pictures_end(const Options *options, TestCase *test, const RunOutput *run);
 bool pictures_show(Output *output, TestCase *test);
 void pictures_discard(TestCase *test);
 
+// properties.c: NAME.properties.
+bool properties_begin(const Options *options, TestCase *test, TextList *words);
+void properties_end(const Options *options, TestCase *test, const RunOutput *run);
+
 // run_output.c: the output of a run.
 
 // Adds the words that all runs have: overrides of options, and the script after `--`.

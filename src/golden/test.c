@@ -122,7 +122,7 @@ static int run_suite(Suite *suite) {
         watch_select(suite->watch, &suite->tests);
     if (suite->tests.count == 0 && !suite->watch) {
         const char *script = options->scripts.count == 1 ? options->scripts.items[0].path : "SCRIPT";
-        message("no script found with a .golden or .err file%s%s",
+        message("no script found with a .golden, .err or .properties file%s%s",
                 !own->filter ? "; to create a golden, run: petri test --new " : " that matches --filter",
                 !own->filter ? script : "");
         return STATUS_FAILED;
@@ -195,7 +195,10 @@ const Command TEST_COMMAND = {
         "To create a golden, or an .err file for a script with an error, give the script and the options of the "
         "run:\n\n"
         "  petri test --new dish.fl --frames 61 --every 20 --print state\n\n"
-        "PATH can also be a golden. With --print hash, a golden has one line per frame: the SHA-256 of the state.",
+        "If there is a NAME.properties, its properties must hold for many values of the script's parameters. PATH can "
+        "also\n"
+        "be a golden or another test file. With --print hash, a golden has one line per frame: the SHA-256 of the "
+        "state.",
     .examples = "  petri test .                                    test all scripts in this folder\n"
                 "  petri test --update dish.fl                     write the current output to its golden\n",
     .missing_operand = "no script or folder given",

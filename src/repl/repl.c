@@ -20,8 +20,14 @@
 
 // Options that no other command has.
 typedef struct Own {
-    int64_t limit; // maximum frames of .run and .until
+    int64_t limit;    // maximum frames of .run and .until
+    TextList execute; // lines to execute before the first prompt
 } Own;
+
+static bool add_line(const Args *args, void *field) {
+    texts_add(field, args->value);
+    return true;
+}
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Repl *repl = host;
@@ -120,6 +126,20 @@ static void start_session(Repl *repl, const char *state) {
     repl->any_failed = prompt->failed;
 }
 
+// Executes the lines of --execute, which are shown like typed ones.
+static void execute_lines(Repl *repl) {
+    const TextList *lines = &((const Own *)repl->options->own)->execute;
+    for (size_t i = 0; i < lines->count && !repl->prompt.quit; i++) {
+        SCOPED_TEXT text = {0};
+        char prompt[40];
+        make_prompt(repl, prompt, sizeof prompt);
+        text_add_format(&text, "%s\n", lines->items[i]);
+        output_format(&repl->output, "%s%s", prompt, text.bytes);
+        repl->any_failed = !prompt_execute(&repl->prompt, text.bytes, text.len) || repl->any_failed;
+    }
+    output_flush(&repl->output);
+}
+
 static int run_session(Repl *repl, const char *state) {
     // Use only the character encoding of the locale, because its number format would break the parsing of scripts.
     setlocale(LC_CTYPE, "");
@@ -132,6 +152,7 @@ static int run_session(Repl *repl, const char *state) {
         return STATUS_USAGE;
     if (repl->terminal)
         prompt_note(&repl->prompt, "petri %s; .help lists the commands, Ctrl-D quits", petri_version());
+    execute_lines(repl);
     run_prompt(repl);
     return repl->any_failed && !repl->terminal ? STATUS_FAILED : STATUS_DONE;
 }
@@ -238,6 +259,7 @@ static const OptionSpec ROWS[] = {
     FPS_OPTION DEFINE_OPTION
     SHARED("state", 0, "FILE", option_text, state_file, "start with the state in FILE")
     FILE_OPTIONS
+    OWN("execute", 0, "TEXT", IS_LIST(add_line), execute, "execute a line before the prompt, such as '.step 60'; may be repeated")
     OWN("limit", 0, "N", WHOLE(1, INT64_MAX), limit, "limit .run and .until to N frames (default: 100000)")
     THREADS_OPTION LIMIT_OPTIONS NOSIMPLIFY_OPTION FROM_OPTION
     SHARED("color", 0, "WHEN", ONE_OF(option_colour, "auto", "always", "never"), colour, "use colours in prompts and messages: auto, always or never")
@@ -258,6 +280,7 @@ const Command REPL_COMMAND = {
         "repeats\n"
         "its inputs, and 'petri test NAME.session' compares the answers.",
     .examples = "  petri repl dish.fl                              then: .step 60, .particles 5, .help\n"
+                "  petri repl dish.fl --execute '.step 60'         begin at frame 59\n"
                 "  petri repl                                      start without a script\n",
     .no_stdin = "cannot read the script from standard input: the prompt uses it",
     .options = &REPL_OPTIONS,

@@ -56,6 +56,7 @@ export const GROUPS = [
             parts: [['src/manual/repl.md']], made: 'prompt' },
         { name: 'sweep', title: 'Sweeps', about: 'One script with many parameter values and seeds', parts: [['src/manual/sweep.md']] },
         { name: 'goldens', title: 'Goldens', about: 'Record what a script does, and find changes', parts: [['src/manual/goldens.md']] },
+        { name: 'properties', title: 'Properties', about: 'Statements about all runs of a script', parts: [['src/manual/properties.md']] },
         { name: 'diff', title: 'Differences', about: 'Find out why two runs differ', parts: [['src/manual/diff.md']] },
         { name: 'archives', title: 'Archives', about: 'Publish a run with a paper', parts: [['src/manual/archives.md']] },
         { name: 'trajectories', title: 'Trajectories', about: 'Particles as XYZ, CSV and H5MD files; resuming a run',
