@@ -46,21 +46,27 @@ static bool mentions(const Ast *ast, const Symbol *name) {
     return found;
 }
 
+static Str unused_hint(const Binding *binding, bool top_level) {
+    if (binding->value && mentions(binding->value, binding->name))
+        return STR("a 'let' binds a new name and changes no other one; to add up numbers, write 'sum(x for x in v)'");
+    if (top_level && binding->kind == BINDING_FUNC)
+        return STR("if only --metric or the prompt uses it, begin its name with '_'");
+    return (Str){0};
+}
+
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
     static const char *const kinds[] = {"let", "func", "parameter", "loop name", "import"};
+    bool top_level = !compiler->function->outer && compiler->function->scope == scope &&
+                     (!end || end->kind == BINDING_PARAM); // parameters of the file
     // A file that only binds names is a module, whose top-level names are used by other files.
-    if (!lint_enabled(compiler) ||
-        (!compiler->function->outer && compiler->function->scope == scope && !end && compiler->is_module))
+    if (!lint_enabled(compiler) || (top_level && !end && compiler->is_module))
         return;
     for (const Binding *binding = scope; binding != end; binding = binding->outer)
         if (!binding->used && !can_be_unused(binding))
             add_warning_with_hint(
                 compiler, binding->span, "unused-name",
                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)),
-                binding->value && mentions(binding->value, binding->name)
-                    ? STR("a 'let' binds a new name and changes no other one; to add up numbers, write 'sum(x for x in "
-                          "v)'")
-                    : (Str){0});
+                unused_hint(binding, top_level));
 }
 
 // Reports a wrong number of arguments. If the first frame executes the call, lib/builtin reports the same error with
