@@ -166,7 +166,8 @@ const Command HELP_COMMAND = {
                "  builtins, nodes     all functions; all nodes with their attributes\n"
                "  sin, particle       one function, one node ('!random' if a function has the same name)\n"
                "  tempo, let, radius  a predefined value, a word of the language, an attribute\n"
-               "  --frames, .step     an option, a command of the prompt",
+               "  --frames, .step     an option, a command of the prompt\n"
+               "  circle, easing      an everyday word, or a word of p5 or NetLogo, and its names in petri",
     .parses_arguments = true,
     .run = help_run,
 };
