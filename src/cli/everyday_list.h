@@ -63,7 +63,7 @@ EVERYDAY("video gif recording",         "",                   "'petri render' wr
 EVERYDAY("screenshot png picture",      "picture image",      "'petri render' writes pictures")
 EVERYDAY("audio music",                 "sound",              "petri has no sound")
 // Commands
-EVERYDAY("golden snapshot regression",  "golden",             "'petri test' compares runs with recorded output, NAME.golden")
+EVERYDAY("golden snapshot regression",  "golden",             "'petri test' compares runs with recorded output, NAME.golden; 'petri test --new' records it")
 EVERYDAY("hash checksum",               "digest",             "'petri run --print hash' prints the hash of the state")
 EVERYDAY("undo rewind back",            "back",               "'petri repl' goes back with .back and .goto")
 EVERYDAY("plot graph chart diagram histogram phase", "plot",  "'petri sweep --plot' and .plot of 'petri repl' draw graphs")
