@@ -127,7 +127,7 @@ static const double *take_paint(DisplayReader *reader) {
 #define STRING(name) o->name.points = take_list(reader);
 #define PIXELS(name) o->name = (take(reader, 2), NULL); /* lists for this reader have no pixels */
 #define PAINT(name) o->name = take_paint(reader);
-#include "picture/display_list_rows.h"
+#include "picture/display_list_macros.h"
 
 const double *display_list_read(const double *at, DisplayRow *row) {
     DisplayReader reader = {.at = at + 1, .left = SIZE_MAX};
@@ -137,7 +137,7 @@ const double *display_list_read(const double *at, DisplayRow *row) {
     case PETRI_DRAW_##name:                                                                                            \
         read_##name(&reader, &row->name);                                                                              \
         break;
-#include "picture/display_list_rows.h"
+#include "picture/display_list_macros.h"
     }
     return reader.at;
 }
@@ -149,7 +149,7 @@ void display_list_read_filter(DisplayReader *reader, DisplayRow *filter) {
     case PETRI_FILTER_##name:                                                                                          \
         read_FILTER_##name(reader, &filter->FILTER_##name);                                                            \
         break;
-#include "picture/display_list_rows.h"
+#include "picture/display_list_macros.h"
     default:
         reader->failed = true;
     }
@@ -161,7 +161,7 @@ void display_list_read_effect(DisplayReader *reader, DisplayRow *effect) {
     case PETRI_EFFECT_##name:                                                                                          \
         read_EFFECT_##name(reader, &effect->EFFECT_##name);                                                            \
         break;
-#include "picture/display_list_rows.h"
+#include "picture/display_list_macros.h"
     }
 }
 

@@ -18,7 +18,7 @@ typedef struct DisplayMatrix {
 // The kinds of path elements, as PETRI_PATH_…: PATH_MOVE and so on.
 typedef enum PathElement {
 #define ELEMENT(name, operands) PATH_##name,
-#include "picture/display_list_rows.h"
+#include "picture/display_list_macros.h"
 } PathElement;
 
 // The number of operands of each kind of path element.
@@ -26,7 +26,7 @@ static const uint8_t display_path_sizes[] = {
 #define ELEMENT(name, operands) operands 0,
 #define NUMBER(name) 1 +
 #define NUMBERS(name, count) count +
-#include "picture/display_list_rows.h"
+#include "picture/display_list_macros.h"
 };
 
 enum { DISPLAY_HEADER = 3 }; // numbers before the first command: width, height, and true if there are filters or noise
@@ -72,12 +72,12 @@ typedef struct DisplayString {
 #define STRING(name) DisplayString name;
 #define PIXELS(name) Texture *name; /* NULL after reading */
 #define PAINT(name) const double *name;
-#include "picture/display_list_rows.h"
+#include "picture/display_list_macros.h"
 
 typedef union DisplayRow {
     int kind; // PETRI_DRAW_…, PETRI_FILTER_… or PETRI_EFFECT_…
 #define ROW(name, operands) name##Operands name;
-#include "picture/display_list_rows.h"
+#include "picture/display_list_macros.h"
 } DisplayRow;
 
 // What the commands before a drawing have set.

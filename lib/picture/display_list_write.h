@@ -59,7 +59,7 @@ void display_list_add_note(DisplayList *list, Origin place, Str id);
 #define PIXELS(name) display_list_add_pixels(list, o->name);
 #define ROWS(name)
 #define PAINT(name)
-#include "picture/display_list_rows.h"
+#include "picture/display_list_macros.h"
 
 // DISPLAY_WRITE writes a command, DISPLAY_WRITE_ROW a row whose `kind` is set.
 #define DISPLAY_WRITE_ROW(list, name, ...) display_list_write_##name(list, &(name##Operands){__VA_ARGS__})

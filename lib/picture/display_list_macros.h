@@ -1,4 +1,4 @@
-// display_list_rows.h: the rows of petri-display-list.inc, for code that is made from them. Each row is a ROW and one
+// display_list_macros.h: the rows of petri-display-list.inc, for code that is made from them. Each row is a ROW and one
 // of the other kinds; those whose macros are not defined are ignored. In a ROW, the names of filters begin with
 // FILTER_, those of effects with EFFECT_. If a macro uses operands, the includer defines NUMBER and the other types of
 // operands, except those that have a definition here.
