@@ -43,9 +43,9 @@ unlikely_names() {
         END {
             for (i = 1; i < count; i++) {
                 bad = name[i] == ""
-                n = split(name[i], word, "[-_]")
+                n = split(name[i], word, "[-_+]")
                 for (j = 1; j <= n; j++)
-                    bad = bad || !(word[j] in parts)
+                    bad = bad || (word[j] != "" && !(word[j] in parts))
                 if (bad)
                     print name[i]
             }

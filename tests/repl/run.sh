@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh PETRI [--update] [FILE...]: repeats recorded sessions of `petri repl` with `petri test`, each in its own copy of
+# run.sh PETRI [--update] [FILE...]: repeats recorded sessions of `petri repl` with `petri test`, each in a copy of
 # this folder, because sessions write files. `petri test` must also reproduce the goldens that a session records.
 # Without FILE, also tests the transcripts themselves.
 set -u
