@@ -122,6 +122,7 @@ static void skip_operands(Picked *list, int kind) {
         operands break;
 #define NUMBER(name) list->at++;
 #define FLAG(name) list->at++;
+#define ALPHA(name) list->at++;
 #define WORD(name, words) list->at++;
 #define PAIR(name) list->at += 2;
 #define NUMBERS(name, count) list->at += count;
@@ -131,6 +132,7 @@ static void skip_operands(Picked *list, int kind) {
 #define STRING(name) skip_list(list);
 #define LIST(name) skip_list(list);
 #define FILTER(name) skip_list(list);
+#define EFFECT(name) skip_list(list);
 #define STOPS(name) skip_stops(list);
 #define PIXELS(name) skip_pixels(list);
 #define PAINT(name) skip_paint(list);
