@@ -73,7 +73,7 @@ static void add_words(const Text *transcript, const char *path, TextList *words)
     }
 }
 
-// Makes a descriptor refer to the file of another one. Not with dup2, which the WebAssembly build has not.
+// Makes a descriptor refer to the file of another one. Not with dup2, which the WebAssembly build does not have.
 static bool replace_descriptor(int descriptor, int other) {
     close(descriptor);
     return dup(other) == descriptor;
