@@ -228,8 +228,8 @@ const PromptCommand HOST_COMMANDS[] = {
     {".restore", "FILE", "a file", "load the state from a file and restart the history", NULL, COMPLETE_FILES},
     {".archive", "FILE", "a file", "write an archive of all later frames, for petri archive verify", NULL,
      COMPLETE_FILES},
-    {".record", "FILE [K]", "a file", "write every K-th frame (default: 1) as a golden for petri test", NULL,
-     COMPLETE_FILES},
+    {".record", "FILE [K]", "a file", "write every K-th frame (default: 1), or NAME.session, as a test for petri test",
+     NULL, COMPLETE_FILES},
     {0},
 };
 

@@ -59,8 +59,10 @@ bool prompt_execute(Prompt *prompt, const char *text, size_t length) {
     if (text[strspn(text, " \t\n")] != '\0') {
         recall_add_input(prompt, text);
         execute_text(prompt, text, length);
-    } else if (prompt->repeated)
+    } else if (prompt->repeated) {
+        recall_add_input(prompt, prompt->repeated);
         prompt_command(prompt, prompt->repeated);
+    }
     output_flush(prompt->output);
     return !prompt->failed;
 }

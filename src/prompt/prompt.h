@@ -117,6 +117,7 @@ struct Prompt {
     Expressions watched;  // expressions that are printed after each step
     Expressions breaks;   // expressions that end stepping commands
     TextList inputs;      // earlier inputs, oldest first
+    bool inputs_dropped;  // true if there were too many to keep all
     TextList values;      // printed forms of earlier values, oldest first
     char *repeated;       // the last stepping command, which an empty input repeats; NULL: none
     TextList definitions; // definitions NAME=VALUE from -D and .set

@@ -16,8 +16,10 @@ static void drop_first(TextList *list) {
 
 void recall_add_input(Prompt *prompt, const char *text) {
     SCOPED_STRING line = argument_trimmed(text);
-    if (prompt->inputs.count == MAX_INPUTS)
+    if (prompt->inputs.count == MAX_INPUTS) {
         drop_first(&prompt->inputs);
+        prompt->inputs_dropped = true;
+    }
     texts_add(&prompt->inputs, line);
 }
 

@@ -23,7 +23,7 @@ static bool same_path(const char *a, const char *b) {
     return realpath(a, resolved[0]) && realpath(b, resolved[1]) && strcmp(resolved[0], resolved[1]) == 0;
 }
 
-static bool same_folder(const char *a, const char *b) {
+bool repl_same_folder(const char *a, const char *b) {
     SCOPED_STRING first = memory_folder(a);
     SCOPED_STRING second = memory_folder(b);
     return same_path(first, second);
@@ -42,9 +42,11 @@ static bool can_record(Repl *repl, const char *script) {
     }
     for (int64_t i = 1; i <= now; i++)
         if (petri_history_config(repl->prompt.history, i) != petri_history_config(repl->prompt.history, i - 1))
-            return prompt_fail(
-                &repl->prompt,
-                "cannot record changes made at the prompt (frame %" PRId64 "); run .reset and step again", i - 1);
+            return prompt_fail(&repl->prompt,
+                               "cannot record changes made at the prompt (frame %" PRId64
+                               "); run .reset and step again, "
+                               "or keep the session: .record NAME.session",
+                               i - 1);
     if (petri_history_config(repl->prompt.history, 0) != petri_config_revision(repl->prompt.session))
         return prompt_fail(&repl->prompt,
                            "cannot record: settings changed after these frames; run .reset and step again");
@@ -53,7 +55,7 @@ static bool can_record(Repl *repl, const char *script) {
     if (petri_resolution(repl->prompt.session) > 0)
         return prompt_fail(&repl->prompt,
                            "cannot record frames with .resolution; run '.resolution off' and .reset, and step again");
-    if (repl->loaded && !same_folder(repl->script, script))
+    if (repl->loaded && !repl_same_folder(repl->script, script))
         return prompt_fail(
             &repl->prompt,
             "the golden must be in the folder of '%s', because its file names are relative to that folder",
@@ -134,9 +136,18 @@ static bool write_golden(Repl *repl, const char *golden, const char *script, int
     return good;
 }
 
+static bool may_write(Prompt *prompt, const char *path, bool replaces) {
+    return replaces || access(path, F_OK) != 0 ||
+           prompt_fail(prompt, "'%s' already exists; to replace it, run .record --replace %s", path, path);
+}
+
 bool repl_run_record(Prompt *prompt, const char *rest) {
     Repl *repl = prompt->user_data;
-    SCOPED_STRING name = memory_strdup(rest);
+    static const char option[] = "--replace";
+    bool replaces = strncmp(rest, option, strlen(option)) == 0 && rest[strlen(option)] == ' ';
+    SCOPED_STRING name = argument_trimmed(rest + (replaces ? strlen(option) : 0));
+    if (str_ends_with(str_from(name), STR(TRANSCRIPT_SUFFIX)))
+        return may_write(prompt, name, replaces) && repl_record_session(repl, name);
     int64_t every = 1;
     argument_last_count(name, &every);
     size_t length = strlen(name);
@@ -151,7 +162,7 @@ bool repl_run_record(Prompt *prompt, const char *rest) {
     SCOPED_TEXT golden = {0}, script = {0};
     text_add_format(&golden, "%.*s.golden", (int)length, name);
     text_add_format(&script, "%.*s.fl", (int)length, name);
-    return write_golden(repl, golden.bytes, script.bytes, every);
+    return may_write(prompt, golden.bytes, replaces) && write_golden(repl, golden.bytes, script.bytes, every);
 }
 
 bool repl_run_archive(Prompt *prompt, const char *rest) {

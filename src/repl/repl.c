@@ -233,7 +233,7 @@ static int repl_run(const CommandContext *context, Options *options) {
     const Own *own = options->own;
     if (options->script && transcript_is_named(options->script))
         return transcript_run(context, options->script);
-    Repl repl = {.options = options, .output.fd = STDOUT_FILENO};
+    Repl repl = {.context = context, .options = options, .output.fd = STDOUT_FILENO};
     repl.prompt = (Prompt){
         .host = &HOST, .user_data = &repl, .output = &repl.output, .limit = own->limit, .colour = options->colour};
     repl.script = !options->script || options->replayed ? NULL : memory_strdup(options->script);
@@ -266,7 +266,7 @@ static const OptionSpec ROWS[] = {
     NO_MORE_OPTIONS
 };
 // clang-format on
-static const OptionTable REPL_OPTIONS = {ROWS, sizeof(Own), &(const Own){.limit = 100000}};
+static const OptionTable REPL_OPTIONS = {ROWS, sizeof(Own), &(const Own){.limit = DEFAULT_LIMIT}};
 
 const Command REPL_COMMAND = {
     .name = "repl",

@@ -3,7 +3,7 @@
 //
 //   repl.c                   the session: reads input, which the prompt executes; functions of the host
 //   line.c, edit.c           reading lines, with libedit on a terminal
-//   plot.c, record.c, script.c, show.c   commands that only this host has
+//   plot.c, record.c, record_session.c, script.c, show.c   commands that only this host has
 //   transcript.c             repeating a recorded session
 //   interrupt.c              Ctrl-C
 #pragma once
@@ -18,7 +18,10 @@
 #include "petri-live.h"
 #include "prompt/prompt.h"
 
+enum { DEFAULT_LIMIT = 100000 }; // of --limit
+
 typedef struct Repl {
+    const CommandContext *context;
     Options *options;
     Prompt prompt;
     bool utf8;           // true if plots may use braille characters, else only ASCII
@@ -63,6 +66,11 @@ void repl_watch_files(Repl *repl);
 bool transcript_is_named(const char *path);
 // Runs the prompt with the inputs of a transcript and prints the new one. Returns the exit status.
 int transcript_run(const CommandContext *context, const char *path);
+
+// Records the inputs so far as a transcript (record_session.c). Returns false after a message.
+bool repl_record_session(Repl *repl, const char *path);
+// Returns true if both files are in the same folder (record.c).
+bool repl_same_folder(const char *a, const char *b);
 
 // The commands, as PromptHostCommand.run.
 bool repl_run_load(Prompt *prompt, const char *rest);

@@ -81,6 +81,23 @@ if [ -n "$all" ]; then
     check "a missing script is reported where it was" has "+error: cannot read 'nowhere.fl'"
     : >count.session
     check "an empty transcript has no inputs" run count.session
+
+    # A session with changes, blocks and going back is recorded; its inputs give the same state again.
+    cp -R "$here"/*.fl "$here"/lib .
+    last='$(:cells;1); $(:cells;1;:velocity); $:ticks; $:typed; doubled'
+    printf '%s\n' '.step 30' 'let doubled=2*$:ticks' 'func f(x)' '    x*2' '' 'f(_1 or 3)' '.back 7' '!counter state=:typed rate=3' '' \
+        '.step 20' '.tempo 90' '.step 5' '.record cells' '.record kept.session' "$last" >inputs
+    "$petri" repl -D GAP=2 --fps 50 cells.fl <inputs >live 2>&1
+    check "the session is recorded" grep -q '^-- 10 inputs and their answers written to kept.session$' live
+    check "the recorded session passes" run kept.session
+    check "it begins with the options" [ "$(head -n 1 kept.session)" = "# repl --fps 50 -D GAP=2 cells.fl" ]
+    grep -v -e '^# exit' -e '^@52> $' kept.session >longer.session
+    printf 'petri> %s\n' "$last" >>longer.session
+    "$petri" repl longer.session >"$work/out"
+    check "its inputs lead to the same state" [ "$(tail -n 3 "$work/out" | head -n 1)" = "$(tail -n 2 live | head -n 1)" ]
+    printf '.record kept.session\n.record --replace kept.session\n' | "$petri" repl >"$work/out" 2>&1
+    check ".record replaces no file by itself" has "'kept.session' already exists; to replace it, run"
+    check ".record --replace replaces it" has "-- 0 inputs and their answers written to kept.session"
 fi
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
