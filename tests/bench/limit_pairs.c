@@ -7,6 +7,7 @@
 
 #include <immintrin.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -43,11 +44,13 @@ double limit_pair(uint32_t n, int dimensions) {
     }
     for (size_t i = 0; i < 8 * stride; i++)
         data[i] = (double)((i * 7919) % 10007) * 0.37 + 1;
-    void (*work)(const Cloud *) = cpu_detected.level == CPU_AVX512 ? dimensions == 2 ? all_2_8 : all_3_8
-                                  : dimensions == 2                ? all_2_4
-                                                                   : all_3_4;
+    typedef void Work(const Cloud *);
+    static Work *const works[][2][2] = {// by level, dimensions and way
+                                        {{divider_2_4, fused_2_4}, {divider_3_4, fused_3_4}},
+                                        {{divider_2_8, fused_2_8}, {divider_3_8, fused_3_8}}};
     double best = INFINITY;
-    for (int round = 0; round < 7; round++) {
+    for (int round = 0; round < 14; round++) {
+        Work *work = works[cpu_detected.level - CPU_AVX2][dimensions - 2][round % 2 && cpu_detected.fma];
         int calls = 0;
         double start = now(), spent;
         do {

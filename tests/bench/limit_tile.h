@@ -3,13 +3,20 @@
 // The terms of a tile are added to the particles of its rows in ascending order of partners. Then they are transposed
 // and added to the particles of its columns, also in ascending order. The code has no checks and only one force, so it
 // does less work than petri.
+//
+// Roots and their inverses are computed by the divider, or by fused multiply-add for two columns in step, like
+// lib/physics/fused_roots.h but without its checks.
 #if WIDTH == 8
-#define TARGET __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,avx2")))
+#define TARGET __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,avx2,fma")))
+#define APPROXIMATE_INVERSE_ROOT(x) _mm512_rsqrt14_pd(x)
+#define ROOT_STEPS 2
 #define V __m512d
 #define F(name) _mm512_##name##_pd
 #define NAME(name) name##8
 #else
-#define TARGET __attribute__((target("avx2")))
+#define TARGET __attribute__((target("avx2,fma")))
+#define APPROXIMATE_INVERSE_ROOT(x) _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(x)))
+#define ROOT_STEPS 3
 #define V __m256d
 #define F(name) _mm256_##name##_pd
 #define NAME(name) name##4
@@ -43,43 +50,61 @@ INLINE void NAME(transpose)(V *r) {
 #endif
 }
 
-// Computes the force terms f[] of WIDTH pairs. d[]: differences of their positions; R: sums of their radii; c: the
-// strength times both charges.
-INLINE void NAME(terms)(V *d, V R, V c, int dim, V *f) {
-    V square = F(mul)(d[0], d[0]);
-    for (int m = 1; m < dim; m++)
-        square = F(add)(square, F(mul)(d[m], d[m]));
-    V length = F(sqrt)(square), inverse = F(div)(F(set1)(1), length), D = F(max)(R, length);
-    V k = F(div)(c, F(mul)(D, D));
-    for (int m = 0; m < dim; m++)
-        f[m] = F(mul)(F(mul)(d[m], inverse), k);
+#define BOTH for (int c = 0; c < 2; c++)
+
+// Computes length[c] = sqrt(square[c]) and inverse[c] = 1 / length[c] for two columns.
+INLINE void NAME(roots)(bool fused, const V *square, V *length, V *inverse) {
+    V half = F(set1)(0.5), one = F(set1)(1), g[2], h[2], e[2];
+    if (!fused) {
+        BOTH length[c] = F(sqrt)(square[c]), inverse[c] = F(div)(one, length[c]);
+        return;
+    }
+    BOTH h[c] = APPROXIMATE_INVERSE_ROOT(square[c]);
+    BOTH g[c] = F(mul)(square[c], h[c]), h[c] = F(mul)(h[c], half);
+    for (int step = 0; step < ROOT_STEPS; step++) {
+        BOTH e[c] = F(fnmadd)(g[c], h[c], half);
+        BOTH g[c] = F(fmadd)(g[c], e[c], g[c]), h[c] = F(fmadd)(h[c], e[c], h[c]);
+    }
+    BOTH e[c] = F(fnmadd)(g[c], g[c], square[c]);
+    BOTH length[c] = F(fmadd)(e[c], h[c], g[c]), inverse[c] = F(add)(h[c], h[c]);
+    for (int step = 0; step < 2; step++) {
+        BOTH e[c] = F(fnmadd)(length[c], inverse[c], one);
+        BOTH inverse[c] = F(fmadd)(e[c], inverse[c], inverse[c]);
+    }
 }
 
-INLINE void NAME(tile)(const Cloud *c, int dim, int t, int s, const V *here, V *sum) {
-    V g[3][WIDTH], R = F(loadu)(c->r + t), q = F(loadu)(c->q + t);
-#pragma GCC unroll 8
-    for (int k = 0; k < WIDTH; k++) {
-        V d[3], f[3];
-        for (int m = 0; m < dim; m++)
-            d[m] = F(sub)(F(set1)(c->p[m][s + k]), here[m]);
-        NAME(terms)(d, F(add)(R, F(set1)(c->r[s + k])), F(mul)(q, F(set1)(c->q[s + k])), dim, f);
+INLINE void NAME(tile)(const Cloud *cloud, bool fused, int dim, int t, int s, const V *here, V *sum) {
+    V terms[3][WIDTH], R = F(loadu)(cloud->r + t), q = F(loadu)(cloud->q + t);
+#pragma GCC unroll 4
+    for (int k = 0; k < WIDTH; k += 2) {
+        V d[2][3], square[2], length[2], inverse[2];
         for (int m = 0; m < dim; m++) {
-            sum[m] = F(sub)(sum[m], f[m]);
-            g[m][k] = f[m];
+            BOTH d[c][m] = F(sub)(F(set1)(cloud->p[m][s + k + c]), here[m]);
+            BOTH square[c] = m ? F(add)(square[c], F(mul)(d[c][m], d[c][m])) : F(mul)(d[c][0], d[c][0]);
+        }
+        NAME(roots)(fused, square, length, inverse);
+        BOTH {
+            V D = F(max)(F(add)(R, F(set1)(cloud->r[s + k + c])), length[c]);
+            V f = F(div)(F(mul)(q, F(set1)(cloud->q[s + k + c])), F(mul)(D, D));
+            for (int m = 0; m < dim; m++) {
+                terms[m][k + c] = F(mul)(F(mul)(d[c][m], inverse[c]), f);
+                sum[m] = F(sub)(sum[m], terms[m][k + c]);
+            }
         }
     }
     for (int m = 0; m < dim; m++) {
-        NAME(transpose)(g[m]);
-        V total = F(loadu)(c->f[m] + s);
+        NAME(transpose)(terms[m]);
+        V total = F(loadu)(cloud->f[m] + s);
         for (int k = 0; k < WIDTH; k++)
-            total = F(add)(total, g[m][k]);
-        F(storeu)(c->f[m] + s, total);
+            total = F(add)(total, terms[m][k]);
+        F(storeu)(cloud->f[m] + s, total);
     }
 }
+#undef BOTH
 
 // Computes the forces of all tiles except those on the diagonal. The omitted tiles are a fraction WIDTH / n of all
 // tiles.
-INLINE void NAME(all)(const Cloud *c, int dim) {
+INLINE void NAME(all)(const Cloud *c, bool fused, int dim) {
     for (int t = 0; t < c->n; t += WIDTH) {
         V here[3], sum[3];
         for (int m = 0; m < dim; m++) {
@@ -87,18 +112,26 @@ INLINE void NAME(all)(const Cloud *c, int dim) {
             sum[m] = F(loadu)(c->f[m] + t);
         }
         for (int s = t + WIDTH; s < c->n; s += WIDTH)
-            NAME(tile)(c, dim, t, s, here, sum);
+            NAME(tile)(c, fused, dim, t, s, here, sum);
         for (int m = 0; m < dim; m++)
             F(storeu)(c->f[m] + t, sum[m]);
     }
 }
 
-TARGET static void NAME(all_2_)(const Cloud *c) {
-    NAME(all)(c, 2);
+TARGET static void NAME(divider_2_)(const Cloud *c) {
+    NAME(all)(c, false, 2);
 }
 
-TARGET static void NAME(all_3_)(const Cloud *c) {
-    NAME(all)(c, 3);
+TARGET static void NAME(divider_3_)(const Cloud *c) {
+    NAME(all)(c, false, 3);
+}
+
+TARGET static void NAME(fused_2_)(const Cloud *c) {
+    NAME(all)(c, true, 2);
+}
+
+TARGET static void NAME(fused_3_)(const Cloud *c) {
+    NAME(all)(c, true, 3);
 }
 
 #undef TARGET
@@ -106,3 +139,5 @@ TARGET static void NAME(all_3_)(const Cloud *c) {
 #undef F
 #undef NAME
 #undef INLINE
+#undef APPROXIMATE_INVERSE_ROOT
+#undef ROOT_STEPS
