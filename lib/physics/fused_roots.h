@@ -13,7 +13,7 @@
 #if LANES == 8 // the relative error of the approximation is at most 2^-14
 enum { ROOT_STEPS = 2 };
 #define ROOT_MIN 0x1p-900
-#define ROOT_MAX INFINITY
+#define ROOT_MAX DBL_MAX
 #else // at most 0x1.84p-12; it has the range of a float
 enum { ROOT_STEPS = 3 };
 #define ROOT_MIN 0x1p-120
@@ -28,21 +28,19 @@ KERNEL Real root_approximate_inverse(Real square) {
 #endif
 }
 
-// Returns the lanes of `mask` in which fused_roots rounds correctly. A lane with NaN, or with infinity if that is
-// ROOT_MAX, also counts, although its results are undefined.
+// Returns the lanes of `mask` in which fused_roots rounds correctly, which excludes NaN.
 //
 // The squares that are excluded for their mantissas are 4^k (1 + i 2^-51) with i from -8 to -1, and 4^k (1 + i 2^-52)
 // with i from 0 to 7. Their lowest 53 bits follow each other, so that one addition makes their upper 49 bits zero.
 KERNEL Mask root_is_exact_where(Mask mask, Real square) {
     const uint64_t add = 8 - (UINT64_C(1) << 52), upper = (UINT64_C(1) << 53) - (UINT64_C(1) << 4);
     Bits shifted = bits_of(square) + bits_set(add);
+    mask = real_at_most_where(mask, real_set(ROOT_MIN), square);
+    mask = real_at_most_where(mask, square, real_set(ROOT_MAX));
 #if LANES == 8
-    mask = _mm512_mask_cmp_pd_mask(mask, square, real_set(ROOT_MIN), _CMP_NLT_UQ);
     return _mm512_mask_test_epi64_mask(mask, (__m512i)shifted, (__m512i)bits_set(upper));
 #else
-    __m256d inside = _mm256_and_pd(_mm256_cmp_pd(square, real_set(ROOT_MIN), _CMP_NLT_UQ),
-                                   _mm256_cmp_pd(square, real_set(ROOT_MAX), _CMP_NGT_UQ));
-    return mask & (Mask)inside & (Mask)((shifted & bits_set(upper)) != bits_set(0));
+    return mask & (Mask)((shifted & bits_set(upper)) != bits_set(0));
 #endif
 }
 

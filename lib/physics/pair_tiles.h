@@ -17,15 +17,15 @@ typedef struct Rows {
     Real sum[PHYS_VECTOR_DIMENSIONS];
 } Rows;
 
-// Adds all forces between the rows and one column, which is number k in its tile. If `lead_applies` is set, the leading
-// force is known to act on the column; otherwise this is tested. `tile` receives the terms to subtract from the sum of
-// the column; NULL: they are not needed.
+// Adds all forces between the rows and one column, which is number k in its tile. The leading force can act on the rows
+// in `lead`. If `lead_applies` is set, it is known to act on the column; otherwise this is tested. `tile` receives the
+// terms to subtract from the sum of the column; NULL: they are not needed.
 KERNEL void add_forces(const PairPass *pass, PairShape shape, Rows *rows, const PairEnd *partner,
-                       const PairGeometry *pair, bool lead_applies, Tile *tile, size_t k) {
+                       const PairGeometry *pair, Mask lead, bool lead_applies, Tile *tile, size_t k) {
     const PairEnd *target = &rows->target;
     if (shape.lead != LEAD_NONE) {
         Pairs pairs = {&pass->terms[0], pair, target, partner, pair->valid, false, false};
-        Mask applies = pair->valid & rows->lead;
+        Mask applies = pair->valid & lead;
         if (!lead_applies)
             applies = real_differs_where(applies, pair_source(lead_need(shape), partner), real_zero());
         Real coefficient = lead_coefficient(shape, &pairs);
@@ -41,30 +41,31 @@ KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask l
     PairEnd partner = pair_partner(pass, shape, j);
     PairGeometry pair;
     if (pair_geometry(shape, &rows->target, &partner, live, &pair))
-        add_forces(pass, shape, rows, &partner, &pair, lead_applies, tile, k);
+        add_forces(pass, shape, rows, &partner, &pair, rows->lead, lead_applies, tile, k);
 }
 
-// Returns the rows other than row k of a tile on the diagonal.
-KERNEL Mask rows_except(const Rows *rows, size_t k) {
-    return rows->live & mask_not(mask_first(k + 1) & mask_not(mask_first(k)));
+// Returns all lanes but lane k.
+KERNEL Mask lanes_except(size_t k) {
+    return mask_not(mask_first(k + 1) & mask_not(mask_first(k)));
 }
 
 #if FUSED
-// Like add_column for columns j and j + 1, by fused_roots. `diagonal`: each column is also row k, or k + 1, which is
-// excluded. Returns the lanes of `exact` in which the results are exact.
-KERNEL Mask add_fused(const PairPass *pass, PairShape shape, Rows *rows, bool diagonal, size_t j, bool lead_applies,
-                      Tile *tile, size_t k, Mask exact) {
+// Like add_column for columns j and j + 1, by fused_roots. The leading force must act on all rows and columns.
+// `diagonal`: each column is also row k, or k + 1, which is excluded. Returns the lanes of `exact` in which the results
+// are exact. All masks are constants, so this needs fewer operations than add_column.
+KERNEL Mask add_fused(const PairPass *pass, PairShape shape, Rows *rows, bool diagonal, size_t j, Tile *tile, size_t k,
+                      Mask exact) {
+    const Mask all = mask_first(LANES);
     PairEnd partner[2];
     PairGeometry pair[2];
     Real square[2], length[2], inverse[2];
     for (size_t c = 0; c < 2; c++) {
-        Mask live = diagonal ? rows_except(rows, k + c) : rows->live;
         partner[c] = pair_partner(pass, shape, j + c);
         square[c] = pair_square(shape, &rows->target, &partner[c], &pair[c]);
-        pair[c].valid = real_at_most_where(live, square[c], real_set(DBL_MAX));
+        pair[c].valid = diagonal ? lanes_except(k + c) : all; // root_is_exact_where rejects all other invalid pairs
         if (diagonal)
-            square[c] = real_select(live, square[c], real_set(2)); // any number that root_is_exact_where accepts
-        exact = root_is_exact_where(exact, square[c]);             // implies that no square is 0
+            square[c] = real_select(pair[c].valid, square[c], real_set(2)); // any number that is not rejected
+        exact = root_is_exact_where(exact, square[c]);
     }
     fused_roots(2, square, length, inverse);
     for (size_t c = 0; c < 2; c++) {
@@ -73,27 +74,29 @@ KERNEL Mask add_fused(const PairPass *pass, PairShape shape, Rows *rows, bool di
     }
     // One branch for both columns, because most columns have no contacts, and branches separate their instructions.
     bool contact = shape.rest != REST_NONE && mask_any(pair_in_contact(&pair[0]) | pair_in_contact(&pair[1]));
-    if (rest_needs_contact(shape) && __builtin_expect(!contact, 1))
+    if (__builtin_expect(!contact, 1))
         shape.rest = REST_NONE;
     if (shape.rest == REST_NONE)
         for (size_t c = 0; c < 2; c++)
-            add_forces(pass, shape, rows, &partner[c], &pair[c], lead_applies, tile, k + c);
+            add_forces(pass, shape, rows, &partner[c], &pair[c], all, true, tile, k + c);
     else
         for (size_t c = 0; c < 2; c++)
-            add_forces(pass, shape, rows, &partner[c], &pair[c], lead_applies, tile, k + c);
+            add_forces(pass, shape, rows, &partner[c], &pair[c], all, true, tile, k + c);
     return exact;
 }
 
-// Adds the forces between LANES rows and columns by add_fused. If that is not exact in all lanes, changes nothing but
-// the terms in `tile`, and returns false.
+// Adds the forces between LANES rows and columns by add_fused. Returns false if that is not possible, or not exact in
+// all lanes; then only the terms in `tile` have changed. The leading force must act on all columns.
 KERNEL bool add_all_fused(const PairPass *pass, PairShape shape, Rows *rows, bool diagonal, size_t j, Tile *tile) {
+    if (mask_bits(rows->lead) != ALL_LANES)
+        return false;
     Real sum[PHYS_VECTOR_DIMENSIONS];
     for (size_t m = 0; m < shape.dimensions; m++)
         sum[m] = rows->sum[m];
     Mask exact = mask_first(LANES);
 #pragma GCC unroll 4
     for (size_t k = 0; k < LANES; k += 2)
-        exact = add_fused(pass, shape, rows, diagonal, j + k, !diagonal, tile, k, exact);
+        exact = add_fused(pass, shape, rows, diagonal, j + k, tile, k, exact);
     if (__builtin_expect(mask_bits(exact) == ALL_LANES, 1))
         return true;
     for (size_t m = 0; m < shape.dimensions; m++)
@@ -151,25 +154,24 @@ KERNEL bool lead_acts_on_all(const PairPass *pass, PairShape shape, size_t j) {
     return mask_bits(real_differs_where(mask_first(LANES), source, real_zero())) == (1u << LANES) - 1;
 }
 
-KERNEL void full_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j) {
+// Computes a tile of LANES columns on which the leading force acts. Returns false, without an effect, if fused_roots is
+// not exact. Then partial_tile must be used. The tile must not have variable indices, so that it is in registers.
+KERNEL bool full_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j) {
     Tile tile;
     tile.hits = 0;
 #if FUSED
-    bool done = mask_bits(rows->live) == ALL_LANES && add_all_fused(pass, shape, rows, false, j, &tile);
-    if (__builtin_expect(!done, 0)) {
-        tile.hits = 0;
-        for (size_t k = 0; k < LANES; k++)
-            add_column(pass, shape, rows, rows->live, j + k, true, &tile, k);
-    }
+    if (!add_all_fused(pass, shape, rows, false, j, &tile))
+        return false;
 #else
 #pragma GCC unroll 8
     for (size_t k = 0; k < LANES; k++)
         add_column(pass, shape, rows, rows->live, j + k, true, &tile, k);
 #endif
     finish_tile(pass, shape, &tile, j, LANES);
+    return true;
 }
 
-// Computes a tile that has fewer than LANES columns, or columns on which the leading force does not act.
+// Computes any tile: it may have fewer than LANES columns, or columns on which the leading force does not act.
 KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j, size_t columns) {
     Tile tile;
     tile.hits = 0;
@@ -184,11 +186,11 @@ KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size
 // and only the sums of the rows are needed.
 KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
 #if FUSED
-    if (count == LANES && add_all_fused(pass, shape, rows, true, i, NULL))
+    if (add_all_fused(pass, shape, rows, true, i, NULL)) // then all rows exist
         return;
 #endif
     for (size_t k = 0; k < count; k++)
-        add_column(pass, shape, rows, rows_except(rows, k), i + k, false, NULL, 0);
+        add_column(pass, shape, rows, rows->live & lanes_except(k), i + k, false, NULL, 0);
 }
 
 // Computes up to LANES rows with all their columns. In a triangle, the diagonal tile comes first, then the columns to
@@ -203,9 +205,7 @@ KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t cou
         diagonal_tile(pass, shape, &rows, i, count);
     size_t j = triangle ? i + count : column;
     for (; j < column_end; j += LANES)
-        if (j + LANES <= column_end && lead_acts_on_all(pass, shape, j))
-            full_tile(pass, shape, &rows, j);
-        else
+        if (j + LANES > column_end || !lead_acts_on_all(pass, shape, j) || !full_tile(pass, shape, &rows, j))
             partial_tile(pass, shape, &rows, j, column_end - j < LANES ? column_end - j : LANES);
     for (size_t m = 0; m < shape.dimensions; m++)
         real_store_where(rows.live, pass->force + m * pass->stride + i, rows.sum[m]);

@@ -75,7 +75,8 @@ static void test_few_squares_are_excluded(void **state) {
         add_square(&squares, (double)i / 16 + 0x1p-30);
     check_batch(&squares);
     assert_int_equal(squares.excluded, 0);
-    const double excluded[] = {0, DBL_TRUE_MIN, DBL_MIN, 0x1p-901, 1, 4, 16, 1 + 7 * DBL_EPSILON, 4 - 8 * DBL_EPSILON};
+    const double excluded[] = {
+        0, DBL_TRUE_MIN, DBL_MIN, 0x1p-901, INFINITY, NAN, 1, 4, 16, 1 + 7 * DBL_EPSILON, 4 - 8 * DBL_EPSILON};
     for (size_t i = 0; i < COUNT_OF(excluded); i++)
         for (int lane = 0; lane < 8; lane++)
             add_square(&squares, excluded[i]);
