@@ -98,7 +98,23 @@ static void forget_links(Document *document) {
     document->link_count = 0;
 }
 
+void document_add_failure(Document *document, uint32_t line, const char *text) {
+    size_t count = document->failure_count;
+    document->failures = memory_realloc(document->failures, (count + 1) * sizeof *document->failures);
+    document->failures[count] = (DocumentFailure){.line = line, .text = memory_strdup(text)};
+    document->failure_count++;
+}
+
+void document_clear_failures(Document *document) {
+    for (size_t i = 0; i < document->failure_count; i++)
+        free(document->failures[i].text);
+    free(document->failures);
+    document->failures = NULL;
+    document->failure_count = 0;
+}
+
 void document_free(Document *document) {
+    document_clear_failures(document);
     diagnostic_list_free(&document->diagnostics);
     file_diagnostics_free(&document->published);
     forget_links(document);

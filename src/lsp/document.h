@@ -38,6 +38,12 @@ typedef struct Link {
     size_t target; // index in Workspace.documents; SIZE_MAX: not in the workspace
 } Link;
 
+// A failed test of a script.
+typedef struct DocumentFailure {
+    uint32_t line; // from 1; 0: not known
+    char *text;
+} DocumentFailure;
+
 typedef struct Document {
     char *uri;       // as the editor writes it
     char *path;      // name in diagnostics: the path, or the URI if it is not a file URI
@@ -58,6 +64,8 @@ typedef struct Document {
     Link *links;
     size_t link_count;
     DiagnosticList diagnostics;
+    DocumentFailure *failures; // failed tests when the document was saved; none after a change
+    size_t failure_count;
     TextList used;                 // files that the last check read
     FileDiagnosticsList published; // diagnostics of the last check
     char **values;                 // value of each of `names` if it is a constant, else NULL; NULL: not evaluated yet
@@ -69,6 +77,8 @@ void document_free(Document *document);
 void document_change(Document *document, const Json *change, bool utf8);
 // Updates tokens and names if they are outdated.
 void document_read(Document *document, PetriSession *session);
+void document_add_failure(Document *document, uint32_t line, const char *text);
+void document_clear_failures(Document *document);
 void diagnostic_list_free(DiagnosticList *list);
 void file_diagnostics_free(FileDiagnosticsList *list);
 

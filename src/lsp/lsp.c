@@ -39,6 +39,7 @@ static void change_document(Server *server, const Json *params) {
     if (!document || !json_is(changes, JSON_ARRAY))
         return;
     document->version = json_integer_or(json_get(params, "textDocument"), "version", document->version + 1);
+    document_clear_failures(document);
     for (const Json *change = NULL; (change = json_next(changes, change));)
         document_change(document, change, server->utf8);
     mark_dependents_unchecked(server, document);
@@ -62,6 +63,13 @@ static void check_all(Server *server, const Json *params) {
     (void)params;
     for (size_t i = 0; i < server->document_count; i++)
         server->documents[i]->unchecked = true;
+}
+
+static void save_document(Server *server, const Json *params) {
+    Document *document = server_document(server, json_text(json_get(params, "textDocument"), "uri"));
+    if (document)
+        golden_tests_run(server, document);
+    check_all(server, params);
 }
 
 // --- folders
@@ -108,7 +116,7 @@ static const struct {
     {"textDocument/didOpen", open_document},
     {"textDocument/didChange", change_document},
     {"textDocument/didClose", close_document},
-    {"textDocument/didSave", check_all},
+    {"textDocument/didSave", save_document},
     {"workspace/didChangeWatchedFiles", check_all},
     {"workspace/didChangeWorkspaceFolders", change_folders},
 };

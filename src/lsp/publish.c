@@ -125,6 +125,7 @@ static PetriStatus check_document(Server *server, Document *document, PetriSessi
     items_for(&server->found, document->uri);
     PetriStatus status =
         !session ? PETRI_OK : petri_check_text(session, document->path, document->text.bytes, document->text.len);
+    golden_tests_report(server, document);
     server->checking = false;
     return status;
 }

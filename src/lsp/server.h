@@ -3,6 +3,7 @@
 //   lsp.c              messages of the editor
 //   complete.c, navigate.c, outline.c, inlay_hints.c, format.c   answers to its requests
 //   hover.c            help and values of words; publish.c: diagnostics
+//   golden_tests.c     failed tests
 //   workspace.c        names in several files
 //   server.c           open documents, other files, sessions
 //   document.c, rpc.c  texts and positions; messages
@@ -59,6 +60,10 @@ void server_read(Server *server, Document *document);
 void diagnostics_publish(Server *server, Document *document);
 // Stores a diagnostic of the current check. For PetriOptions.on_diagnostic.
 void diagnostics_collect(void *server, const PetriDiagnostic *diagnostic);
+// Runs the tests beside a script that was saved, and stores those that fail (golden_tests.c).
+void golden_tests_run(Server *server, Document *document);
+// Adds the failed tests to the diagnostics of the current check.
+void golden_tests_report(Server *server, Document *document);
 // Removes the document's diagnostics from the editor.
 void diagnostics_withdraw(Server *server, Document *document);
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -396,6 +397,43 @@ check("the letters of a symbol may be apart", symbols("aol"), [("aureole", 13, "
 folders.notify("workspace/didChangeWorkspaceFolders", {"event": {"added": [], "removed": [two]}})
 check("symbols of a folder that is removed are not found", symbols("area"), [])
 folders.end()
+
+# Failed tests of a script that is saved.
+saved = Path(scratch.name, "saved.fl")
+saved.write_text("let A=1\n!n a=A\n")
+subprocess.run([petri, "test", "--new", saved, "--frames", "1"], check=True, stdout=subprocess.DEVNULL)
+
+
+def after_save(text, again=False):
+    """Saves the script with this text, or changes it `again` after that. Returns its diagnostics: line and message of each."""
+    uri = saved.as_uri()
+    saved.write_text(text)
+    client.change(uri, {"text": text})
+    client.wait(uri)
+    client.published.pop(uri)
+    client.notify("textDocument/didSave", {"textDocument": {"uri": uri}})
+    diagnostics = client.wait(uri)
+    if again:
+        client.change(uri, {"text": text})
+        diagnostics = client.wait(uri)
+    return [(item["range"]["start"]["line"], item["message"].split("\n")[0]) for item in diagnostics]
+
+
+client.open(saved.as_uri(), saved.read_text())
+check("a golden that agrees gives no diagnostic", after_save("let A=1\n!n a=A\n"), [])
+check("a golden that differs is an error of the script", after_save("let A=2\n!n a=A\n"),
+      [(0, "saved.golden fails: frame 0: expected !n a=1, got !n a=2")])
+check("after a change, failed tests are not shown", after_save("let A=3\n!n a=A\n", again=True), [])
+if shutil.which("git"):
+    motion = "!physics state=:s dimensions=1\n    !particle id=:a position=0\n    !constant acceleration=%d\n"
+    saved.write_text(motion % 1)
+    Path("saved.golden").unlink()
+    subprocess.run([petri, "test", "--new", saved], check=True, stdout=subprocess.DEVNULL)
+    git = ["git", "-c", "user.name=n", "-c", "user.email=e"]
+    for words in (["init", "-q"], ["add", "saved.fl", "saved.golden"], ["commit", "-q", "-m", "first"]):
+        subprocess.run(git + words, check=True)
+    check("a failure is shown in the line of its cause", [line for line, message in after_save(motion % 2)], [2])
+client.close(saved.as_uri())
 
 # Incomplete scripts.
 check("names are completed although a line has an error", {"SIZE", "area"} <=
