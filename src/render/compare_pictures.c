@@ -104,10 +104,11 @@ static bool write_comparison(const CommandContext *host, const PngFile *pictures
     text_add_format(&script, "        !rect size=%d;%d fill=true color=0.5\n", 3 * width + 2 * GAP, height);
     add_image(&script, 8, &pictures[0], 0);
     add_image(&script, 8, &pictures[1], width + GAP);
-    text_add_format(&script, "        !layer origin=%d;0 size=%d;%d\n", 2 * (width + GAP), width, height);
-    add_image(&script, 12, &pictures[0], 0);
-    text_add_c(&script, "            !paint composite=:difference\n");
-    add_image(&script, 16, &pictures[1], 0);
+    text_add_format(&script, "        !group translate=%d;0\n", 2 * (width + GAP));
+    text_add_format(&script, "            !layer size=%d;%d\n", width, height);
+    add_image(&script, 16, &pictures[0], 0);
+    text_add_c(&script, "                !paint composite=:difference\n");
+    add_image(&script, 20, &pictures[1], 0);
     bool good = 3 * width + 2 * GAP <= PETRI_MAX_PICTURE_SIDE && draw(&drawing, host, &script) &&
                 petri_picture_save(drawing.picture, drawing.painter, file) == PETRI_OK;
     close_drawing(&drawing);

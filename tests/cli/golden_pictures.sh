@@ -93,3 +93,21 @@ check "a comparison of strange names is written" [ -e "pics/it's %d.0003.failed.
 printf '!n\n' >pics/nothing.fl
 petri test --new pics/nothing.fl --render
 check "a script that draws nothing gets no golden" eval 'status_is 1 && [ ! -e pics/nothing.golden ]'
+# A comparison shows the old disc, the new one, and a disc in the difference of their colours.
+cp disc.fl pics/three.fl
+petri test --new pics/three.fl --render --frame 0
+sed -i 's/color=1;0;0/color=0;0.5;1/' pics/three.fl
+petri test pics/three.fl
+cat >three.fl <<'END'
+!window size=136;30
+    !canvas
+        !rect size=136;30 fill=true color=0.5
+        for i in ..3
+            !group translate=48*i;0
+                !rect size=40;30 fill=true color=0
+                !ellipse point=5;15 radius=4 fill=true color=((1;0;0), (0;0.5;1), (1;0.5;1))[i]
+END
+sed -i 's/((1;0;0), (0;0.5;1), (1;0.5;1))\[i\]/(1;0;0;0;0.5;1;1;0.5;1)[3*i..3*i+3]/' three.fl
+petri render three.fl -o three.png --frame 0
+petri --compare-pictures three.png pics/three.0000.failed.png 2
+check "a comparison has the difference as its third picture" status_is 0
