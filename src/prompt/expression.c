@@ -17,6 +17,7 @@ typedef struct Scan {
     int depth;    // open brackets within it
     size_t last;  // end of the token before if it is `prev`, else SIZE_MAX
     bool nested;
+    bool after_func; // true if the token before is `func`, so that `prev` is a definition
 } Scan;
 
 static void add_inner(Scan *scan, size_t end) {
@@ -33,7 +34,7 @@ static void add_inner(Scan *scan, size_t end) {
 static void see_token(void *user_data, const PetriToken *token) {
     Scan *scan = user_data;
     Str word = {scan->text + token->start, token->end - token->start};
-    bool is_prev = token->kind == PETRI_TOKEN_NAME && str_equal(word, STR("prev"));
+    bool is_prev = token->kind == PETRI_TOKEN_NAME && str_equal(word, STR("prev")) && !scan->after_func;
     char c = word.len == 1 ? word.bytes[0] : '\0';
     bool opens = c == '(' || c == '[' || c == '{', closes = c == ')' || c == ']' || c == '}';
     if (scan->start == SIZE_MAX) {
@@ -49,20 +50,21 @@ static void see_token(void *user_data, const PetriToken *token) {
         scan->nested = scan->nested || (scan->last == token->start && c == '(');
     }
     scan->last = is_prev ? token->end : SIZE_MAX;
+    scan->after_func = str_equal(word, STR("func"));
 }
 
-// Returns true if the script, the prompt or petri binds `prev`, which then has no special meaning.
-static bool binds_prev(Prompt *prompt) {
+// Returns true if the script or the prompt binds `prev` or `changes`, which then has no special meaning.
+static bool is_bound(Prompt *prompt, const char *word) {
     const char *name;
     for (size_t i = 0; (name = petri_visible_name(prompt->session, i)); i++)
-        if (strcmp(name, "prev") == 0)
+        if (strcmp(name, word) == 0)
             return true;
     return false;
 }
 
 static bool find_inner(Prompt *prompt, Expression *out) {
     Scan scan = {.text = out->text, .out = out, .start = SIZE_MAX, .last = SIZE_MAX};
-    if (!strstr(out->text, "prev(") || binds_prev(prompt))
+    if (!strstr(out->text, "prev(") || is_bound(prompt, "prev"))
         return true;
     petri_tokenise(prompt->session, out->text, strlen(out->text), see_token, &scan);
     return !scan.nested || prompt_fail(prompt, "prev() cannot contain prev()");
@@ -150,7 +152,8 @@ bool expression_parse(Prompt *prompt, const char *text, Expression *out) {
     static const char word[] = "changes";
     size_t length = strlen(word);
     *out = (Expression){.typed = memory_strdup(text)};
-    out->changes = strncmp(text, word, length) == 0 && strchr(" \t(", text[length]) && text[length] != '\0';
+    out->changes = strncmp(text, word, length) == 0 && strchr(" \t(", text[length]) && text[length] != '\0' &&
+                   !is_bound(prompt, word);
     SCOPED_STRING rest = argument_trimmed(text + (out->changes ? length : 0));
     out->text = memory_strdup(rest);
     PetriEvaluation result;

@@ -81,6 +81,31 @@ function printedByPage(inputs) {
     });
 }
 
+test('an empty line repeats the last command that computes frames, and values and breaks last until the next script', () => {
+    const player = new Player(engine, { keepForces: true }, { see() {}, forget() {} }), asked = [];
+    const execute = input => player.session.execute(`${input}\n`, {
+        first: player.first, last: player.lastFrame, step: () => player.step(), goTo: frame => player.seek(frame),
+        set: (name, value) => player.set(name, value), run: () => asked.push('run'), plot: text => asked.push(text),
+    });
+    player.load(SCRIPT, 'script.fl');
+    player.step();
+    execute('.step 3');
+    execute('.particles');
+    execute('');
+    assert.equal(player.frame, 6);
+    assert.equal(execute('6*7').text, '42\n');
+    execute('.break frame == 9');
+    player.load(SCRIPT, 'script.fl');
+    player.step();
+    assert.equal(execute('_+1').text, '43\n');
+    assert.match(execute('.step 20').text, /^@9 .*\n-- stopped by \.break frame == 9\n$/s);
+    assert.match(execute('.save x').text, /^\.save works only in 'petri repl'; in the page, use Export or Copy link\n$/);
+    assert.equal(execute('.unbreak').failed, false);
+    execute('.run');
+    execute('.plot frame*2 10');
+    assert.deepEqual(asked, ['run', 'frame*2']);
+});
+
 test('each input prints the same in the page and in petri repl', () => {
     const command = printedByCommand(INPUTS), page = printedByPage(INPUTS);
     assert.equal(command.length, INPUTS.length);
