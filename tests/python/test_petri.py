@@ -268,6 +268,44 @@ class Running(unittest.TestCase):
         with self.assertRaises(petri.ScriptError):
             petri.Session("!x\n", given={"time": 1})
 
+    # Arrays are passed as buffers. Each must be the same value as its elements in a list.
+    def test_globals_can_be_arrays(self):
+        session = petri.Session("!x v=wind n=len(wind)\n", given={"wind": 0})
+        whole, grid = numpy.arange(-3, 9), numpy.arange(24.0).reshape(4, 3, 2) / 8
+        readonly = numpy.linspace(0, 1, 5)
+        readonly.flags.writeable = False
+        arrays = [whole, grid, grid.T, grid[::-2, 1], whole[::3], readonly, whole.astype(">i4"), grid.astype("<f4"),
+                  grid.astype(">f8"), grid.astype(numpy.longdouble), whole.astype(numpy.uint8), whole > 2,
+                  numpy.array([numpy.nan, numpy.inf, -0.0, 5e-324, 2.0**60]), numpy.array([], float), numpy.zeros((3, 0)),
+                  numpy.array([2**63 - 1, 2**53 + 1]), numpy.asfortranarray(grid[0])]
+        for array in arrays:
+            texts = []
+            for value in (array, array.tolist()):
+                session.set_global("wind", value)
+                session.step()
+                texts.append(session.text("tree").split("\n", 1)[1])
+            self.assertEqual(*texts, array)
+        session.set_global("wind", numpy.array(2.5))  # of no dimensions
+        session.step()
+        self.assertIn("!x v=2.5 n=1", session.text("tree"))
+        passed = numpy.array([1.0, 2.0])
+        session.set_global("wind", passed)
+        passed[0] = 7  # the session has its own copy
+        session.step()
+        self.assertIn("!x v=1;2 n=2", session.text("tree"))
+
+    def test_ids_are_those_of_the_script(self):
+        for listed, wanted in {"..4": [0, 1, 2, 3], "-2;0.5;1e300;7": [-2, 0.5, int(1e300), 7], ":b;:a;3": ["b", "a", 3],
+                               "'a';1": [petri.Text("a"), 1], "9007199254740993;-0;3": [9007199254740992, 0, 3]}.items():
+            session = petri.Session(f"!physics state=:s dimensions=1\n    for i in {listed}\n        !particle id=i position=i\n")
+            session.step()
+            ids = session.systems["s"].ids
+            self.assertEqual([(type(id), id) for id in ids], [(type(id), id) for id in wanted], listed)
+        session = petri.Session("!physics state=:s dimensions=1\n    for i in ..(5-frame)\n        !particle id=i;i+1 position=i\n")
+        for frame in range(6):
+            session.step()
+            self.assertEqual(session.systems["s"].ids, [(i, i + 1) for i in range(5 - frame)])
+
     def test_evaluate_returns_values(self):
         session = petri.Session("let a=1;2;3\n")
         session.step()

@@ -314,7 +314,7 @@ class Session:
             raise KeyError(f"unknown global {name!r}; pass it to petri.Session(..., given={{{name!r}: ...}})")
         with self._lock:
             encoded, keep = values.encode(self._c, value)
-        self._call(lib.petri_set_global, name.encode(), encoded, message=f"cannot set {name!r} to {value!r}")
+        self._call(lib.petri_set_global, name.encode(), encoded, message=f"cannot set {name!r}: the name or the value is invalid")
         self._given[name] = value
 
     def __getstate__(self) -> dict:

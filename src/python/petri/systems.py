@@ -173,6 +173,9 @@ class System:
         count = self._fetch().particle_count
         with self._owner._lock:
             session = self._owner._c
+            column = lib.petri_particle_ids(session, self._number)
+            if count > 0 and column.data:
+                return values.whole_numbers(session, column.data, count)
             return [values.whole(values.decode(session, lib.petri_particle_id(session, self._number, i))) for i in range(count)]
 
     def index(self, id: Any) -> int:

@@ -10,6 +10,8 @@ import ast
 import re
 from typing import Any, Iterable, List, Tuple, Union
 
+import numpy
+
 from ._petri import ffi, lib
 
 # Symbols are represented by numbers below this value.
@@ -50,6 +52,10 @@ def symbol(session: Any, name: str) -> float:
 
 def encode(session: Any, value: Any) -> Tuple[Any, list]:
     """Returns a PetriValue, and the objects that must be kept alive with it."""
+    if isinstance(value, numpy.ndarray) and value.dtype.kind in "fiub":
+        numbers = ffi.from_buffer("double[]", numpy.ascontiguousarray(value, numpy.float64).reshape(-1))
+        result = ffi.new("PetriValue *", {"length": len(numbers), "numbers": numbers})
+        return result[0], [result, numbers]
     parts = [symbol(session, part) if isinstance(part, str) and not isinstance(part, Text) else part
              for part in elements(value)]
     result = ffi.new("PetriValue *", {"length": len(parts)})
@@ -108,6 +114,14 @@ def whole(value: Value) -> Value:
     if isinstance(value, tuple):
         return tuple(whole(part) for part in value)  # type: ignore[misc]
     return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+def whole_numbers(session: Any, data: Any, count: int) -> List[Element]:
+    """Returns `count` doubles as whole() converts them, with the names of symbols."""
+    numbers = numpy.frombuffer(ffi.buffer(data, 8 * count))
+    if numpy.all((numbers == numpy.floor(numbers)) & (abs(numbers) < 2**53)):
+        return numbers.astype(numpy.int64).tolist()
+    return [whole(number(session, x)) for x in numbers.tolist()]  # type: ignore[misc]
 
 
 _TOKEN = re.compile(
