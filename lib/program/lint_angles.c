@@ -77,24 +77,50 @@ static Str conversion(const Compiler *compiler, const Ast *angle, bool degrees) 
                       STR_ARGS(text), degrees ? "360" : "tau");
 }
 
-// Checks one angle. `taker` is the function or attribute that takes it. A whole number counts as degrees if it is
-// `smallest` or more.
-static void check_angle(Compiler *compiler, const Ast *angle, double smallest, Str taker) {
+static bool is_in_turns(const SchemaRow *row) {
+    const char *unit = schema_help[row - schema_rows].unit;
+    return unit[0] == 't' && strcmp(unit, "turns") == 0; // most rows need no call
+}
+
+static bool has_name(const SchemaRow *row, Str node, Str attr) {
+    return str_equal(attr, str_from(schema_names[row->name])) &&
+           str_equal(node, str_from(schema_kinds[row->kind].name));
+}
+
+// Returns true if an attribute is in turns in all kinds of nodes with this name that have it.
+static bool is_angle(Str node, Str attr) {
+    bool found = false;
+    for (int i = 0; i < ROW_COUNT && !found; i++)
+        found = is_in_turns(&schema_rows[i]) && has_name(&schema_rows[i], node, attr);
+    for (int i = 0; i < ROW_COUNT && found; i++)
+        found = is_in_turns(&schema_rows[i]) || !has_name(&schema_rows[i], node, attr);
+    return found;
+}
+
+// A function or attribute that takes angles.
+typedef struct Taker {
+    Str name;
+    const Symbol *node; // node of the attribute; whether the attribute takes angles is not known yet. NULL: a function
+} Taker;
+
+// Checks one angle. A whole number counts as degrees if it is `smallest` or more. Looks for the attribute only if its
+// value would be reported, because this is done for each attribute of a script.
+static void check_angle(Compiler *compiler, const Ast *angle, double smallest, Taker taker) {
     Circles circles = {0};
     double largest = 0;
     bool degrees = lint_is_whole(compiler, angle, &largest) && largest >= smallest;
     find_circles(compiler, angle, false, &circles);
-    if (!degrees && (!circles.above || circles.below))
+    if ((!degrees && (!circles.above || circles.below)) || (taker.node && !is_angle(taker.node->name, taker.name)))
         return;
     compile_report(compiler, angle->span, DIAG_WARNING, "angle-unit",
                    str_format(compiler->arena, "%.*s takes angles in turns, and this one seems to be in %s",
-                              STR_ARGS(taker), degrees ? "degrees" : "radians"),
+                              STR_ARGS(taker.name), degrees ? "degrees" : "radians"),
                    conversion(compiler, angle, degrees));
 }
 
 // Checks the angles that are the elements of a vector. If `first` is true, only the first element is an angle.
 // Small whole numbers in a vector of several angles are not reported, because they are common in examples.
-static void check_angles(Compiler *compiler, const Ast *angles, bool first, Str taker) {
+static void check_angles(Compiler *compiler, const Ast *angles, bool first, Taker taker) {
     enum { MIN_DEGREES = 2, MIN_OF_SEVERAL = 9 };
     if (angles->kind != AST_COMPOSE)
         check_angle(compiler, angles, MIN_DEGREES, taker);
@@ -115,31 +141,9 @@ void lint_call_angles(Compiler *compiler, const Ast *call) {
     for (size_t i = 0; i < sizeof angles / sizeof angles[0]; i++)
         if (is_builtin_name(compiler, callee, angles[i].function) && call->count > angles[i].argument + 1)
             check_angles(compiler, call->children[angles[i].argument + 1], angles[i].first,
-                         str_from(angles[i].function));
-}
-
-static bool is_in_turns(const SchemaRow *row) {
-    const char *unit = schema_help[row - schema_rows].unit;
-    return unit[0] == 't' && strcmp(unit, "turns") == 0; // most rows need no call
-}
-
-static bool has_name(const SchemaRow *row, Str node, Str attr) {
-    return str_equal(attr, str_from(schema_names[row->name])) &&
-           str_equal(node, str_from(schema_kinds[row->kind].name));
-}
-
-// Returns true if an attribute is in turns in all kinds of nodes with this name that have it. First looks for it among
-// the few rows in turns, because this is done for each attribute of a script.
-static bool is_angle(Str node, Str attr) {
-    bool found = false;
-    for (int i = 0; i < ROW_COUNT && !found; i++)
-        found = is_in_turns(&schema_rows[i]) && has_name(&schema_rows[i], node, attr);
-    for (int i = 0; i < ROW_COUNT && found; i++)
-        found = is_in_turns(&schema_rows[i]) || !has_name(&schema_rows[i], node, attr);
-    return found;
+                         (Taker){str_from(angles[i].function), NULL});
 }
 
 void lint_attribute_angles(Compiler *compiler, const Symbol *node, const Ast *attr) {
-    if (is_angle(node->name, attr->name->name))
-        check_angles(compiler, attr->children[0], false, attr->name->name);
+    check_angles(compiler, attr->children[0], false, (Taker){attr->name->name, node});
 }
