@@ -107,8 +107,8 @@ static void set_number(const SceneFrame *frame, StateSlot slot, double x) {
     state_slot_set(frame->state, slot, value_number(x));
 }
 
-static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemAttrs *settings) {
-    schema_defaults(KIND_PHYSICS, settings);
+static bool read_settings(const Scene *scene, const Reader *reader, const SceneFrame *frame, SystemAttrs *settings) {
+    *settings = scene->system_defaults;
     settings->time = frame->time;
     settings->resolution = 1 / frame->fps;
     reader_fill(reader, settings);
@@ -279,7 +279,7 @@ static void retain_skipped(Scene *scene, Value prefix, const SceneFrame *frame) 
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     Reader reader = {scene->schema, frame->arena, node, KIND_PHYSICS, 1};
     SystemAttrs settings;
-    if (!read_settings(&reader, frame, &settings) || !fits_in_memory(&reader, &settings)) {
+    if (!read_settings(scene, &reader, frame, &settings) || !fits_in_memory(&reader, &settings)) {
         retain_skipped(scene, settings.state, frame);
         if (scene->schema->lint)
             reader_report_inside(&reader);

@@ -15,6 +15,7 @@ static Reader reader_of(const PhysicsTree *tree, const Node *node, NodeKind kind
 }
 
 void physics_read_defaults(Scene *scene) {
+    schema_defaults(KIND_PHYSICS, &scene->system_defaults);
     schema_defaults(KIND_PARTICLE, &scene->body_defaults[false]);
     schema_defaults(KIND_ANCHOR, &scene->body_defaults[true]);
     scene->body_defaults[true].numbers.anchor = true;

@@ -68,6 +68,7 @@ struct PhysicsSystem {
 
 struct Scene {
     Schema *schema;
+    SystemAttrs system_defaults;
     BodyAttrs body_defaults[2]; // defaults of particles [0] and anchors [1]
     ForceAttrs force_defaults[PHYS_FORCE_KINDS];
     bool tree_was_read;    // a tree was read from scratch in the current update

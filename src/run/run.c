@@ -90,7 +90,7 @@ static bool run_frame(Run *run) {
         return false;
     PetriFrame frame;
     petri_frame(run->frames.session, &frame, sizeof frame);
-    stats_count(&run->stats, run->frames.session);
+    stats_count(&run->stats, &frame, run_options(run->frames.options)->stats ? run->frames.session : NULL);
     bool printed = frame.number % run_options(run->frames.options)->every == 0;
     if (printed)
         output_frame(run);

@@ -7,15 +7,13 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-void stats_count(Stats *stats, PetriSession *session) {
-    PetriFrame frame;
-    petri_frame(session, &frame, sizeof frame);
+void stats_count(Stats *stats, const PetriFrame *frame, PetriSession *session) {
     stats->frames++;
-    stats->physics_steps += frame.physics_steps;
-    stats->evaluation_seconds += frame.evaluation_seconds;
-    stats->physics_seconds += frame.physics_seconds;
+    stats->physics_steps += frame->physics_steps;
+    stats->evaluation_seconds += frame->evaluation_seconds;
+    stats->physics_seconds += frame->physics_seconds;
     PetriSystem system;
-    for (size_t i = 0; frame.physics_steps > 0 && petri_system(session, i, &system, sizeof system); i++)
+    for (size_t i = 0; session && frame->physics_steps > 0 && petri_system(session, i, &system, sizeof system); i++)
         stats->particle_steps += (double)system.steps * system.particle_count;
 }
 
