@@ -12,7 +12,7 @@
 
 enum {
     FUSED_MIN_PAIRS = 500,   // pairs in the smallest step that is measured
-    FUSED_MAX_PROBES = 16,   // measured steps of each way in a period
+    FUSED_MAX_PROBES = 8,    // measured steps of each way in a period
     FUSED_MIN_PROBES = 2,    // the same if they take longer than FUSED_MAX_TIME together
     FUSED_MAX_TIME = 500000, // ns
     FUSED_PERIOD = 1 << 14,  // steps

@@ -34,6 +34,10 @@ void phys_integrate_rows(const Integrator *integrator, size_t first, size_t end)
     if (integrator->wide)
         columns.scratch = scratch;
     pass.columns = &columns;
+    Draws draws;
+    draws.force = NULL;
+    pass.draws = &draws;
+    pass.end = end;
     if (integrator->random && first > integrator->group->first && !columns.random_offset)
         pass.draw_count = columns.dimensions * moving_between(&columns, integrator->group->first, first);
     integrator->kernel(&pass, first, end);

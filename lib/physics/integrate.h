@@ -4,6 +4,14 @@
 #include "physics/internal.h"
 #include "physics/kernels.h"
 
+// Numbers of a random stream that are drawn ahead for a range of particles, because long arrays are faster.
+typedef struct Draws {
+    const Force *force; // the only force that uses them; NULL: none so far
+    uint64_t first;     // item of the stream
+    size_t count;
+    double numbers[128];
+} Draws;
+
 // Parameters of the pass over one group, for the kernels.
 typedef struct IntegratePass {
     const Columns *columns; // with a separate `scratch` for each thread
@@ -15,6 +23,8 @@ typedef struct IntegratePass {
     bool keep_force; // true: store the sums of forces for PhysColumns.force; false: set them to 0 for the next step
     const atomic_bool *stop; // set when the frame is aborted, so that the remaining particles are skipped; NULL: never
     uint64_t draw_count; // number of random numbers that each random force has drawn for the group so far in this step
+    Draws *draws;        // of the present range of columns
+    size_t end;          // end of this range
 } IntegratePass;
 
 static inline bool phys_integrate_stopped(const IntegratePass *pass) {

@@ -145,8 +145,8 @@ KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Re
     }
 }
 
-static void clear_terms(Real (*column)[LANES]) {
-    for (size_t m = 0; m < PHYS_VECTOR_DIMENSIONS; m++)
+KERNEL void clear_terms(size_t dimensions, Real (*column)[LANES]) {
+    for (size_t m = 0; m < dimensions; m++)
         for (size_t k = 0; k < LANES; k++)
             column[m][k] = real_zero();
 }
@@ -172,7 +172,7 @@ KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *
         if (!mask_any(applies))
             continue;
         if (tile && !(tile->hits >> t & 1)) {
-            clear_terms(tile->rest[t]);
+            clear_terms(shape.dimensions, tile->rest[t]);
             tile->hits |= 1u << t;
         }
         add_term(shape, pair, applies, coefficient, sum, tile ? tile->rest[t] : NULL, k);

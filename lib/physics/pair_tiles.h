@@ -108,16 +108,21 @@ KERNEL bool add_all_fused(const PairPass *pass, PairShape shape, Rows *rows, boo
 // Subtracts component m of the terms of all forces from the columns' sums in *total. The order is row by row, and
 // within a row the order of the forces.
 static void finish_mixed(const PairPass *pass, Tile *tile, bool lead, size_t m, Real *total) {
+    Real(*terms[PHYS_MAX_TERMS])[LANES]; // of the forces that have written to `rest`
+    size_t count = 0;
     for (size_t t = 0; t < pass->term_count; t++)
-        if (tile->hits >> t & 1)
-            real_transpose(tile->rest[t][m]);
+        if (tile->hits >> t & 1) {
+            terms[count] = &tile->rest[t][m];
+            real_transpose(*terms[count++]);
+        }
+    Real sum = *total;
     for (size_t k = 0; k < LANES; k++) {
         if (lead)
-            *total = *total - tile->lead[m][k];
-        for (size_t t = 0; t < pass->term_count; t++)
-            if (tile->hits >> t & 1)
-                *total = *total - tile->rest[t][m][k];
+            sum -= tile->lead[m][k];
+        for (size_t t = 0; t < count; t++)
+            sum -= (*terms[t])[k];
     }
+    *total = sum;
 }
 
 // Subtracts the terms of a tile from the columns' sums.
@@ -176,7 +181,7 @@ KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size
     Tile tile;
     tile.hits = 0;
     if (shape.lead != LEAD_NONE)
-        clear_terms(tile.lead);
+        clear_terms(shape.dimensions, tile.lead);
     for (size_t k = 0; k < columns; k++)
         add_column(pass, shape, rows, rows->live, j + k, false, &tile, k);
     finish_tile(pass, shape, &tile, j, columns);

@@ -187,24 +187,56 @@ KERNEL size_t consecutive_draws(const Singles *s, size_t lane, unsigned bits, si
     return count;
 }
 
+// Returns `count` numbers of the stream from `item` on: some of pass->draws, or `own`, which has space for them.
+static const double *draw(const Singles *s, uint64_t item, size_t count, double *own) {
+    Draws *draws = s->pass->draws;
+    if (!draws->force) {
+        draws->force = s->force;
+        draws->count = 0;
+    }
+    if (draws->force != s->force || s->columns->random_offset) {
+        random_normals(LANES_LEVEL, s->force->given.key, item, count, own);
+        return own;
+    }
+    if (draws->count < count || item + count > draws->first + draws->count) {
+        enum { MAX = sizeof draws->numbers / sizeof *draws->numbers };
+        size_t rest = s->n * (s->pass->end - s->block->first); // more than needed if some particles are anchors
+        draws->first = item;
+        draws->count = rest < MAX ? rest : MAX;
+        random_normals(LANES_LEVEL, s->force->given.key, item, draws->count, draws->numbers);
+    }
+    return draws->numbers + (item - draws->first);
+}
+
 // Computes S · normal(seed)[index] for many lanes at once. Anchors use no items.
 KERNEL void single_random(const Singles *s) {
     double normals[PHYS_VECTOR_DIMENSIONS * LANES], lanes[PHYS_VECTOR_DIMENSIONS][LANES] = {{0}};
+    const double *next = normals;
     unsigned bits = mask_bits(s->block->live);
     for (size_t drawn = 0, lane = 0; drawn < s->block->active; lane++) {
         if (!(bits >> lane & 1))
             continue;
         size_t count = consecutive_draws(s, lane, bits, s->block->active - drawn);
-        random_normals(LANES_LEVEL, s->force->given.key, items_before(s, lane), s->n * count, normals + s->n * drawn);
+        const double *numbers = draw(s, items_before(s, lane), s->n * count, normals + s->n * drawn);
+        next = drawn ? normals : numbers; // without random_offset, there is only one iteration
         drawn += count;
-        lane += count - 1; // without random_offset, this was the last iteration
+        lane += count - 1;
     }
-    const double *next = normals;
-    for (size_t lane = 0; lane < LANES; lane++)
-        for (size_t k = 0; k < s->n && bits >> lane & 1; k++)
-            lanes[k][lane] = *next++;
+    Real parts[PHYS_VECTOR_DIMENSIONS];
+    if (s->n == 2 && bits == ALL_LANES) { // fast, because no numbers are stored one by one
+        const double *rows[LANES];
+        for (size_t lane = 0; lane < LANES; lane++)
+            rows[lane] = next + 2 * lane;
+        real_load_pairs(rows, parts);
+    } else {
+        for (size_t lane = 0; lane < LANES; lane++)
+            for (size_t k = 0; k < s->n && bits >> lane & 1; k++)
+                lanes[k][lane] = *next++;
+        for (size_t k = 0; k < s->n; k++)
+            parts[k] = real_load(lanes[k]);
+    }
     for (size_t k = 0; k < s->n; k++)
-        add_force_component(s->block, k, s->block->live, real_set(s->force->strength) * real_load(lanes[k]));
+        add_force_component(s->block, k, s->block->live, real_set(s->force->strength) * parts[k]);
 }
 
 #endif

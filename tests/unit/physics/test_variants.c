@@ -329,6 +329,23 @@ static void test_far_in_groups(void **state) {
     check_scene(&scene);
 }
 
+// Numbers are drawn ahead for one of several random forces. Anchors draw none, so that some drawn numbers are unused.
+static void test_random_forces_are_equal_in_all_variants(void **state) {
+    (void)state;
+    for (uint32_t n = 1; n <= 3; n++)
+        for (int count = 1; count <= 3; count++) {
+            Scene scene = {
+                .name = "random", .dimensions = n, .count = 397 + n, .groups = 1 + n, .size = 30, .frames = 2};
+            for (int f = 0; f < count; f++) {
+                scene.forces[f] = random_force();
+                scene.forces[f].key += (uint64_t)f;
+                scene.force_group[f] = f ? 1 : 0;
+            }
+            scene.force_count = count;
+            check_scene(&scene);
+        }
+}
+
 TEST_GROUP(variants) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_small_systems_equal_the_reference_in_all_variants),
@@ -341,6 +358,7 @@ TEST_GROUP(variants) {
         cmocka_unit_test(test_large_systems_are_equal_in_all_variants),
         cmocka_unit_test(test_far_fields_are_equal_in_all_variants),
         cmocka_unit_test(test_far_in_groups),
+        cmocka_unit_test(test_random_forces_are_equal_in_all_variants),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
