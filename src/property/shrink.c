@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { PARTS = 16 }; // number of integers below a value that are tried first
+
 typedef struct Shrink {
     const Properties *properties;
     size_t property;
@@ -48,6 +50,10 @@ static bool shrink_whole(Shrink *shrink, size_t index) {
         return true;
     bool smaller = false;
     shrink->fewer = *value == range->usual;
+    // A violation may need a special number of particles, so numbers all over the range are tried.
+    double span = *value - min;
+    for (int i = 1; i < PARTS && !smaller; i++)
+        smaller = floor(span * i / PARTS) > 0 && try_value(shrink, index, min + floor(span * i / PARTS));
     for (double step = floor((*value - min) / 2); step >= 1; step = floor(step / 2))
         while (*value - step > min && try_value(shrink, index, *value - step))
             smaller = true;
