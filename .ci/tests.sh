@@ -140,10 +140,10 @@ run_tests() {
         summary=$(tail -n 1 "$scripts")
         echo "scripts in $folder: $summary"
         case $summary in
-        *' passed, '*' failed')
+        *' passed, '*' failed'*)
             good=$((good + ${summary%% passed*}))
             summary=${summary#* passed, }
-            summary=${summary% failed}
+            summary=${summary%% failed*}
             ;;
         *) summary=1 ;;
         esac

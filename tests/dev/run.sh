@@ -212,7 +212,7 @@ test)
     *golden*) [ ! -e golden-fails ] || { echo "4 passed, 1 failed" && exit 1; } ;;
     esac
     echo "ok a.fl"
-    echo "5 passed, 0 failed"
+    echo "5 passed, 0 failed, 1 script without a test"
     ;;
 esac
 END
