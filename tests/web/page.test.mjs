@@ -1,12 +1,15 @@
 // page.test.mjs: tests the page in headless Chromium by user input.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
 import { gzipSync } from 'node:zlib';
-import { SLOW, atFrame, choose, folder, frameOf, opened, options, pixels, root, seek, typed, visibleWithin, world } from './browser.mjs';
+import {
+    SLOW, atFrame, choose, folder, frameOf, opened, options, pixels, root, seek, typed, visibleWithin, visited, world,
+} from './browser.mjs';
 
 const DISH = readFileSync(join(root, 'samples/dish.fl'), 'utf8');
 
@@ -396,3 +399,32 @@ test('the prompt, samples, keyboard, themes and offline use work', options, () =
         assert.ok((await pixels(page)).all > 3);
     },
 }));
+
+test('the page of `petri view` in Node.js moves, also after a change of the file', options, async () => {
+    const { serveScript } = await import(pathToFileURL(join(folder, 'petri/view.mjs')));
+    const work = mkdtempSync(join(tmpdir(), 'petri-view-')), script = join(work, 'a.fl');
+    const text = colour => `!window size=64;32\n    !canvas\n        !rect size=64;32 color=${colour} fill=true\n`;
+    writeFileSync(script, text('1;0;0'));
+    const { url, close } = await serveScript(script);
+    const moves = (page, wanted) => page.waitForFunction(([r, g, b]) => {
+        const [red, green, blue] = document.getElementById('picture').getContext('2d').getImageData(32, 16, 1, 1).data;
+        return red === r && green === g && blue === b && Number(document.body.dataset.frame) > 5;
+    }, wanted);
+    try {
+        for (const settings of [{ reducedMotion: 'no-preference' }, {}])
+            await visited(url, {
+                settings, ready: () => document.body.dataset.ready,
+                use: async page => {
+                    if (!settings.reducedMotion)
+                        return assert.equal(await frameOf(page), 2); // reduced motion is respected
+                    await moves(page, [255, 0, 0]);
+                    writeFileSync(script, text('0;0;1'));
+                    await moves(page, [0, 0, 255]);
+                    return page.reload().then(() => moves(page, [0, 0, 255]));
+                },
+            });
+    } finally {
+        close();
+        rmSync(work, { recursive: true });
+    }
+});

@@ -30,7 +30,7 @@ export async function serveScript(script, report = () => {}) {
             return fs.readFileSync(join(PACKAGE, 'page/index.html'), 'utf8').replace('<script', '<script src="view.js"></script>\n<script')
                 .replaceAll(/<a href="(manual|tour)[^]*?<\/a>/g, '');
         if (file === 'view.js')
-            return `history.replaceState(null, '', ${JSON.stringify(link)});\n`
+            return `globalThis.petriView = true;\nhistory.replaceState(null, '', ${JSON.stringify(link)});\n`
                 + 'new EventSource("events").onmessage = event => { location.hash = event.data; };\n';
         if (file === 'samples.json') {
             const given = JSON.parse(fs.readFileSync(join(PACKAGE, 'page/samples.json'), 'utf8'));

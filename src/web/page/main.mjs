@@ -162,7 +162,7 @@ async function begin() {
     if (why && location.hash)
         say(why, true);
     document.body.dataset.ready = answer.version;
-    if ('serviceWorker' in navigator && location.protocol !== 'file:')
+    if ('serviceWorker' in navigator && location.protocol !== 'file:' && !globalThis.petriView)
         navigator.serviceWorker.register('offline.js').catch(() => {});
 }
 

@@ -21,13 +21,13 @@ export class Transfer {
             + (edited ? ' It opens the script at its start, because the script was edited while it ran.' : ''));
     }
 
-    // Opens the script in the page's link. Returns '' on success, or the reason why no script was opened.
+    // Opens the script in the page's link, and runs it in `petri view`. Returns '' on success, or the reason why no script was opened.
     async openLink() {
         if (location.hash.length < 2)
             return 'no link';
         try {
             const linked = await readLink(location.hash);
-            await this.page.openText(linked.text, linked.name, linked);
+            await this.page.openText(linked.text, linked.name, { ...linked, play: globalThis.petriView });
             return '';
         } catch (error) {
             this.page.say(error.message, true);
