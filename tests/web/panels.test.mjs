@@ -333,3 +333,34 @@ test('a click on a particle of the automatic picture shows the forces on it', op
         assert.equal(rows.length, 4);
     },
 }));
+
+const frames = async page => (await prompted(page)).match(/^> \d+$/gm)?.map(line => Number(line.slice(2))) ?? [];
+const upTo = last => Array.from({ length: last + 1 }, (_, i) => i);
+
+test('the prompt shows the output of each frame once', options, () => opened('', {
+    use: async page => {
+        await typed(page, 'let SIZE=SIZE or 3 -- 1..9\ndebug(frame)\n!window size=8;8\n    !canvas\n');
+        await page.evaluate(() => delete document.body.dataset.frame);
+        await page.evaluate(() => (document.getElementById('printed').textContent = ''));
+        await page.click('#reset');
+        await page.waitForFunction(() => document.body.dataset.frame === '0');
+        await page.evaluate(() => {
+            document.getElementById('speed').value = '4'; // several frames per picture
+            document.getElementById('speed').dispatchEvent(new Event('change'));
+        });
+        await page.click('#run');
+        await page.waitForFunction(() => Number(document.body.dataset.frame) > 60);
+        await page.click('#run');
+        const end = await page.waitForFunction(() => document.getElementById('run').textContent === 'Run' && document.body.dataset.frame);
+        const last = Number(await end.jsonValue());
+        assert.deepEqual(await frames(page), upTo(last));
+        await seek(page, 30); // of frames that are computed again, only that of the one that is shown
+        assert.deepEqual(await frames(page), [...upTo(last), 30]);
+        await page.locator('#parameters input[type=range]').focus();
+        await page.keyboard.press('ArrowRight'); // no frame is computed; later frames are new
+        await page.waitForFunction(() => document.getElementById('time').max === '30');
+        await page.click('#step');
+        await atFrame(page, 31);
+        assert.deepEqual(await frames(page), [...upTo(last), 30, 31]);
+    },
+}));

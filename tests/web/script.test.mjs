@@ -105,3 +105,30 @@ test('a copied link has script, changes, frame and digest, and needs no network'
         },
     });
 });
+
+test('a value that the script does not accept is reported, and the script runs on with the last one', options, () => opened('', {
+    use: async page => {
+        await shown(page, 'let Q=Q or 1 -- 0..4\n!counter state=:c rate=1\n!window size=64;8\n    !canvas\n'
+            + '        !rect size=8*Q;8 color=1;0;0 fill=true\n');
+        const slider = page.locator('#parameters input[type=range]'), values = () => page.evaluate(() =>
+            [...document.querySelectorAll('#parameters input')].map(({ value }) => value));
+        const rejected = () => page.waitForFunction(() => /Q=0 has no effect/.test(document.getElementById('problems').textContent)
+            && [...document.querySelectorAll('#parameters input')].every(({ value }) => value !== '0'));
+        await slider.focus();
+        await page.keyboard.press('Home');
+        await rejected();
+        assert.match(await page.textContent('#message'), /Q=0 has no effect/);
+        assert.match(await page.textContent('#problems'), /let Q=Q if Q != null else 1/);
+        assert.deepEqual(await values(), ['1', '1']);
+        await page.keyboard.press('End');
+        await page.waitForFunction(() => document.getElementById('parameter-Q').value === '4');
+        await page.click('#run');
+        await page.waitForFunction(() => Number(document.body.dataset.frame) > 5);
+        await page.fill('#parameter-Q', '0');
+        await page.press('#parameter-Q', 'Enter');
+        await page.waitForFunction(() => document.getElementById('parameter-Q').value === '4');
+        assert.equal(await page.textContent('#run'), 'Pause');
+        const frame = await page.evaluate(() => Number(document.body.dataset.frame));
+        await page.waitForFunction(before => Number(document.body.dataset.frame) > before + 5, frame);
+    },
+}));

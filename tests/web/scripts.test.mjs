@@ -146,3 +146,96 @@ for (const [what, make, said] of [['full', full, /^dish\.fl is not stored: the b
             }
         },
     }));
+
+// Types a comment in front of the script, and waits until it is stored.
+async function note(page, text) {
+    await addTo(page, `-- ${text}\n`);
+    await page.waitForFunction(wanted => Object.values(localStorage).some(item => item.includes(wanted)), `-- ${text}`);
+}
+
+const stores = page => page.evaluate(() => Object.entries(localStorage).filter(([key]) => key.startsWith('petri.script.'))
+    .map(([, item]) => JSON.parse(item)).map(({ name, text }) => [name, text.split('\n!')[0].replace(/\nlet [^]*/, '').trim()]).sort());
+const remark = page => page.textContent('#elsewhere');
+
+// Opens another tab that shows the script that was edited last.
+async function nextTab(page, context) {
+    const other = await context.newPage();
+    await other.goto(page.url());
+    await other.waitForFunction(() => document.body.dataset.ready);
+    return other;
+}
+
+test('two tabs with one script keep the edits of both', options, () => opened('', {
+    use: async (page, context) => {
+        await typed(page, SQUARE);
+        const other = await nextTab(page, context);
+        assert.equal(await lines(other), await lines(page));
+        await note(other, 'second');
+        await page.waitForFunction(() => /changed in another tab/.test(document.getElementById('elsewhere').textContent));
+        assert.equal(await remark(page),
+            'dish.fl was changed in another tab. If you edit it here, it becomes dish-2.fl. Open that version');
+        assert.equal(await remark(other), '');
+        await note(page, 'first');
+        await note(other, 'third');
+        assert.deepEqual((await stores(page)).map(([name, text]) => [name, text.match(/^-- .*/gm)]),
+            [['dish-2.fl', ['-- first']], ['dish.fl', ['-- third', '-- second']]]);
+        assert.equal(await page.inputValue('#name'), 'dish-2.fl');
+        assert.equal(await other.inputValue('#name'), 'dish.fl');
+        assert.equal(await remark(other), '');
+        await page.click('#elsewhere button');
+        await page.waitForFunction(() => document.getElementById('name').value === 'dish.fl');
+        assert.equal(await remark(page), '');
+        assert.equal(await lines(page), await lines(other));
+        await note(page, 'fourth'); // now this tab changes the script of the other
+        await other.waitForFunction(() => /changed in another tab/.test(document.getElementById('elsewhere').textContent));
+        assert.match(await remark(other), /becomes dish-3\.fl/);
+    },
+}));
+
+test('a change without an event is not overwritten', options, () => opened('', {
+    use: async page => {
+        await typed(page, SQUARE);
+        // The page gets no event for a change by itself, as a frozen tab gets none.
+        await page.evaluate(() => Object.keys(localStorage).filter(key => key.startsWith('petri.script.')).forEach(key =>
+            localStorage.setItem(key, JSON.stringify({ ...JSON.parse(localStorage.getItem(key)), text: '-- theirs\n' }))));
+        await addTo(page, '-- mine\n');
+        await page.waitForFunction(() => document.getElementById('elsewhere').textContent);
+        const texts = (await stores(page)).map(([name, text]) => [name, text.split('\n')[0]]);
+        assert.deepEqual(texts, [['dish-2.fl', '-- mine'], ['dish.fl', '-- theirs']]);
+    },
+}));
+
+test('a new name or a deletion in another tab is followed', options, () => opened('', {
+    use: async (page, context) => {
+        await typed(page, SQUARE);
+        const other = await nextTab(page, context);
+        await other.fill('#name', 'square');
+        await other.press('#name', 'Enter');
+        await page.waitForFunction(() => document.getElementById('name').value === 'square.fl');
+        assert.equal(await remark(page), '');
+        await note(page, 'more');
+        await other.waitForFunction(() => document.getElementById('elsewhere').textContent);
+        await page.click('#scripts');
+        await page.click('[aria-label="Delete square.fl"]');
+        await note(other, 'alive');
+        assert.equal(await stored(other), 1);
+    },
+}));
+
+test('the hint about a number of the first script is shown with that script only', options, () => opened('', {
+    use: async page => {
+        const hint = () => page.isVisible('#hint');
+        assert.ok(await hint());
+        await choose(page, 'hello');
+        await page.waitForFunction(() => document.getElementById('name').value === 'hello.fl');
+        assert.ok(!await hint());
+        await choose(page, 'dish');
+        await page.waitForFunction(() => document.getElementById('name').value === 'dish.fl');
+        assert.ok(await hint());
+        await page.click('#hint-close');
+        await choose(page, 'hello');
+        await choose(page, 'dish');
+        await page.waitForFunction(() => document.getElementById('name').value === 'dish.fl');
+        assert.ok(!await hint());
+    },
+}));

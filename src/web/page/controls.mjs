@@ -22,7 +22,10 @@ export class Controls {
         this.root = root;
         this.dish = dish;
         const $ = this.get = id => root.getElementById(id);
-        this.parameters = new Parameters($('parameters'), (name, value) => dish.set(name, value));
+        this.parameters = new Parameters($('parameters'), async (name, value) => {
+            if (!await dish.set(name, value))
+                this.parameters.restore(name);
+        });
         $('run').onclick = () => this.toggle(ready);
         $('step').onclick = async () => {
             const before = dish.loaded;

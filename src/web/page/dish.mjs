@@ -38,13 +38,14 @@ export class Dish {
         return this.remote?.ask(act, message) ?? Promise.reject(new Error(NO_ENGINE));
     }
 
-    // Sends a request to the engine and returns the answer. On failure, reports the error to the host and returns null.
-    async attempt(act, message) {
+    // Sends a request to the engine and returns the answer. On failure, reports the error to the host and returns null. With `harmless`,
+    // the script still runs after a request that the engine rejected.
+    async attempt(act, message, harmless = false) {
         const slow = setTimeout(() => this.host.slow?.(true), SLOW);
         try {
             return await this.ask(act, message);
         } catch (error) {
-            await this.fail(error);
+            await this.fail(error, harmless && error.type === 'failed');
             return null;
         } finally {
             clearTimeout(slow);
@@ -52,8 +53,8 @@ export class Dish {
         }
     }
 
-    async fail(error) {
-        this.running = false;
+    async fail(error, goesOn = false) {
+        this.running &&= goesOn;
         const seen = new Set(), reported = [...(error.diagnostics ?? []), ...(error.reported ?? [])];
         this.host.failed(error, reported.filter(({ rendered }) => !seen.has(rendered) && seen.add(rendered)));
         if (error.type === 'broken')
@@ -237,10 +238,12 @@ export class Dish {
         this.wanted = null;
     }
 
+    // Sets a parameter. Returns false if the script does not accept the value, which is then reported and changes nothing.
     async set(name, value) {
-        const answer = await this.attempt('set', { name, value });
+        const answer = await this.attempt('set', { name, value }, true);
         if (answer && !this.running)
             this.show(answer);
+        return !!answer;
     }
 
     // Interrupts the engine's current call and returns true. If this fails, restarts the engine and returns false.

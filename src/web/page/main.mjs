@@ -33,7 +33,7 @@ const page = {
         return page.dish.loaded === null ? page.name : page.dish.name;
     },
 };
-let prompt, plot, table, particle, saves, help = [];
+let prompt, plot, table, particle, saves, hint, help = [];
 
 // --- callbacks of the dish
 
@@ -84,6 +84,7 @@ function changed(text) {
 // Opens a script: a stored one if it has an id. With `play`, it runs, unless the user prefers reduced motion.
 async function openText(text, name, { id = null, play = false, ...wanted } = {}) {
     page.scripts.show(text, name, id);
+    hint.opened(text);
     page.dish.unload();
     page.problems.show([], name);
     const opened = await page.dish.open(text, name, wanted), kind = wanted.digest ? 'digest' : 'SHA-256';
@@ -126,7 +127,7 @@ async function begin() {
     page.editor = new Editor($('editor'), { text: '', onChange: changed, onRun: run, onRestart: restart, help: () => help });
     page.scripts = new Scripts(document, page);
     const [before] = page.scripts.library.list();
-    new Hint(document, !before);
+    hint = new Hint(document, !before, page.samples[FIRST]);
     page.scripts.show(before?.text ?? page.samples[FIRST], before?.name ?? FIRST, before?.id);
     page.problems = new Problems($('problems'), page.editor);
     page.live = new Live(page);

@@ -6,6 +6,7 @@ export class Parameters {
         this.onSet = onSet;
         this.shown = '';
         this.rows = new Map();
+        this.values = new Map();
     }
 
     // If the script's parameters have changed, creates the rows again. Otherwise updates the values, except the value being edited.
@@ -18,10 +19,17 @@ export class Parameters {
             this.rows.clear();
             this.place.replaceChildren(...settable.flatMap(parameter => this.row(parameter)));
         }
-        for (const { name, value, number } of settable)
+        for (const { name, value, number } of settable) {
+            this.values.set(name, Number.isNaN(number) ? value : String(number));
             for (const input of this.rows.get(name))
                 if (!input.matches(':focus'))
-                    input.value = Number.isNaN(number) ? value : String(number);
+                    input.value = this.values.get(name);
+        }
+    }
+
+    // Shows the value of a parameter again after the script rejected another one.
+    restore(name) {
+        this.rows.get(name)?.forEach(input => (input.value = this.values.get(name)));
     }
 
     row(parameter) {

@@ -1,6 +1,7 @@
 // player.mjs: runs a script in the worker, with a history for going back, and records changes of parameters and of the script.
 
 const MAX_BYTES = 256 << 20; // of the history
+const MAX_LOGS = 200; // frames whose output is kept; the prompt shows no more lines
 export const FIRST_SEEN = 2; // first frame in which particles are at their positions
 
 export class Player {
@@ -46,6 +47,7 @@ export class Player {
         Object.assign(this, {
             session, history, text, name, first: 0, frame: -1, lastFrame: -1, torn: false, lacksHistory: false,
             archive: null, recordedEnd: -1, replays: false, verified: new Set(), differing: new Set(),
+            logs: [], logOfShown: '', logged: session.frame.number, // last frame whose output is in a log
             known: session.frame.number, // last frame of the history, to which steps repeat the changes
         });
         this.setChanges(changes);
@@ -100,6 +102,7 @@ export class Player {
         this.torn = false;
         this.frame++;
         this.lastFrame = Math.max(this.lastFrame, this.frame);
+        this.collectLog();
         if (this.archive)
             this.verify();
         if (this.replays && this.frame === this.recordedEnd && this.frame < this.archive.info.lastFrame)
@@ -114,6 +117,22 @@ export class Player {
                 this.session.setParameter(name, value);
     }
 
+    // Collects the output of debug() of each frame that was not computed before; of other frames, only that of the last.
+    collectLog() {
+        const log = this.session.log(), isNew = this.frame > this.logged;
+        this.logOfShown = isNew ? '' : log;
+        if (isNew && log)
+            this.logs = [...this.logs.slice(1 - MAX_LOGS), log];
+        this.logged = Math.max(this.logged, this.frame);
+    }
+
+    // Returns the output since the last call.
+    takeLog() {
+        const log = this.logs.join('') + this.logOfShown;
+        Object.assign(this, { logs: [], logOfShown: '' });
+        return log;
+    }
+
     // Called after the WebGL context was restored. The next `seek` to the current frame renders all earlier pictures again if this frame
     // depends on them.
     redraw() {
@@ -123,7 +142,7 @@ export class Player {
 
     // Goes to a frame before `frame`, from which few steps lead to it.
     back(frame) {
-        const end = this.lastFrame;
+        const { lastFrame, logged, logs } = this;
         // If pictures depend on earlier pictures, all of them are rendered again from the first.
         // After the end of a replay, its frames need their recorded input again, which only the archive can load.
         if (!this.needsHistory && this.history.rewind(frame) && (this.replays || this.session.frame.number >= this.recordedEnd)) {
@@ -136,7 +155,7 @@ export class Player {
         } else {
             this.load(this.text, this.name, this.changes);
         }
-        this.lastFrame = end;
+        Object.assign(this, { lastFrame, logged, logs });
     }
 
     // Goes to a frame. To go back, steps from an earlier frame, so that the frame's tree is computed. Takes at most `max` steps, and ends
@@ -185,7 +204,7 @@ export class Player {
     record(name, value) {
         const before = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));
         this.setChanges([...before, [this.frame, name, value]]);
-        this.lastFrame = this.known = this.frame;
+        this.lastFrame = this.known = this.logged = this.frame;
         this.watches.forget(this.frame);
     }
 }

@@ -14,8 +14,10 @@ export class Scripts {
         const $ = id => root.getElementById(id);
         this.page = page;
         this.id = null; // null: the script is not stored, because it was not edited yet
+        this.known = null; // the stored text, as far as this tab knows
         this.states = new Map(); // the editor's states of other scripts by id
         this.field = $('name');
+        this.elsewhere = $('elsewhere');
         this.library = new Library(text => ($('storage').textContent = text));
         this.field.onchange = () => this.rename(this.field.value);
         this.field.onkeydown = event => {
@@ -27,7 +29,7 @@ export class Scripts {
             page.editor.focus(); // the field reports the change
         };
         $('new').onclick = () => this.create();
-        addEventListener('storage', event => event.key?.endsWith(`.${this.id}`) && !event.newValue && (this.id = null));
+        addEventListener('storage', event => event.key?.endsWith(`.${this.id}`) && this.follow());
     }
 
     // Shows a script in the editor: a stored one, or one that becomes the user's when it is edited. A stored script has its history again.
@@ -35,7 +37,8 @@ export class Scripts {
         const { editor } = this.page;
         if (this.id !== null)
             this.states.set(this.id, editor.state);
-        Object.assign(this, { id });
+        Object.assign(this, { id, known: text });
+        this.elsewhere.replaceChildren();
         const state = this.states.get(id);
         if (state?.doc.toString() === text)
             editor.state = state;
@@ -50,7 +53,35 @@ export class Scripts {
     }
 
     edited(text) {
+        this.checkStored();
         this.id = this.library.keep(this.id, this.page.name, text);
+        this.known = this.library.get(this.id)?.text; // the browser's storage may be full
+    }
+
+    // Returns the stored script, or null. If another tab has changed its text, that tab keeps it, and the text in this tab becomes a copy
+    // when it is edited. If another tab has deleted it, editing stores it again.
+    checkStored() {
+        const stored = this.id === null ? null : this.library.get(this.id);
+        if (!stored)
+            this.id = null;
+        else if (stored.text !== this.known)
+            this.becomeCopy(stored);
+        return stored;
+    }
+
+    // Called when another tab has stored, renamed or deleted the script.
+    follow() {
+        const stored = this.checkStored();
+        if (stored && this.id !== null)
+            this.call(stored.name);
+    }
+
+    becomeCopy({ id, name }) {
+        const open = Object.assign(document.createElement('button'), { type: 'button', textContent: 'Open that version' });
+        open.onclick = () => this.open(id);
+        this.id = null;
+        this.call(this.library.freeName(this.page.name));
+        this.elsewhere.replaceChildren(`${name} was changed in another tab. If you edit it here, it becomes ${this.page.name}. `, open);
     }
 
     rename(wanted) {

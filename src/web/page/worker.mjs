@@ -25,7 +25,7 @@ function shown(extra = {}) {
     const { session } = player;
     return {
         type: 'frame', frame: player.frame, lastFrame: player.lastFrame, time: session.frame.time, fps: session.frame.fps,
-        picture: picture(player.automatic), drawable: session.drawable, log: player.frame >= 0 ? session.log() : '',
+        picture: picture(player.automatic), drawable: session.drawable, log: player.takeLog(),
         parameters: session.parameters, verification: player.verification, reported: take(), ...extra,
     };
 }
