@@ -190,15 +190,13 @@ const Command TEST_COMMAND = {
         "Runs each NAME.fl that has a NAME.golden beside it and compares the output. The first line of a golden\n"
         "contains the options of the run: '# run --frames 61 --every 20 --print state'. If there is a NAME.err, the\n"
         "script must be rejected with an error in the line that it names, and with the messages below that line, if\n"
-        "there are any. NAME.session is a transcript of 'petri repl', whose inputs are repeated. Each script runs in its\n"
-        "folder. A test file without its script fails.\n\n"
-        "To create a golden, or an .err file for a script with an error, give the script and the options of the "
-        "run:\n\n"
+        "there are any. NAME.session is a transcript of 'petri repl', whose inputs are repeated. The properties in\n"
+        "NAME.properties must hold for many values of the script's parameters. Each script runs in its folder. A\n"
+        "test file without its script fails.\n\n"
+        "To create a golden, or an .err file for a script with an error, give the script and options of the run:\n\n"
         "  petri test --new dish.fl --frames 61 --every 20 --print state\n\n"
-        "If there is a NAME.properties, its properties must hold for many values of the script's parameters. PATH can "
-        "also\n"
-        "be a golden or another test file. With --print hash, a golden has one line per frame: the SHA-256 of the "
-        "state.",
+        "PATH can also be a golden or another test file. With --print hash, a golden has one line per frame: the\n"
+        "SHA-256 of the state.",
     .examples = "  petri test .                                    test all scripts in this folder\n"
                 "  petri test --update dish.fl                     write the current output to its golden\n",
     .missing_operand = "no script or folder given",

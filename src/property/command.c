@@ -115,7 +115,11 @@ static int check(Properties *properties, int64_t jobs, const char *shown) {
         size_t count = report_all(properties, found, shown, &out);
         text_add_format(&out, "%" PRId64 " cases of %" PRId64 " frames, %zu of %zu properties violated\n", tried,
                         properties->frames, count, properties->count);
-        status = output_text(out.bytes, out.len, count > 0 ? VIOLATED : HOLDS);
+        if (count == 0 && tried == 0)
+            message("%s:1: error: no case ended within %g s; add a line such as 'seconds %g'", properties->file,
+                    properties->seconds, 10 * properties->seconds);
+        else
+            status = output_text(out.bytes, out.len, count > 0 ? VIOLATED : HOLDS);
     }
     for (size_t i = 0; i < properties->count; i++) {
         free(found[i].values);

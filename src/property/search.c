@@ -22,8 +22,8 @@ static bool case_values(const Properties *properties, int64_t number, double *va
 
 // --- in one of the processes
 
-// Runs one case and adds the properties that it violates first.
-static void try_case(const Properties *properties, int64_t number, double deadline, bool *found, Text *out) {
+// Runs one case and adds the properties that it violates first. Returns false if there was not enough time.
+static bool try_case(const Properties *properties, int64_t number, double deadline, bool *found, Text *out) {
     double *values = memory_calloc((properties->range_count + 1) * sizeof *values);
     Violation *violations = memory_calloc((properties->count + 1) * sizeof *violations);
     Attempt attempt = {
@@ -42,6 +42,7 @@ static void try_case(const Properties *properties, int64_t number, double deadli
     attempt_free(&attempt);
     free(violations);
     free(values);
+    return !attempt.expired;
 }
 
 int search_part(const Properties *properties, int64_t jobs, int64_t part) {
@@ -49,8 +50,8 @@ int search_part(const Properties *properties, int64_t jobs, int64_t part) {
     bool *found = memory_calloc((properties->count + 1) * sizeof *found);
     double deadline = clock_seconds() + properties->seconds;
     int64_t total = properties->cases + (int64_t)properties->kept.count, tried = 0;
-    for (int64_t number = part; number < total && clock_seconds() < deadline; number += jobs, tried++)
-        try_case(properties, number, deadline, found, &out);
+    for (int64_t number = part; number < total && clock_seconds() < deadline; number += jobs)
+        tried += try_case(properties, number, deadline, found, &out) ? 1 : 0;
     text_add_format(&out, "tried %" PRId64 "\n", tried);
     free(found);
     return output_text(out.bytes, out.len, STATUS_DONE);

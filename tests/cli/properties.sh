@@ -82,6 +82,14 @@ petri test prop/fall.properties
 check "a script that cannot be loaded fails" status_is 1
 sed -i '/^let x/d' prop/fall.fl
 
+# A case that does not end in time proves nothing.
+cat >prop/heavy.fl <<'END'
+!n a=sum(sin(i) for i in ..20000000)
+END
+printf 'seconds 0.1\nframes 100000\nfinite\n' >prop/heavy.properties
+petri test prop/heavy.properties
+check "a search in which no case ends fails" has out "heavy.properties:1: error: no case ended within 0.1 s; add a line such as 'seconds 1'"
+
 # properties with a name: each holds in one script and is violated in another
 # named PROPERTY LINE...: tests a system of a particle that moves and these lines.
 named() {
