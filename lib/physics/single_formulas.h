@@ -187,23 +187,25 @@ KERNEL size_t consecutive_draws(const Singles *s, size_t lane, unsigned bits, si
     return count;
 }
 
-// Returns `count` numbers of the stream from `item` on: some of pass->draws, or `own`, which has space for them.
-static const double *draw(const Singles *s, uint64_t item, size_t count, double *own) {
-    Draws *draws = s->pass->draws;
+// Returns `count` numbers of a stream from `item` on: some of pass->draws, or `own`, which has space for them. `rest`:
+// count of the numbers that are drawn for the rest of the range, or more if some particles are anchors. The block is
+// not a parameter, because its address would keep its vectors out of registers.
+static const double *draw(const IntegratePass *pass, const Force *force, uint64_t item, size_t count, size_t rest,
+                          double *own) {
+    Draws *draws = pass->draws;
     if (!draws->force) {
-        draws->force = s->force;
+        draws->force = force;
         draws->count = 0;
     }
-    if (draws->force != s->force || s->columns->random_offset) {
-        random_normals(LANES_LEVEL, s->force->given.key, item, count, own);
+    if (draws->force != force || pass->columns->random_offset) {
+        random_normals(LANES_LEVEL, force->given.key, item, count, own);
         return own;
     }
     if (draws->count < count || item + count > draws->first + draws->count) {
         enum { MAX = sizeof draws->numbers / sizeof *draws->numbers };
-        size_t rest = s->n * (s->pass->end - s->block->first); // more than needed if some particles are anchors
         draws->first = item;
         draws->count = rest < MAX ? rest : MAX;
-        random_normals(LANES_LEVEL, s->force->given.key, item, draws->count, draws->numbers);
+        random_normals(LANES_LEVEL, force->given.key, item, draws->count, draws->numbers);
     }
     return draws->numbers + (item - draws->first);
 }
@@ -217,7 +219,9 @@ KERNEL void single_random(const Singles *s) {
         if (!(bits >> lane & 1))
             continue;
         size_t count = consecutive_draws(s, lane, bits, s->block->active - drawn);
-        const double *numbers = draw(s, items_before(s, lane), s->n * count, normals + s->n * drawn);
+        size_t rest = s->n * (s->pass->end - s->block->first);
+        const double *numbers =
+            draw(s->pass, s->force, items_before(s, lane), s->n * count, rest, normals + s->n * drawn);
         next = drawn ? normals : numbers; // without random_offset, there is only one iteration
         drawn += count;
         lane += count - 1;
