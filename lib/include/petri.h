@@ -310,7 +310,8 @@ PETRI_API void petri_interrupt(PetriSession *session);
 // Returns true if an interrupt is pending, and clears it.
 PETRI_API bool petri_clear_interrupt(PetriSession *session);
 
-// Clears the state dictionary. The next frame is frame 0 of the loaded script.
+// Clears the state dictionary. The next frame is frame 0 of the loaded script. Diagnostics that were already reported
+// are reported again, so that each run says when its motion becomes meaningless.
 PETRI_API void petri_reset(PetriSession *session);
 
 // Writes a state file: the state dictionary, the frame number and the data that the systems need to resume. User input

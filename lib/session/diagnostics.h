@@ -24,7 +24,7 @@ typedef struct Diagnostics {
 void diagnostics_free(Diagnostics *diagnostics);
 // Returns a copy in one heap block, which the caller frees with heap_free, or NULL if out of memory.
 PetriDiagnostic *diagnostics_copy(const PetriDiagnostic *diagnostic);
-// Starts a load: forgets which diagnostics were reported before.
+// Starts a load, or a run from frame 0: forgets which diagnostics were reported before.
 void diagnostics_begin_load(Diagnostics *diagnostics);
 // Sets whether diagnostics are reported even if they were reported before. Returns the previous setting.
 bool diagnostics_repeat(Diagnostics *diagnostics, bool repeat);

@@ -122,6 +122,7 @@ void petri_reset(PetriSession *session) {
     session_clear_frame(session);
     rewind_clock(session);
     session_change_config(session, false);
+    diagnostics_begin_load(&session->diagnostics);
     recorder_jump(session);
 }
 

@@ -13,24 +13,73 @@
 #include <stdio.h>
 #include <string.h>
 
+static bool has_code(const PetriDiagnostic *diagnostic, const char *code) {
+    return diagnostic->code && strcmp(diagnostic->code, code) == 0;
+}
+
+// Returns the name of the axis that the script does not read according to the diagnostic, or NULL.
+static const char *unread_axis(const Design *design, const PetriDiagnostic *diagnostic) {
+    if (!has_code(diagnostic, "unknown-parameter") && !has_code(diagnostic, "unread-definition") &&
+        !has_code(diagnostic, "unused-definition"))
+        return NULL;
+    for (size_t i = 0; i < design->axis_count; i++) {
+        SCOPED_TEXT start = {0};
+        text_add_format(&start, "unused definition '%s':", design->axes[i].name);
+        if (strncmp(diagnostic->text, start.bytes, start.len) == 0)
+            return design->axes[i].name;
+    }
+    return NULL;
+}
+
+static void store_reason(Measure *measure, const PetriDiagnostic *diagnostic) {
+    text_free(&measure->error);
+    if (diagnostic->file)
+        text_add_format(&measure->error, "%s:%" PRIu32 ":%" PRIu32 ": ", diagnostic->file, diagnostic->line,
+                        diagnostic->column);
+    text_add_c(&measure->error, diagnostic->text);
+}
+
 static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
     Measure *measure = user_data;
+    const char *unread = unread_axis(&measure->sweep->design, diagnostic);
+    if (unread && texts_contain(&measure->expression_names, unread))
+        return; // for example a limit that only --until reads
     // A run with the script's default must not be listed with another value.
-    bool false_definition = diagnostic->code && strcmp(diagnostic->code, "false-definition") == 0;
-    bool divergence = diagnostic->code && strcmp(diagnostic->code, "divergence") == 0;
+    bool false_definition = has_code(diagnostic, "false-definition");
+    bool divergence = has_code(diagnostic, "divergence"), unstable = has_code(diagnostic, "unstable-force");
+    bool unbound = has_code(diagnostic, "unbound-name");
+    measure->unread = unread ? unread : measure->unread;
     measure->false_definition = measure->false_definition || false_definition;
     measure->diverged = measure->diverged || divergence;
-    if (diagnostic->level == PETRI_ERROR || false_definition || divergence) {
-        text_free(&measure->error);
-        if (diagnostic->file) {
-            text_add_format(&measure->error, "%s:%" PRIu32 ":%" PRIu32 ": ", diagnostic->file, diagnostic->line,
-                            diagnostic->column);
-        }
-        text_add_c(&measure->error, diagnostic->text);
-    }
+    measure->unstable = measure->unstable || unstable;
+    measure->unbound_name = measure->unbound_name || unbound;
+    if (diagnostic->level == PETRI_ERROR || divergence || unstable)
+        store_reason(measure, diagnostic);
     measure->invalid_definition = measure->invalid_definition || is_invalid_definition(diagnostic);
+    // --quiet does not hide the reason why the sweep is not started.
+    PetriLevel level = unread || (unbound && measure->strict) ? PETRI_ERROR : diagnostic->level;
     if (!measure->silent)
-        measure->on_diagnostic(measure->context, diagnostic->level, diagnostic->rendered);
+        measure->on_diagnostic(measure->context, level, diagnostic->rendered);
+}
+
+// The text whose names are collected.
+typedef struct NameSource {
+    const char *text;
+    TextList *names;
+} NameSource;
+
+static void add_name(void *user_data, const PetriToken *token) {
+    const NameSource *source = user_data;
+    if (token->kind != PETRI_TOKEN_NAME)
+        return;
+    SCOPED_STRING name = memory_strndup(source->text + token->start, token->end - token->start);
+    texts_add(source->names, name);
+}
+
+static void collect_names(Measure *measure, const char *expression) {
+    NameSource source = {expression, &measure->expression_names};
+    if (expression)
+        petri_tokenise(measure->session, expression, PETRI_NUL_TERMINATED, add_name, &source);
 }
 
 static void on_file_read(void *user_data, const char *name, const char *bytes, size_t length) {
@@ -69,6 +118,9 @@ bool measure_open(Measure *measure, const Sweep *sweep,
         return false;
     if (options_open(&options, sweep->host, on_diagnostic, measure, &measure->session) != OPTIONS_READ)
         return false;
+    collect_names(measure, sweep->own->until);
+    for (size_t i = 0; i < sweep->metric_count; i++)
+        collect_names(measure, sweep->metrics[i].expression);
     if (measure->archive) {
         if (!load_archive(measure))
             return false;
@@ -89,17 +141,17 @@ void measure_close(Measure *measure) {
     petri_archive_close(&measure->archive);
     cache_entry_free(&measure->result);
     text_free(&measure->error);
+    texts_free(&measure->expression_names);
     read_files_free(&measure->files);
     known_hashes_free(&measure->known);
 }
 
-// Resets the session and applies the definitions of a run.
-static PetriStatus begin_run(Measure *measure, size_t run) {
+PetriStatus measure_begin_run(Measure *measure, size_t run) {
     const Design *design = &measure->sweep->design;
     petri_config_apply(measure->session, measure->base);
     petri_reset(measure->session);
     text_free(&measure->error);
-    measure->false_definition = measure->diverged = false;
+    measure->false_definition = measure->diverged = measure->unstable = false;
     PetriStatus status = PETRI_OK;
     for (size_t i = 0; status == PETRI_OK && i < design->axis_count; i++) {
         SCOPED_TEXT definition = {0};
@@ -147,7 +199,8 @@ static PetriStatus add_row(Measure *measure) {
     cell_add(&measure->result.rows, (Cell){CELL_INTEGER, {.integer = frame_number(measure)}});
     for (size_t i = 0; status == PETRI_OK && i < measure->sweep->metric_count; i++)
         status = add_metric(measure, &measure->sweep->metrics[i]);
-    cell_add(&measure->result.rows, (Cell){.kind = CELL_NONE}); // no error
+    cell_add(&measure->result.rows,
+             measure->unstable ? (Cell){CELL_TEXT, {.text = measure->error.bytes}} : (Cell){.kind = CELL_NONE});
     measure->result.rows.len = status == PETRI_OK ? measure->result.rows.len : before;
     return status;
 }
@@ -174,17 +227,18 @@ static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
     return status == PETRI_OK && *measured ? add_row(measure) : status;
 }
 
-// Executes a run. Returns false if it failed.
+// Executes a run. Returns false if it failed or is unstable.
 static bool execute_run(Measure *measure, size_t run) {
     measure->result.frames = 0;
     measure->result.rows.len = 0;
-    PetriStatus status = begin_run(measure, run);
+    PetriStatus status = measure_begin_run(measure, run);
     bool ends = measure->sweep->options->frames == 0, measured = false;
     while (status == PETRI_OK && !ends)
         status = step_frame(measure, &ends, &measured);
     if (status != PETRI_OK)
         add_failure(measure, status);
-    return status == PETRI_OK;
+    measure->result.frames += status != PETRI_OK; // a repetition must also compute the frame that failed
+    return status == PETRI_OK && !measure->unstable;
 }
 
 static void report_warning(Measure *measure, const char *rendered) {
@@ -243,33 +297,6 @@ void measure_run(Measure *measure, size_t run) {
     }
     execute_and_store(measure, run, key, answer == CACHE_FOUND ? &stored : NULL);
     cache_entry_free(&stored);
-}
-
-// Returns true if the expression is valid. Also returns true if its evaluation exceeded a limit, because the runs
-// report such errors. Otherwise returns false after a message.
-static bool try_expression(Measure *measure, const char *option, const char *expression) {
-    PetriEvaluation result = {0};
-    uint64_t errors = petri_diagnostic_count(measure->session, PETRI_ERROR);
-    PetriStatus status =
-        petri_evaluate(measure->session, expression, PETRI_NUL_TERMINATED, &result, sizeof result, NULL, NULL);
-    bool aborted = status == PETRI_OUT_OF_MEMORY || status == PETRI_LIMIT_EXCEEDED || status == PETRI_INTERRUPTED;
-    if (aborted || (status != PETRI_INVALID && petri_diagnostic_count(measure->session, PETRI_ERROR) == errors))
-        return true;
-    message("cannot evaluate the expression of '--%s': '%s'", option, expression);
-    return false;
-}
-
-int measure_dry_run(Measure *measure) {
-    const Sweep *sweep = measure->sweep;
-    if (begin_run(measure, 0) != PETRI_OK)
-        return measure->invalid_definition || measure->false_definition ? STATUS_USAGE : STATUS_FAILED;
-    if (petri_step(measure->session) != PETRI_OK)
-        return STATUS_DONE; // a failed run becomes a row of the table
-    bool good = !sweep->own->until || try_expression(measure, "until", sweep->own->until);
-    for (size_t i = 0; i < sweep->metric_count; i++)
-        good =
-            (!sweep->metrics[i].expression || try_expression(measure, "metric", sweep->metrics[i].expression)) && good;
-    return good ? STATUS_DONE : STATUS_USAGE;
 }
 
 void measure_hash_sources(Measure *measure, Sha256 *hash) {

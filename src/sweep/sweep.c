@@ -75,10 +75,10 @@ static void print_cache_report(const Sweep *sweep) {
                 sweep->origins[RESULT_CACHED], verified + differs);
 }
 
-static void print_report(const Sweep *sweep, double seconds, size_t executed) {
-    size_t failed = sweep_count_runs(sweep, sweep_is_failed), runs = sweep->design.run_count;
+static void print_report(const Sweep *sweep, double seconds, size_t executed, size_t failed) {
+    size_t runs = sweep->design.run_count;
     if (failed > 0)
-        message("%zu of %zu runs failed; see the column 'error'", failed, runs);
+        message("%zu of %zu runs failed or are unstable; see the column 'error'", failed, runs);
     if (sweep->options->verbosity > LOG_QUIET && sweep->own->output) {
         message("%zu run%s in %s, %zu of them done now in %.1f s (%.1f runs/s)", runs, runs == 1 ? "" : "s",
                 sweep->own->output, executed, seconds, seconds > 0 ? (double)executed / seconds : 0);
@@ -135,9 +135,10 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t exe
         return worker_signal() != 0 ? STATUS_SIGNAL + worker_signal() : STATUS_FAILED;
     if (journal->path)
         journal_remove(journal, sweep);
-    print_report(sweep, clock_seconds() - start, executed);
+    size_t failed = sweep_count_runs(sweep, sweep_is_failed);
+    print_report(sweep, clock_seconds() - start, executed, failed);
     print_cache_report(sweep);
-    return sweep->origins[RESULT_DIFFERS] > 0 ? STATUS_FAILED : STATUS_DONE;
+    return failed > 0 || sweep->origins[RESULT_DIFFERS] > 0 ? STATUS_FAILED : STATUS_DONE;
 }
 
 static int64_t jobs_of(const Sweep *sweep) {
@@ -242,10 +243,11 @@ const Command SWEEP_COMMAND = {
         "Write a vector in parentheses, (1;2), and a list of vectors as (1;2);(3;4). The first name changes most\n"
         "slowly. SEED, which --seeds counts from 1, changes most quickly.\n"
         "\n"
-        "A failed run is a row with an error message. With -o FILE, finished runs are stored in FILE.part: after\n"
-        "Ctrl-C or kill -9, run the same command to resume; the table is then the same to the last byte. FILE.runs\n"
-        "lists the command of each run. If FILE ends in .h5, the table is the HDF5 data set `table`. If it has\n"
-        "one row for each combination, each metric is also an array whose dimensions are the parameters.\n"
+        "A misspelt metric or parameter is an error before the first run. A run that fails or is unstable has a\n"
+        "message in the column error, and the command exits with 1. With -o FILE, finished runs are stored in\n"
+        "FILE.part: after Ctrl-C or kill -9, run the same command to resume; the table is then the same to the last\n"
+        "byte. FILE.runs lists the command of each run. If FILE ends in .h5, the table is the HDF5 data set `table`.\n"
+        "If it has one row for each combination, each metric is also an array whose dimensions are the parameters.\n"
         "\n"
         "With --cache DIR, results of runs are stored in DIR. A run is not computed again if the script, the files "
         "that\n"

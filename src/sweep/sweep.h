@@ -5,7 +5,7 @@
 //   settings.c; plan.c, plot_grid.c      its options; plans and plots, which petri itself does not link (plots.h)
 //   worker_pool.c or worker_sequence.c   workers that execute runs; worker_result.c: the results that they send
 //   journal.c                            results of finished runs, to resume from
-//   measure.c                            execution of a run
+//   dry_run.c, measure.c                 checks before the first run; execution of a run
 //   cache.c, read_files.c                results of earlier sweeps
 //   summary.c, table.c                   the table, commands and statistics
 //   result.c                             the cells of results
@@ -45,7 +45,7 @@ typedef struct Metric {
 // The result of a run.
 typedef struct Result {
     Str rows;       // cells of each row: frame, value of each metric, error; rows.bytes is NULL: not done yet
-    int64_t frames; // number of computed frames
+    int64_t frames; // number of computed frames, with the one that failed
     bool killed;    // true if the process of the run was killed by SIGKILL; the run is then repeated once
 } Result;
 
@@ -92,7 +92,7 @@ void axis_add_literal(Text *out, const char *value);
 bool sweep_read_options(Sweep *sweep, const Command *command);
 
 // Properties of a run: it belongs to the shard of this process; it has a result; it belongs to the shard and has none;
-// it has failed.
+// it has failed or is unstable.
 bool sweep_owns_run(const Sweep *sweep, size_t run);
 bool sweep_has_result(const Sweep *sweep, size_t run);
 bool sweep_wants_run(const Sweep *sweep, size_t run);

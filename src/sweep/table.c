@@ -111,7 +111,6 @@ void table_commands(const Sweep *sweep, Text *out) {
     for (size_t run = 0; run < design->run_count; run++) {
         text_add(out, text_str(&head));
         add_definitions(design, run, out);
-        // `frames` does not count the frame in which a run failed, but the command must compute it as well.
-        text_add_format(out, " --frames %" PRId64 "\n", sweep->results[run].frames + sweep_is_failed(sweep, run));
+        text_add_format(out, " --frames %" PRId64 "\n", sweep->results[run].frames);
     }
 }

@@ -211,7 +211,7 @@ static bool reap_worker(WorkerPool *pool, PoolWorker *worker) {
     else
         text_add_format(&error, "the process ended with status %d", WEXITSTATUS(status));
     row_add_failure(pool->sweep, 0, error.bytes, &row);
-    ResultPacket head = {.run = worker->assigned[0]};
+    ResultPacket head = {.run = worker->assigned[0], .frames = 1};
     return !result || store_result(pool, result_pack(&head, text_str(&row), (Str){0}, &packet));
 }
 

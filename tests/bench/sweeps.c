@@ -10,7 +10,7 @@ static double time_sweep(const Plan *plan, int jobs, int runs) {
     snprintf(seeds, sizeof seeds, "--seeds=%d", runs);
     snprintf(processes, sizeof processes, "--jobs=%d", jobs);
     return measure_command(plan, (const char *[]){plan->petri, "sweep", path, seeds, processes, "--frames=100",
-                                                  "--metric=x=$(:dish;3)", "--quiet", NULL});
+                                                  "--metric=x=$(:dish;3)", "--metric=seed=SEED", "--quiet", NULL});
 }
 
 Table sweeps_measure(const Plan *plan) {

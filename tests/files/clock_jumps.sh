@@ -3,7 +3,8 @@
 
 cat >w.fl <<'END2'
 %pragma fps 50
-!physics state=:p dimensions=2 time=time
+let SEED=SEED or 0
+!physics state=:p dimensions=2 time=time run=SEED
     for i in ..20
         !particle id=i position=i%5;i//5 radius=0.6
     !collision

@@ -29,7 +29,7 @@ if [ "$(id -u)" -eq 0 ] && mkdir disk && mount -t tmpfs -o size=64m tmpfs disk 2
     printf '# run --frames 3 --print state\n' >w.golden
     petri test --update w.fl
     petri run w.fl --frames 3 --state w.state --trajectory w.csv
-    petri sweep w.fl --seeds 2 --frames 2 --metric x=1 --cache cache
+    petri sweep w.fl --seeds 2 --frames 2 --metric x=SEED --cache cache
     petri run w.fl --frames 3 --archive w.petri
     archives=$([ -e w.petri ] && echo yes)
     rm out err
@@ -41,10 +41,10 @@ if [ "$(id -u)" -eq 0 ] && mkdir disk && mount -t tmpfs -o size=64m tmpfs disk 2
         refused $stem.csv run disk/w.fl --frames 3 --trajectory disk/$stem.csv
         refused $stem.xyz run disk/w.fl --frames 3 --trajectory disk/$stem.xyz
         refused $stem.petri run disk/w.fl --frames 3 --archive disk/$stem.petri
-        refused $stem.csv.part sweep disk/w.fl --seeds 2 --frames 2 --metric x=1 -o disk/$stem.csv
+        refused $stem.csv.part sweep disk/w.fl --seeds 2 --frames 2 --metric x=SEED -o disk/$stem.csv
     done
     refused w.csv run disk/w.fl --frames 3 --state disk/w.state --trajectory disk/w.csv
-    refused new sweep disk/w.fl --seeds 2 --frames 2 --metric x=1 --cache disk/new
+    refused new sweep disk/w.fl --seeds 2 --frames 2 --metric x=SEED --cache disk/new
     refused j.xml test disk/w.fl --junit disk/j.xml
     refused untidy.fl fmt disk/untidy.fl
     refused made.fl new disk/made.fl
@@ -53,7 +53,7 @@ if [ "$(id -u)" -eq 0 ] && mkdir disk && mount -t tmpfs -o size=64m tmpfs disk 2
         refused f-%d.png render disk/w.fl --frames 2 -o disk/f-%d.png
         ! command -v ffmpeg >/dev/null || refused w.mp4 render disk/w.fl --frames 2 -o disk/w.mp4
     fi
-    petri sweep disk/w.fl --seeds 4 --frames 2 --metric x=1 --cache disk/cache
+    petri sweep disk/w.fl --seeds 4 --frames 2 --metric x=SEED --cache disk/cache
     check "a read-only cache is used" has err "2 runs computed, 2 from the cache, 0 verified"
     check "a read-only cache is reported" has err "cannot write to the cache 'disk/cache': Read-only file system"
     reads test disk/w.fl

@@ -438,6 +438,24 @@ class Functions(unittest.TestCase):
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
 
 
+class Closed(unittest.TestCase):
+    def test_closed_sessions_have_no_frame_and_no_systems(self):
+        session = petri.Session("!physics state=:s\n    !particle id=1\n")
+        session.step()
+        systems = session.systems
+        session.close()
+        for use in (lambda: session.frame, lambda: list(systems), lambda: session.systems["s"], lambda: len(session.parameters)):
+            self.assertRaises(ValueError, use)
+
+    def test_missing_scripts_are_missing_files(self):
+        for missing in ("gone.fl", Path("gone.fl"), "!x y=1"):
+            with self.assertRaisesRegex(FileNotFoundError, "must contain a newline") as caught:
+                petri.Session(missing)
+            self.assertEqual(caught.exception.filename, os.fspath(missing))
+        with self.assertRaises(FileNotFoundError):
+            petri.sweep("gone.fl", {"A": [1, 2]}, {"x": "A"})
+
+
 class Sweeps(unittest.TestCase):
     def test_match_petri_sweep(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -461,6 +479,46 @@ class Sweeps(unittest.TestCase):
         self.assertIn("exceeded its limit", table["error"][1])
         with self.assertRaises(ValueError):
             petri.sweep("!a\n", {"N": [1]}, {"N": "1"})
+
+    def test_mistakes_are_errors_before_the_first_run(self):
+        calls = []
+        script = "let A=A or 1 B=B if B != null else 2\nlet C=spy(A)\n"
+        ways = {"A": lambda values: values, "text": lambda values: ";".join(map(str, values))}  # this process; the command
+        for kind, written in ways.items():
+            functions = {"spy": lambda x: calls.append(x) or x} if kind == "A" else None
+            text = script if functions else script.replace("spy(A)", "A")
+
+            def sweep(defines, metrics, **more):
+                return petri.sweep(text, {name: written(values) for name, values in defines.items()}, metrics, frames=3,
+                                   functions=functions, **more)
+
+            for defines, metrics, more, message in (
+                    ({"A": [1, 2]}, {"x": "AA+1"}, {}, "did you mean 'A'"), ({"A": [1, 2]}, {"x": "A"}, {"until": "frme > 1"}, "'frme'"),
+                    ({"AA": [1, 2]}, {"x": "A"}, {}, "did you mean 'A'"), ({"A": [1, 2]}, {"x": "A"}, {"seeds": 2}, "does not read 'SEED'"),
+                    ({"A": [2, 1, 0]}, {"x": "A"}, {}, "write 'let A=A if A != null else 1'"),
+                    ({"A": [2, "x"]}, {"x": "A"}, {}, "does not use A=.?x")):
+                calls.clear()
+                with self.subTest(kind=kind, message=message):
+                    with self.assertRaisesRegex(petri.PetriError, f"(?s){message}.*cannot|cannot .*{message}"):
+                        sweep(defines, metrics, **more)
+                self.assertLess(len(calls), 9)  # no run has started
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                table = sweep({"B": [0, 2], "LIMIT": [0, 1]}, {"x": "B"}, until="frame >= LIMIT")
+            self.assertEqual((table["x"], table["frame"]), ([0, 0, 2, 2], [0, 1, 0, 1]))
+
+    def test_unstable_runs_are_marked_and_counted(self):
+        script = ("let K=K or 100\n!physics state=:s dimensions=1\n    !anchor id=:wall\n    !particle id=:weight position=10\n"
+                  "    !distance from=:wall to=:weight fixed=8 strength=K\n")
+        tables = []
+        for values in ([100, 15000, 30000, 15000], "100;15000;30000;15000"):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                tables.append(petri.sweep(script, {"K": values}, {"x": "$(:s;:weight)[0]"}, frames=60, jobs=1))
+            self.assertEqual(sum("3 of 4 runs failed or are unstable" in str(warning.message) for warning in caught), 1)
+        self.assertEqual([table.pop("error")[0] for table in tables], [None, None])
+        self.assertEqual(*tables)
+        self.assertEqual([x is None for x in tables[0]["x"]], [False, False, True, False])
 
 
 class CommandSweeps(unittest.TestCase):
@@ -591,7 +649,7 @@ class CommandSweeps(unittest.TestCase):
             petri.sweep(self.script, {"A": [1]}, {"x": "A"}, sample="square:3")
         with self.assertRaisesRegex(ValueError, "given, functions"):
             petri.sweep(self.script, {"A": [1]}, {"x": "A"}, sample=3, functions={"twice": twice})
-        with self.assertWarnsRegex(petri.PetriWarning, "unbound name 'foo'"):
+        with self.assertRaisesRegex(petri.PetriError, "unbound name 'foo'"):
             petri.sweep(self.script, {"A": "1"}, {"x": "foo"}, frames=2)
         with unittest.mock.patch.dict(os.environ, PATH=""), self.assertRaises(petri.MissingLibraryError):
             petri.sweep(self.script, {"A": "1"}, {"x": "A"}, frames=2)
@@ -655,9 +713,6 @@ class Diagnostics(unittest.TestCase):
         self.assertEqual((error.file, error.line, error.column, error.code), (str(file), 2, 6, "syntax"))
         self.assertIn("y=(1\n", str(error))
         self.assertEqual(error.diagnostics[0].level, "error")
-        with self.assertRaises(petri.ScriptError) as caught:
-            petri.Session("nowhere.fl")
-        self.assertIn("nowhere.fl", str(caught.exception))
 
     def test_limits_are_raised(self):
         session = petri.Session("for i in ..1000000\n    !x y=i+frame\n", options=petri.Options(work_limit=10000))

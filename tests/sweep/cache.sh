@@ -144,8 +144,8 @@ sweep fails.fl -D 'N=1;100' --frames 2 --metric x=N --work 5M --cache failing
 sweep fails.fl -D 'N=1;100' --frames 2 --metric x=N --work 5M --cache failing
 check "failed runs are computed again" counts 1 1 0
 echo "!counter state=:c rate=len(glob('*.fl')) time=time" >globs.fl
-sweep globs.fl --seeds 1 --frames 3 --metric 'x=$:c' --cache globbing
-sweep globs.fl --seeds 1 --frames 3 --metric 'x=$:c' --cache globbing
+sweep globs.fl --frames 3 --metric 'x=$:c' --cache globbing
+sweep globs.fl --frames 3 --metric 'x=$:c' --cache globbing
 check "runs that search folders are computed again" counts 1 0 0
 
 # Several processes.

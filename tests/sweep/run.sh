@@ -37,6 +37,15 @@ sweep spring.fl -D 'K=100;30000;200' --frames 60 --metric energy
 check "a run that explodes has no result" has out "2,30000,29,,"
 check "the table says why" has out "in frame 30 at particle :weight; the largest force on it is this !distance"
 check "other runs are not affected" has out "3,200,59,"
+check "a sweep with a failed run exits with 1" status_is 1
+sweep spring.fl -D 'K=30000;100000;30000' --frames 60 --metric energy --jobs 1
+check "each run that explodes is marked, also after others in the same process" [ "$(grep -c ',29,,.*millionfold' out)" -eq 3 ]
+sweep spring.fl -D 'K=15000;100;20000;15000' --frames 20 --every 9 --metric energy --summary s.csv -o t.csv --jobs 1
+check "every row of an unstable run is marked and keeps its values" \
+    [ "$(grep -c '^[134],[0-9]*,[0-9]*,[0-9.e+]\{3,\},".*is unstable: with strength=' t.csv)" -eq 12 ]
+check "failed and unstable runs are counted" eval 'status_is 1 && has err "3 of 4 runs failed or are unstable; see the column"'
+check "unstable runs are not in the summary" [ "$(cut -d, -f1 s.csv | sort -u | tr '\n' ' ')" = '100 K ' ]
+check "the command of an unstable run computes its frames" [ "$(grep -c 'K=15000 --frames 20$' t.csv.runs)" -eq 2 ]
 
 # --- archives
 
@@ -353,8 +362,7 @@ fi
 sweep slow.fl -D 'N=1;100;2' --frames 2 --metric x=N --work 5M
 check "an exceeded limit is a row with its message" [ "$(cut -c 1-62 out | sed -n '3p;4p')" = '2,100,0,,slow.fl:1:22: the frame exceeded its limit of 5242880
 3,2,1,2,' ]
-check "a sweep with a failed run exits with 0" status_is 0
-check "the number of failed runs is reported" has err '1 of 3 runs failed'
+check "the number of failed runs is reported" eval 'status_is 1 && has err "1 of 3 runs failed"'
 
 # --- shards
 
@@ -426,8 +434,15 @@ refused "a missing script is rejected" 'no script given'
 refused "a sweep without metrics is rejected" 'nothing to measure' sum.fl
 refused "an empty range is rejected" 'empty range 3..1' sum.fl -D A=3..1 --metric a=A
 printf 'let A=A or 7 -- 1..9\n' >defaults.fl
-sweep defaults.fl -D 'A=2;0' --frames 1 --metric a=A
-check "a run whose value has no effect is a failed run" [ "$(sed -n 3p out | cut -d, -f2,4)" = 0, ]
+for values in '2;0' '2;-0' '3;0.0' '2;0;0' '1;(0;0)' '-1..1'; do
+    refused "the values $values are rejected, because one has no effect" "write 'let A=A if A != null else 7'" defaults.fl -D "A=$values" --metric a=A
+done
+refused "a later value of the wrong type is rejected" "cannot start the sweep: the script does not use A=x" defaults.fl -D 'A=2;3;x' --metric a=A
+printf 'let A=A if A != null else 7\n    B=B or 0\n' >zeros.fl
+sweep zeros.fl -D 'A=-1..1' -D 'B=0;2' --frames 1 --metric 's=A+B' --quiet
+check "values of 0 are used where the script accepts them" [ "$(cut -d, -f5 out | tail -n 6 | tr '\n' ' ')" = '-1 1 0 2 1 3 ' ]
+sweep defaults.fl -D 'A=0..3' --where 'A > 0' --frames 1 --metric a=A
+check "values that --where excludes are not rejected" eval 'status_is 0 && lines_are out 4'
 refused "a range with step 0 is rejected" "not a range: '1..9|0'" sum.fl -D 'A=1..9|0' --metric a=A
 refused "a range is not written with a minus" "write a range as 1..9" sum.fl -D A=1-9 --metric a=A
 refused "a value that the script replaces by its default is rejected" "A=0 has no effect" defaults.fl -D A=0..2 --metric a=A
@@ -446,7 +461,19 @@ refused "a value of the wrong type is rejected" "'x' is not a number" sum.fl -D 
 sweep gone.fl --metric a=1
 check "a missing script file is an error" status_is 1
 check "a missing script file is reported" has err "cannot read 'gone.fl'"
-sweep sum.fl -D C=1..2 --metric a=A --frames 1
+refused "a name that the script does not read is rejected" "the script does not read 'C'" sum.fl -D C=1..2 --metric a=A
 check "an unused definition is reported once" count_is err "unused definition 'C'" 1
+refused "a misspelt parameter is rejected with a hint, also with --quiet" "did you mean 'SEED'" sum.fl -D SEDE=1..2 --metric a=A --quiet
+refused "seeds that the script does not read are rejected" "the script does not read 'SEED'" defaults.fl --seeds 3 --metric a=A
+refused "names of the engine cannot be varied" "petri sets this name itself" sum.fl -D fps=1..2 --metric a=A
+refused "a misspelt metric is rejected with a hint, also with --quiet" "did you mean 'A'" sum.fl -D A=1..2 --metric 'a=AA+B' --quiet -o refused.csv
+refused "a misspelt name in --until is rejected" "the expression of '--until': 'frme > 3'" sum.fl -D A=1..2 --metric a=A --until 'frme > 3'
+refused "a misspelt metric is rejected although the first run fails" "unbound name 'AA'" slow.fl -D 'N=100;1' --work 5M --metric a=AA+N
+check "a rejected sweep leaves no files" [ ! -e refused.csv ]
+sweep sum.fl -D 'LIMIT=1..3' --until 'frame == LIMIT' --metric 'a=A if FINE or 1 else 0' --frames 9
+check "a name that only --until reads can be varied, without a warning" \
+    eval '[ "$(cut -d, -f3 out | tail -n 3 | tr "\n" " ")" = "1 2 3 " ] && [ ! -s err ]'
+sweep sum.fl -D LIMIT=1..3 --metric 'a="LIMIT"' --frames 1
+check "a name in a string is not read" status_is 2
 
 finish

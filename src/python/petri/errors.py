@@ -38,7 +38,7 @@ class PetriError(_ScriptMessage):
 
 
 class ScriptError(PetriError, ValueError):
-    """The script or expression is invalid, or the file does not exist."""
+    """The script or expression is invalid."""
 
 
 class LimitError(PetriError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 import threading
@@ -80,8 +81,9 @@ class Session:
 
     `source` is the script's file, or its text if it contains a newline. Other keyword arguments set the script's
     parameters: `petri.Session("dish.fl", CELLS=20)` corresponds to `-D CELLS=20`. Errors in the script raise
-    exceptions such as ScriptError. A script that is probably wrong causes a PetriWarning. `given` contains globals for
-    the script; set_global changes them between frames. Several threads may use a session, but not at the same time.
+    exceptions such as ScriptError; a missing file raises FileNotFoundError. A script that is probably wrong causes a
+    PetriWarning. `given` contains globals for the script; set_global changes them between frames. Several threads may
+    use a session, but not at the same time.
 
     The script can call `functions` like built-in functions. Arguments are numbers, Text, str (a symbol), None or tuples
     of these. Results have the same types except str. Functions must not use the session. If a function raises an
@@ -108,7 +110,10 @@ class Session:
             data = source.encode()
             self._call(lib.petri_load_text, b"<string>", data, len(data))
         else:
-            self._call(lib.petri_load, _file_name(source))
+            name = _file_name(source)
+            if not os.path.exists(source):
+                raise FileNotFoundError(errno.ENOENT, "no such file (the text of a script must contain a newline)", os.fspath(source))
+            self._call(lib.petri_load, name)
 
     def _prepare(self, options: Optional[Options], archive: Any = None) -> None:
         """Opens a session without a script, for the files of an archive if there is one."""
@@ -245,7 +250,7 @@ class Session:
         """The last computed frame. Before the first frame, its number is -1."""
         with self._lock:
             frame = ffi.new("PetriFrame *")
-            lib.petri_frame(self._c, frame, ffi.sizeof(frame[0]))
+            lib.petri_frame(self._open_c(), frame, ffi.sizeof(frame[0]))
         return Frame(*(getattr(frame, name) for name in Frame._fields))
 
     def evaluate(self, text: str) -> values.Value:

@@ -4,13 +4,95 @@ from __future__ import annotations
 
 import itertools
 import os
+import re
 import threading
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Callable, Iterable, List, Mapping, Optional, Union
 
 from . import sweep_command
-from .errors import PetriError
+from .errors import Diagnostic, PetriError, PetriWarning, ScriptError
 from .session import Options, Session
+
+_UNREAD = ("unknown-parameter", "unread-definition", "unused-definition")
+_UNUSED_VALUE = ("false-definition", "bad-definition")
+
+
+class _Run(Session):
+    """A session that stores what makes its results meaningless."""
+
+    marked: Optional[Diagnostic] = None  #: reason why the run is unstable; None: it is not
+
+    def _finish(self, status: int, message: Optional[str] = None) -> None:
+        for diagnostic in self._told:
+            if diagnostic.code in ("divergence", "unstable-force"):
+                self.marked = diagnostic
+        # _check has found that the metrics or `until` read these names.
+        self._told[:] = [diagnostic for diagnostic in self._told if diagnostic.code not in _UNREAD]
+        super()._finish(status, message)
+
+
+class _DryRun(Session):
+    """A session that stores its warnings and does not issue them, because the runs do."""
+
+    def _finish(self, status: int, message: Optional[str] = None) -> None:
+        if not hasattr(self, "noted"):
+            self.noted: List[Diagnostic] = []
+        if not status and not (self._functions and self._functions.raised):
+            self.noted += self._told
+            self._told.clear()
+        super()._finish(status, message)
+
+
+def _may_be_refused(value: Any) -> bool:
+    return not isinstance(value, (int, float)) or value == 0
+
+
+def _refuse(diagnostics: Iterable[Diagnostic], reason: str) -> None:
+    found = tuple(diagnostics)
+    if found:
+        raise ScriptError(f"{found[0].rendered.rstrip()}\ncannot start the sweep: {reason}", found)
+
+
+def _check_values(axes: Mapping[str, List[Any]], runs: List[Mapping[str, Any]], dry_run: Callable) -> None:
+    """Raises ScriptError if the script does not use a value."""
+    for name, listed in axes.items():
+        for value in filter(_may_be_refused, listed):
+            chosen = next((run for run in runs if run[name] is value), None)
+            try:
+                if chosen is not None:
+                    dry_run(chosen).close()
+            except PetriError as error:
+                _refuse((found for found in error.diagnostics if found.code in _UNUSED_VALUE),
+                        f"the script does not use {name}={value!r}")
+
+
+def _check(axes: Mapping[str, List[Any]], runs: List[Mapping[str, Any]], expressions: List[str], dry_run: Callable) -> None:
+    """Raises ScriptError if the script is invalid, or if a value, a name or an expression has no effect. Computes the
+    first frame of a run."""
+    _check_values(axes, runs, dry_run)
+    try:
+        session = dry_run(runs[0])
+    except ScriptError:
+        raise
+    except PetriError:
+        return  # the runs report it
+    with session:
+        noted = getattr(session, "noted", [])
+        for name in axes:
+            if not any(re.search(rf"(?<![\w:]){re.escape(name)}(?!\w)", text) for text in expressions):
+                _refuse((found for found in noted if found.code in _UNREAD and found.text.startswith(f"unused definition '{name}':")),
+                        f"the script does not read {name!r}, so all its values would give the same result")
+        try:
+            session.step()
+            for text in expressions:
+                noted = session.noted = []
+                session.evaluate(text)
+                _refuse((found for found in noted if found.code == "unbound-name"), f"cannot evaluate {text!r}")
+        except ScriptError:
+            raise
+        except PetriError:
+            pass
 
 
 def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, Iterable[Any]] = {},
@@ -30,7 +112,10 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
     frames (default: 600), or after the first frame in which `until` is true. `jobs` runs are executed in parallel
     (default: number of CPUs). `given` and `functions` are those of Session; functions are called by several threads.
     The result maps columns to lists with one element per row, in the order of `petri sweep`. The columns are the names,
-    frame, the metrics, and error: None, or the reason for a failure, in which case the metrics are None.
+    frame, the metrics, and error: None, or the reason why the run is unstable or has failed. The metrics of a failed run
+    are None. A PetriWarning counts such runs. Before the first run, ScriptError is raised if a metric or `until` has an
+    unbound name, if neither the script nor these expressions read a name in `defines`, or if the script does not use
+    one of its values.
     `pandas.DataFrame` converts the result to a table. Ctrl-C aborts the runs.
 
     The following need the command `petri` in PATH, which then executes the runs:
@@ -76,12 +161,16 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
     stopped = threading.Event()
     active: List[Session] = []
 
-    def measure(session: Session, chosen: Mapping[str, Any], rows: List[dict]) -> None:
+    def measure(session: _Run, chosen: Mapping[str, Any], rows: List[dict]) -> None:
         for i in range(count):
             session.step()
+            marked = session.marked and f"{session.marked.file}:{session.marked.line}:{session.marked.column}: {session.marked.text}"
+            if session.marked and session.marked.code == "divergence":
+                rows.append({**chosen, "frame": max(i - 1, 0), **dict.fromkeys(metrics), "error": marked})
+                break
             ends = i + 1 == count or until is not None and bool(session.evaluate(until))
             if ends or every > 0 and i % every == 0:
-                rows.append({**chosen, "frame": session.frame.number, "error": None,
+                rows.append({**chosen, "frame": session.frame.number, "error": marked,
                              **{name: session.evaluate(text) for name, text in expressions.items()}})
             if ends or stopped.is_set():
                 break
@@ -90,7 +179,7 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
         rows: List[dict] = []
         frame = None
         try:
-            with Session(script, options=options or Options(threads=1), given=given, functions=functions, **chosen) as session:
+            with _Run(script, options=options or Options(threads=1), given=given, functions=functions, **chosen) as session:
                 active.append(session)
                 try:
                     if not stopped.is_set():
@@ -102,6 +191,9 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
             rows.append({**chosen, "frame": frame, **dict.fromkeys(metrics), "error": str(error)})
         return rows
 
+    if runs:
+        _check(axes, runs, [*expressions.values(), *([until] if until else [])],
+               lambda chosen: _DryRun(script, options=options or Options(threads=1), given=given, functions=functions, **chosen))
     with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
         results = [pool.submit(run, chosen) for chosen in runs]
         try:
@@ -113,4 +205,7 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
             for session in list(active):
                 session.interrupt()
             raise
+    failed = sum(bool(result.result() and result.result()[-1]["error"]) for result in results)
+    if failed:
+        warnings.warn(PetriWarning(f"{failed} of {len(runs)} runs failed or are unstable; see the column 'error'"), stacklevel=2)
     return {name: [row[name] for row in rows] for name in [*axes, "frame", *metrics, "error"]}

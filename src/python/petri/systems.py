@@ -306,7 +306,7 @@ class Systems(Mapping):
         names: List[bytes] = []
         struct = ffi.new("PetriSystem *")
         with self._session._lock:
-            while lib.petri_python_system(self._session._c, len(names), ffi.NULL, struct) >= 0:
+            while lib.petri_python_system(self._session._open_c(), len(names), ffi.NULL, struct) >= 0:
                 names.append(ffi.string(struct.name))
         return names
 
