@@ -8,6 +8,7 @@
 #include "base/file_access.h"
 #include "cli/link_work.h"
 #include "cli/script.h"
+#include "link/image_files.h"
 #include "petri-inspect.h"
 
 #include <fcntl.h>
@@ -56,16 +57,25 @@ static const char *provide_file(void *host, const char *name, size_t *length) {
 
 ShaderTester link_shader_tester = {.pending_signal = frames_signal};
 
-// Draws the last frame into a single pixel, because image files are requested only when they are drawn.
-static void draw_last_frame(PetriSession *session) {
+static void request_image(void *link_session, const char *name) {
+    size_t length;
+    (void)provide_file(link_session, name, &length);
+}
+
+// Draws the last frame into a single pixel, because image files are requested only when they are drawn. A build that
+// cannot draw requests those of the display list.
+static void draw_last_frame(LinkSession *link_session) {
+    PetriSession *session = link_session->frames.session;
     PetriPictureOptions options = {0};
     petri_picture_options_init(&options, sizeof options);
     PetriPicture *picture = NULL;
     PetriPainter *painter = painter_open_tested(&link_shader_tester);
     if (painter && petri_has_picture(session) && petri_picture(session, &options, &picture) == PETRI_OK) {
         uint32_t pixel;
-        petri_picture_draw(picture, painter, &pixel, 1, 1, sizeof pixel);
-        petri_picture_report(session, picture);
+        if (petri_picture_draw(picture, painter, &pixel, 1, 1, sizeof pixel) == PETRI_UNSUPPORTED)
+            image_files_find(picture, request_image, link_session);
+        else
+            petri_picture_report(session, picture);
     }
     petri_picture_free(&picture);
     petri_painter_close(&painter);
@@ -149,7 +159,7 @@ static int make_frames(LinkSession *link_session) {
         return STATUS_SIGNAL + frames_signal();
     if (!going)
         return STATUS_FAILED;
-    draw_last_frame(frames->session);
+    draw_last_frame(link_session);
     return OPTIONS_READ;
 }
 

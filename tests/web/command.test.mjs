@@ -212,6 +212,34 @@ test('files that cannot be read are omitted', async () => {
     }
 });
 
+test('petri link finds image files without drawing, and reports nothing else', () => within(work => {
+    const canvas = lines => `!window size=64;32\n    !canvas\n${lines.map(line => `        ${line}\n`).join('')}`;
+    const link = (lines, ...words) => {
+        fs.writeFileSync(join(work, 'a.fl'), canvas(lines));
+        return petri(['link', 'a.fl', ...words], { cwd: work });
+    };
+    const plain = link(['!rect size=64;32 fill=true color=1']);
+    assert.deepEqual([plain.status, plain.stderr], [0, '']);
+    assert.match(plain.stdout, /^#[\w-]+\n$/);
+    const names = ['one.png', 'zwölf.png', 'dir/three.png'];
+    // Files are found behind and between all kinds of operands.
+    const drawn = ['!text text="three.png" font_size=9 fill=true', `!image filename="${names[0]}"`,
+        '!group', '    !dash intervals=10;5', '    !line points=0;0;5;5 stroke=true', `    !image filename="${names[1]}" size=4;4`,
+        '!group', '    !dilate radius=4;1', '    !line points=0;0;5;5 stroke=true', '!gradient start=5;0 end=60;0', '    !stop color=1;0;0',
+        '    !stop color=1;1;0', '!rect size=9;9 fill=true stroke=true', `!image filename="${names[2]}" point=3;3`];
+    const refused = link(drawn);
+    assert.equal(refused.status, 1);
+    assert.match(refused.stderr, new RegExp(`cannot link a script that reads files: ${names.join(', ')};`));
+    assert.doesNotMatch(refused.stderr, /cannot draw/);
+    fs.mkdirSync(join(work, 'dir'));
+    names.forEach((name, i) => fs.writeFileSync(join(work, name), `bytes ${i}`));
+    const page = link(drawn, '--html', 'out.html');
+    assert.deepEqual([page.status, page.stderr], [0, '']);
+    const data = fs.readFileSync(join(work, 'out.html'), 'utf8').match(/id="petri-data">([^<]*)</)[1], { files } = JSON.parse(data);
+    assert.deepEqual(Object.entries(files).map(([name, bytes]) => [name, String(Buffer.from(bytes, 'base64'))]),
+        names.map((name, i) => [name, `bytes ${i}`]));
+}));
+
 test('petri view serves the script below a token, and reloads it', async () => {
     const { linkTo, serveScript } = await load('view.mjs'), { filesBelow } = await load('files.mjs');
     const work = fs.mkdtempSync(join(tmpdir(), 'petri-view-'));
