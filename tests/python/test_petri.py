@@ -5,7 +5,9 @@ import base64
 import copy
 import csv
 import gc
+import importlib.metadata
 import importlib.util
+import inspect
 import os
 import pickle
 import re
@@ -36,6 +38,37 @@ let COUNT=COUNT or 3
     !distance from=0 to=1 strength=10 fixed=2
 """
 RED = "!window size=4;2\n    !canvas\n        !rect size=4;2 color=1;0;0 fill=true\n"
+
+
+class Package(unittest.TestCase):
+    def test_has_a_description_whose_example_runs(self):
+        package = importlib.metadata.distribution("petri").read_text("METADATA")
+        fields, text = package.split("\n\n", 1)
+        self.assertIn("\nDescription-Content-Type: text/markdown\n", fields)
+        self.assertGreater(fields.count("\nClassifier: "), 5)
+        self.assertEqual(re.findall("^Project-URL: (\\w+), https://", fields, re.M), ["Homepage", "Source", "Issues"])
+        self.assertNotRegex(package, "@[A-Z]+@")
+        [example] = re.findall("```python\n(.*?)```", text, re.S)
+        with tempfile.TemporaryDirectory() as folder:
+            ran = subprocess.run([sys.executable, "-W", "error", "-c", example], cwd=folder, stdout=subprocess.PIPE, text=True)
+            self.assertEqual(ran.returncode, 0)
+            self.assertTrue((Path(folder) / "sky.png").exists())
+        self.assertRegex(ran.stdout, r"^[\d.]+ \[[^]]*\]\n$")
+
+    def test_everything_public_is_documented(self):
+        for name in petri.__all__:
+            thing = getattr(petri, name)
+            self.assertTrue(inspect.getdoc(thing), name)
+            for member, value in vars(thing).items() if inspect.isclass(thing) else ():
+                if not member.startswith("_") and (inspect.isfunction(value) or isinstance(value, property)):
+                    self.assertTrue(inspect.getdoc(getattr(thing, member)), f"{name}.{member}")
+
+    def test_help_names_what_exists(self):
+        lines = re.findall(r"^([A-Za-z]+)  +\S", petri.__doc__, re.M)
+        self.assertGreater(len(lines), 5)
+        self.assertTrue(set(lines) <= set(petri.__all__))
+        methods = re.search(r"^Session .*: (.*)$", petri.__doc__, re.M).group(1).split(", ")
+        self.assertTrue(all(callable(getattr(petri.Session, method)) for method in methods))
 
 
 class Views(unittest.TestCase):
@@ -237,6 +270,34 @@ class Running(unittest.TestCase):
                 break
         self.assertEqual(numbers, [0, 1, 2, 3, 4])
         self.assertEqual((frame.time, frame.beat, frame.fps, frame.tempo), (0.4, 0.2, 10, 30))
+
+    def test_until_ends_with_the_first_frame_in_which_a_condition_is_true(self):
+        session, other = petri.Session(DISH), petri.Session(DISH)
+        self.assertTrue(session.until("frame*frame > 50"))
+        self.assertEqual(session.frame.number, 8)
+        self.assertTrue(session.until("frame*frame > 50"))  # at least one frame
+        other.step(10)
+        self.assertEqual(session.text("hash"), other.text("hash"))  # conditions change nothing
+        self.assertFalse(session.until("frame < 0", 3))
+        self.assertFalse(session.until("true", 0))
+        self.assertEqual(session.frame.number, 12)
+        for condition, value in {"0;0": False, "0;1": True, "null": False, "'x'": True, "''": False}.items():
+            self.assertEqual(session.until(condition, 1), value, condition)
+        with self.assertRaises(petri.ScriptError):
+            session.until("1 +")
+        self.assertEqual(session.frame.number, 18)
+
+    def test_integrate_reaches_a_time(self):
+        for fps in (1, 10, 60, 144, 1000):
+            session = petri.Session("!x\n", options=petri.Options(fps=fps))
+            for time in (0, 0.3, 0.3, 1, 0.5, 2.05):
+                before = session.frame
+                frame = session.integrate(time)
+                self.assertGreaterEqual(frame.time, time)
+                self.assertTrue(frame == before or frame.number == 0 or frame.time - 1 / fps < time, (fps, time, frame))
+        for time in (float("inf"), float("nan")):
+            with self.assertRaises(ValueError):
+                session.integrate(time)
 
     def test_definitions_and_parameters_change_values(self):
         session = petri.Session(DISH, COUNT=5)

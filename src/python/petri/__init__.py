@@ -7,6 +7,14 @@
     session.state["cells", 3]              # (x, y)
     session.picture()                      # displayed in notebooks
 
+Session     a script and its state: step, until, integrate, evaluate, snapshot, record, film, archive
+System      particles as numpy arrays, with energies and forces: session.systems["cells"]
+State       the state of a script: session.state
+Parameter   a parameter of a script, with its range: session.parameters["CELLS"]
+sweep       runs a script with many values of its parameters
+Archive     a recorded run, which can be replayed and verified
+PetriError  an error, with its position in the script; PetriWarning: a script is probably wrong
+
 The tutorial is src/python/TUTORIAL.md in the source tree.
 """
 

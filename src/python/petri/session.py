@@ -227,6 +227,30 @@ class Session:
         if status or self._told or self._stop and self._stop[0]:
             self._finish(status)
 
+    def until(self, condition: str, limit: int = 1_000_000) -> bool:
+        """Computes at least one frame, up to the first in which an expression is true. Returns False if none of `limit`
+        frames was that frame. An invalid expression raises ScriptError after the first frame."""
+        data = condition.encode()
+        result = ffi.new("PetriEvaluation *")
+        for _ in range(limit):
+            self.step()
+            self._call(lib.petri_evaluate, data, len(data), result, ffi.sizeof(result[0]), ffi.NULL, ffi.NULL)
+            if result.is_true:
+                return True
+        return False
+
+    def integrate(self, time: float) -> Frame:
+        """Computes frames up to the first whose time is at least `time` seconds, and returns that frame. Computes none
+        if the last frame has reached it. Frames keep their length, so the time of the frame can be later than `time`
+        by less than 1/fps."""
+        if not time < float("inf"):
+            raise ValueError(f"the time to integrate to must be finite, not {time}")
+        frame = self.frame
+        while frame.number < 0 or frame.time < time:
+            self.step()
+            frame = self.frame
+        return frame
+
     def __iter__(self) -> Iterator[Frame]:
         """Computes frames endlessly and yields each of them."""
         for _ in count():
