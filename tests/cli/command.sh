@@ -281,7 +281,7 @@ if [ -x "$(dirname "$petri")/petri-pictures" ]; then
     alone view --send socket 1
     check "'petri view --send' needs no other program" has err "cannot reach a view at socket"
     for words in 'run plain.fl --frames 1 --print state' 'plain.fl --frames 1' 'check plain.fl' 'fmt --check plain.fl' \
-        'diff plain.fl plain.fl --frames 2' 'sweep plain.fl -D SIZE=1;2 --frames 1 --metric n=1' --version; do
+        'diff plain.fl plain.fl --frames 2' 'sweep plain.fl -D SIZE=1;2 --frames 1 --metric n=SIZE' --version; do
         alone $words
         check "'petri $words' needs no other program" status_is 0
     done
