@@ -1,5 +1,5 @@
 // plot_grid.c: the plots of a sweep, drawn by a generated script. The grid has one row per metric. It has one column
-// per name with several values and, with --every, one for the frame.
+// per name with several values and, with --every, one for the frame. If two names vary, a last column has heat maps.
 #include "petri-draw.h"
 #include "petri-edit.h"
 #include "sweep/options.h"
@@ -15,11 +15,14 @@ enum { WIDTH = 220, HEIGHT = 160, LEFT = 80, TOP = 20, GAP_X = 90, GAP_Y = 60, M
 typedef struct Point {
     double x;
     double y;
+    double error; // of a mean: its standard error; 0: unknown
 } Point;
 
+// The range of an axis. If it is logarithmic, `min` and `max` are decimal logarithms.
 typedef struct Scale {
     double min;
     double max;
+    bool logarithmic;
 } Scale;
 
 typedef struct Plot {
@@ -30,17 +33,43 @@ typedef struct Plot {
     Scale y;
 } Plot;
 
-static const size_t FRAMES = SIZE_MAX; // axis index that means that the x axis shows the frame
+static const size_t FRAMES = SIZE_MAX;  // axis index that means that the x axis shows the frame
+static const size_t MAP = SIZE_MAX - 1; // means a heat map of the two names that vary
 
 static void extend_scale(Scale *scale, double x) {
     scale->min = x < scale->min ? x : scale->min;
     scale->max = x > scale->max ? x : scale->max;
 }
 
-static void pad_scale(Scale *scale) {
-    double margin = (scale->max - scale->min) * 0.04;
-    scale->min -= margin;
-    scale->max += margin;
+static int compare_numbers(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// Returns true if the range of positive numbers contains two powers of ten, for ticks, and if their logarithms are
+// spread more evenly than the numbers, as those of 1, 10, 100: the largest gap between neighbours is a smaller part of
+// the range.
+static bool is_logarithmic(double *numbers, size_t count) {
+    double gap = 0, log_gap = 0;
+    qsort(numbers, count, sizeof *numbers, compare_numbers);
+    if (count < 3 || !(numbers[0] > 0) || floor(log10(numbers[count - 1]) + 1e-9) <= ceil(log10(numbers[0]) - 1e-9))
+        return false;
+    for (size_t i = 1; i < count; i++) {
+        gap = fmax(gap, numbers[i] - numbers[i - 1]);
+        log_gap = fmax(log_gap, log(numbers[i] / numbers[i - 1]));
+    }
+    return log_gap / log(numbers[count - 1] / numbers[0]) < gap / (numbers[count - 1] - numbers[0]);
+}
+
+// Returns the scale of some numbers. Sorts them.
+static Scale make_scale(double *numbers, size_t count) {
+    Scale scale = {INFINITY, -INFINITY, is_logarithmic(numbers, count)};
+    for (size_t i = 0; i < count; i++)
+        extend_scale(&scale, scale.logarithmic ? log10(numbers[i]) : numbers[i]);
+    double margin = (scale.max - scale.min) * 0.04;
+    scale.min -= margin;
+    scale.max += margin;
+    return scale;
 }
 
 // Returns the value with this index as a number. If the values of the axis are texts, returns `index` itself.
@@ -53,7 +82,7 @@ static double axis_number(const Axis *axis, uint32_t index) {
 // per run: the last in which the metric is a number.
 static Plot collect_points(const Sweep *sweep, size_t axis, size_t metric) {
     const Design *design = &sweep->design;
-    Plot plot = {.x = {INFINITY, -INFINITY}, .y = {INFINITY, -INFINITY}};
+    Plot plot = {0};
     for (size_t run = 0; run < design->run_count; run++) {
         Row row;
         size_t first = plot.bytes.len;
@@ -63,28 +92,34 @@ static Plot collect_points(const Sweep *sweep, size_t axis, size_t metric) {
         for (Str rows = sweep->results[run].rows; row_next(sweep, &rows, metric, &row);) {
             if (isnan(row.x))
                 continue;
-            Point point = {axis == FRAMES ? (double)row.frame : x, row.x};
+            Point point = {axis == FRAMES ? (double)row.frame : x, row.x, 0};
             plot.bytes.len = axis == FRAMES ? plot.bytes.len : first;
             text_add(&plot.bytes, (Str){(const char *)&point, sizeof point});
         }
     }
     plot.points = (void *)plot.bytes.bytes;
     plot.count = plot.bytes.len / sizeof *plot.points;
-    for (size_t i = 0; i < plot.count; i++) {
-        extend_scale(&plot.x, plot.points[i].x);
-        extend_scale(&plot.y, plot.points[i].y);
-    }
-    pad_scale(&plot.x);
-    pad_scale(&plot.y);
+    double *numbers = memory_calloc((plot.count + 1) * sizeof *numbers);
+    for (size_t i = 0; i < plot.count; i++)
+        numbers[i] = plot.points[i].x;
+    plot.x = make_scale(numbers, plot.count);
+    for (size_t i = 0; i < plot.count; i++)
+        numbers[i] = plot.points[i].y;
+    plot.y = make_scale(numbers, plot.count);
+    free(numbers);
     return plot;
 }
 
+// Returns the position of a number on an axis. Numbers that a logarithmic axis cannot show are at its start.
 static double scale_position(const Scale *scale, double x, double length) {
+    x = !scale->logarithmic ? x : x > 0 ? fmax(log10(x), scale->min) : scale->min;
     return scale->max > scale->min ? (x - scale->min) / (scale->max - scale->min) * length : length / 2;
 }
 
-// Returns the distance between ticks: 1, 2 or 5 times a power of ten, chosen to give about four ticks.
+// Returns the distance between ticks, chosen to give about four: 1, 2 or 5 times a power of ten, or whole decades.
 static double tick_step(const Scale *scale) {
+    if (scale->logarithmic)
+        return fmax(1, floor((scale->max - scale->min) / 4));
     double rough = (scale->max - scale->min) / 4, power = pow(10, floor(log10(rough)));
     double times = rough / power;
     return power * (times < 1.5 ? 1 : times < 3.5 ? 2 : times < 7.5 ? 5 : 10);
@@ -107,11 +142,12 @@ static void add_ticks(Text *out, const Scale *scale, bool across) {
     }
     double step = tick_step(scale);
     for (double k = ceil(scale->min / step - 1e-9); k * step <= scale->max + 1e-9 * step; k++) {
-        double at = scale_position(scale, k * step, across ? WIDTH : HEIGHT);
+        double number = scale->logarithmic ? pow(10, k * step) : k * step;
+        double at = scale_position(scale, number, across ? WIDTH : HEIGHT);
         double x = across ? at : -4, y = across ? HEIGHT : HEIGHT - at;
         text_add_format(out, "                    !line points=%.1f;%.1f;%.1f;%.1f stroke=true\n", x, y,
                         across ? at : 0, across ? HEIGHT + 4 : y);
-        snprintf(label, sizeof label, "%.6g", k * step + 0.0); // adding 0 changes -0 to 0
+        snprintf(label, sizeof label, "%.6g", number + 0.0); // adding 0 changes -0 to 0
         add_text(out, label, across ? at : -26, across ? HEIGHT + 12 : y, 0);
     }
 }
@@ -128,20 +164,39 @@ static int compare_points(const void *a, const void *b) {
     return p->x != q->x ? (p->x > q->x) - (p->x < q->x) : (p->y > q->y) - (p->y < q->y);
 }
 
-// Replaces points with the same x by their mean. Returns the number of means.
+// Replaces points with the same x by their mean and its standard error. Returns the number of means.
 static size_t average_points(Plot *plot) {
     size_t means = 0;
     qsort(plot->points, plot->count, sizeof *plot->points, compare_points);
     for (size_t i = 0, next = 0; i < plot->count; i = next) {
-        double sum = 0, x = plot->points[i].x;
+        double sum = 0, squares = 0, x = plot->points[i].x;
         while (next < plot->count && plot->points[next].x == x)
             sum += plot->points[next++].y;
-        plot->points[means++] = (Point){x, sum / (double)(next - i)};
+        double count = (double)(next - i), mean = sum / count;
+        for (size_t k = i; k < next; k++)
+            squares += (plot->points[k].y - mean) * (plot->points[k].y - mean);
+        plot->points[means++] = (Point){x, mean, count > 1 ? sqrt(squares / (count - 1) / count) : 0};
     }
     return means;
 }
 
-static void add_plot(Text *out, Plot *plot) {
+// Draws bars of one standard error above and below each mean.
+static void add_error_bars(Text *out, const Plot *plot, size_t means) {
+    for (size_t i = 0; i < means; i++) {
+        Point mean = plot->points[i];
+        double x = scale_position(&plot->x, mean.x, WIDTH);
+        double top = HEIGHT - scale_position(&plot->y, mean.y + mean.error, HEIGHT);
+        double bottom = HEIGHT - scale_position(&plot->y, mean.y - mean.error, HEIGHT);
+        if (mean.error > 0)
+            text_add_format(out,
+                            "                    !line stroke=true stroke_width=1.2 color=0.85;0.35;0.1 "
+                            "points=%.2f;%.2f;%.2f;%.2f;%.2f;%.2f;%.2f;%.2f;%.2f;%.2f;%.2f;%.2f\n",
+                            x - 3, top, x + 3, top, x, top, x, bottom, x - 3, bottom, x + 3, bottom);
+    }
+}
+
+// Adds a plot. `bars`: the points of each mean differ only in their seeds, so the error of the mean is known.
+static void add_plot(Text *out, Plot *plot, bool bars) {
     text_add_format(out, "                    !rect size=%d;%d stroke=true\n", WIDTH, HEIGHT);
     if (plot->count == 0)
         return;
@@ -156,23 +211,112 @@ static void add_plot(Text *out, Plot *plot) {
         text_add_format(out, "                    !line stroke=true stroke_width=1.5 color=0.85;0.35;0.1 points=");
         add_numbers(out, plot, plot->points, means, 1);
         text_add_format(out, "\n");
+        if (bars)
+            add_error_bars(out, plot, means);
     }
 }
 
-static size_t find_columns(const Sweep *sweep, size_t *columns) {
+// --- heat maps
+
+// The mean of a metric in a cell of a heat map.
+typedef struct MapCell {
+    double sum;
+    size_t count;
+} MapCell;
+
+// Adds the last value of each run to its cell: cells[y * width + x] for the values x and y of the two names.
+static void sum_cells(const Sweep *sweep, const size_t *axes, size_t metric, MapCell *cells) {
+    const Design *design = &sweep->design;
+    size_t width = design->axes[axes[0]].values.count;
+    for (size_t run = 0; run < design->run_count; run++) {
+        const uint32_t *values = &design->value_indices[run * design->axis_count];
+        MapCell *cell = &cells[values[axes[1]] * width + values[axes[0]]];
+        double last = NAN;
+        Row row;
+        for (Str rows = sweep->results[run].rows; row_next(sweep, &rows, metric, &row);)
+            last = isnan(row.x) ? last : row.x;
+        cell->sum += isnan(last) ? 0 : last;
+        cell->count += !isnan(last);
+    }
+}
+
+// Writes about six values of an axis beside the cells to which they belong.
+static void add_map_labels(Text *out, const Axis *axis, bool across) {
+    size_t count = axis->values.count, step = (count + 5) / 6;
+    for (size_t i = 0; i < count; i += step) {
+        double part = ((double)i + 0.5) / (double)count;
+        add_text(out, axis->values.items[i], across ? part * WIDTH : -26, across ? HEIGHT + 12 : HEIGHT * (1 - part),
+                 0);
+    }
+}
+
+// Adds a heat map of the means of a metric, from blue (smallest) to yellow (largest). Cells without a value stay empty.
+static void add_map(const Sweep *sweep, const size_t *axes, size_t metric, Text *out) {
+    const Axis *across = &sweep->design.axes[axes[0]], *up = &sweep->design.axes[axes[1]];
+    size_t count = across->values.count * up->values.count;
+    double width = (double)WIDTH / (double)across->values.count, height = (double)HEIGHT / (double)up->values.count;
+    MapCell *cells = memory_calloc(count * sizeof *cells);
+    Scale scale = {INFINITY, -INFINITY, false};
+    sum_cells(sweep, axes, metric, cells);
+    for (size_t i = 0; i < count; i++)
+        if (cells[i].count > 0)
+            extend_scale(&scale, cells[i].sum / (double)cells[i].count);
+    for (size_t i = 0; i < count; i++) {
+        double part = scale_position(&scale, cells[i].sum / (double)cells[i].count, 1);
+        if (cells[i].count > 0)
+            text_add_format(
+                out, "                    !rect point=%.3f;%.3f size=%.3f;%.3f fill=true color=%.3f;%.3f;%.3f\n",
+                (double)(i % across->values.count) * width, HEIGHT - (double)(i / across->values.count + 1) * height,
+                width, height, 0.2 + 0.75 * part, 0.1 + 0.75 * part, 0.45 - 0.3 * part);
+    }
+    free(cells);
+    text_add_format(out, "                    !rect size=%d;%d stroke=true\n", WIDTH, HEIGHT);
+    add_map_labels(out, across, true);
+    add_map_labels(out, up, false);
+    SCOPED_TEXT range = {0};
+    text_add_format(&range, "%s %.4g (blue) to %.4g (yellow)", row_number_name(sweep, metric), scale.min, scale.max);
+    add_text(out, scale.min <= scale.max ? range.bytes : "no values", WIDTH / 2.0, -8, 0);
+}
+
+// Finds the names that vary, and the other columns. Returns the number of columns.
+static size_t find_columns(const Sweep *sweep, size_t *columns, size_t *varied) {
+    enum { MAX_CELLS = 10000 };
+    const Axis *axes = sweep->design.axes;
     size_t count = 0;
     for (size_t i = 0; i < sweep->design.axis_count - sweep->design.seeded; i++)
-        if (sweep->design.axes[i].values.count > 1)
+        if (axes[i].values.count > 1)
             columns[count++] = i;
+    *varied = count;
     if (sweep->own->row_every > 0 || count == 0)
         columns[count++] = FRAMES;
+    // With --sample, each run has other values, so nearly all cells would be empty.
+    if (*varied == 2 && !sweep->own->sample &&
+        axes[columns[0]].values.count * axes[columns[1]].values.count <= MAX_CELLS)
+        columns[count++] = MAP;
     return count;
+}
+
+static const char *column_name(const Sweep *sweep, const size_t *columns, size_t column) {
+    return columns[column] == FRAMES ? "frame" : sweep->design.axes[columns[columns[column] == MAP ? 0 : column]].name;
+}
+
+static void add_column(const Sweep *sweep, const size_t *columns, size_t column, bool bars, size_t row, Text *out) {
+    bool map = columns[column] == MAP;
+    if (map) {
+        add_map(sweep, columns, row, out);
+    } else {
+        Plot plot = collect_points(sweep, columns[column], row);
+        add_plot(out, &plot, bars);
+        text_free(&plot.bytes);
+    }
+    add_text(out, column_name(sweep, columns, column), WIDTH / 2.0, HEIGHT + 28, 0);
+    add_text(out, map ? sweep->design.axes[columns[1]].name : row_number_name(sweep, row), -60, HEIGHT / 2.0, -0.25);
 }
 
 // Writes the script that draws the grid.
 static void write_script(const Sweep *sweep, Text *out) {
-    size_t *columns = memory_calloc((sweep->design.axis_count + 1) * sizeof *columns);
-    size_t across = find_columns(sweep, columns), down = row_numbers(sweep);
+    size_t *columns = memory_calloc((sweep->design.axis_count + 2) * sizeof *columns), varied = 0;
+    size_t across = find_columns(sweep, columns, &varied), down = row_numbers(sweep);
     text_add_format(out, "!window size=%zu;%zu\n    !canvas\n        !font size=11 family=\"DejaVu Sans\"\n",
                     across * (WIDTH + GAP_X), down * (HEIGHT + GAP_Y));
     text_add_format(out, "            !rect size=%zu;%zu fill=true color=1\n", across * (WIDTH + GAP_X),
@@ -181,12 +325,7 @@ static void write_script(const Sweep *sweep, Text *out) {
         size_t column = i % across, row = i / across;
         text_add_format(out, "            !transform translate=%zu;%zu\n                !paint color=0.1\n",
                         LEFT + column * (WIDTH + GAP_X), TOP + row * (HEIGHT + GAP_Y));
-        Plot plot = collect_points(sweep, columns[column], row);
-        add_plot(out, &plot);
-        text_free(&plot.bytes);
-        add_text(out, columns[column] == FRAMES ? "frame" : sweep->design.axes[columns[column]].name, WIDTH / 2.0,
-                 HEIGHT + 28, 0);
-        add_text(out, row_number_name(sweep, row), -60, HEIGHT / 2.0, -0.25);
+        add_column(sweep, columns, column, varied == (columns[column] != FRAMES), row, out);
     }
     free(columns);
 }

@@ -158,6 +158,35 @@ if [ "$2" = draws ]; then
     check "--plot prints no diagnostics" [ "$(wc -l <err)" -eq 1 ]
     sweep sum.fl -D A=1 --frames 3 --metric x=null --every 1 --plot empty.png -o t.csv
     check "--plot accepts metrics without values" [ -s empty.png ]
+    # ticks: prints the distances between the ticks of the first x axis.
+    ticks() { sed -n 's/.* d="M \([0-9.]*\) 180 L [0-9.]* 184 .*/\1/p' plot.svg | awk 'NR > 1 { printf "%.0f ", $1 - before } { before = $1 }'; }
+    for values in '1;10;100;1000' '1;2;4;8;16;32;64;128' '100;0.1;1'; do
+        sweep sum.fl -D "A=$values" --frames 1 --metric x=-A --plot plot.svg -o t.csv
+        check "the axis of $values is logarithmic: a tick for each decade, at equal distances" \
+            [ "$(ticks)" = "$(case $values in *128) echo '97 97 ' ;; *) echo '68 68 68 ' ;; esac)" ]
+    done
+    for values in '1..100|9' '0;1;10;100' '-1;10;100;1000' '20;90' '1;5;9'; do
+        sweep sum.fl -D "A=$values" -D B=1 --frames 1 --metric x=-B --plot plot.svg -o t.csv
+        check "the axis of $values is linear" [ "$(ticks | wc -w)" -ge 3 ]
+    done
+    # bars: prints the upper and lower ends of the error bars.
+    bars() { sed -n 's/.*stroke-width:1.2;.* d="M [0-9.]* \([0-9.]*\) L [0-9.]* [0-9.]* L [0-9.]* [0-9.]* L [0-9.]* \([0-9.]*\) .*/\1 \2/p' plot.svg; }
+    sweep sum.fl -D A=1..3 --seeds 2 --frames 1 --metric x=A+SEED --plot plot.svg -o t.csv
+    # The values are 2, 3; 3, 4; 4, 5: each bar begins where the one before it ends.
+    bars >ends
+    check "with two seeds, the standard error reaches both values" \
+        eval 'lines_are ends 3 && awk "NR > 1 && (\$2 - top) ^ 2 > 1e-4 { exit 1 } { top = \$1 }" ends'
+    sweep sum.fl -D A=1..3 --frames 1 --metric x=A --plot plot.svg -o t.csv
+    check "one value has no error bar" [ "$(bars | wc -l)" -eq 0 ]
+    # cells: prints the colours of the cells of the heat map.
+    cells='s/.*stroke:none.*fill:\(rgb([0-9.%,]*\)).* d="M [7-9][0-9.]* [0-9.]* L [0-9.]* [0-9.]* L [0-9.]* [0-9.]* L [0-9.]* [0-9.]* Z M.*/\1/p'
+    sweep sum.fl -D A=1..5 -D 'B=1;3;10;30' --seeds 3 --frames 1 --metric 'x=A*B*SEED if A+B != 5 else null' --plot plot.svg -o t.csv
+    check "two parameters have a heat map, without cells that have no value" [ "$(sed -n "$cells" plot.svg | wc -l)" -eq 18 ]
+    check "one cell is the largest and one the smallest" \
+        [ "$(sed -n "$cells" plot.svg | grep -c 'rgb(94.9\|rgb(95%') $(sed -n "$cells" plot.svg | grep -c 'rgb(20%')" = "1 1" ]
+    check "means over another parameter have no error bars" [ "$(bars | wc -l)" -eq 0 ]
+    sweep sum.fl -D A=1..5 -D B=1..3 --sample latin:9 --frames 1 --metric x=A --plot plot.svg -o t.csv
+    check "a sample has no heat map" [ "$(sed -n "$cells" plot.svg | wc -l)" -eq 0 ]
 fi
 
 # --- tables in HDF5
