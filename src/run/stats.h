@@ -15,8 +15,8 @@ typedef struct Stats {
     double output_seconds;
 } Stats;
 
-// Counts a computed frame. Does not change output_seconds, which the caller maintains. `session`: counts particle_steps;
-// NULL: does not.
+// Counts a computed frame. Does not change output_seconds, which the caller maintains. `session`: counts
+// particle_steps; NULL: does not.
 void stats_count(Stats *stats, const PetriFrame *frame, PetriSession *session);
 // Writes the table to standard error: the sums, and for each system of the last frame its kinetic energy, momentum and
 // fastest particle. If `ranks` is not NULL, all ranks must call this function, and the table has communication
