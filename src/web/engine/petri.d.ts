@@ -247,8 +247,8 @@ export interface Session {
      */
     explain(system: number, particle: number): Explanation;
     /**
-     * Returns the particle that is drawn at a point of the picture, as a circle at its position; null if there is none. x and y are 0 at the
-     * top left and 1 at the bottom right. `name` is the name of its system and `id` its id, as they are printed.
+     * Returns the particle that is drawn at a point of the picture, as a circle at its position; null if there is none.
+     * x and y are 0 at the top left and 1 at the bottom right. `name` is the name of its system and `id` its id, as they are printed.
      */
     pick(x: number, y: number, options?: { automatic?: boolean }): { name: string; id: string } | null;
     /**
