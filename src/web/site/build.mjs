@@ -27,9 +27,10 @@ const modulesOf = markdown => Object.fromEntries([...markdown.matchAll(/^```flit
     .map(([, name, text]) => [name, text])
     .filter(([name]) => markdown.includes(`"${name}"`)));
 
-// Returns the text of a page with its replacements.
+// Returns the text of a page with its replacements. A space in an expression also matches the end of a line.
 function replaced(markdown, { name, replace = [] }) {
-    for (const [expression, text] of replace) {
+    for (const [{ source, flags }, text] of replace) {
+        const expression = new RegExp(source.replaceAll(' ', '\\s+'), flags);
         if (!expression.test(markdown))
             throw new Error(`${name}: nothing matches ${expression}`);
         markdown = markdown.replace(expression, text);
