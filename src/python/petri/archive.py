@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Union
 
 from ._petri import ffi, lib
 from .errors import PetriError
@@ -43,6 +44,16 @@ def _file_name(path: Union[str, os.PathLike]) -> bytes:
     if b"\0" in name:
         raise ValueError("embedded null character in the name of a file")
     return name
+
+
+def _owned(pointer: Any, free: Callable[..., None], *keep: Any) -> Any:
+    """Returns a pointer that `free`, a function of the library, frees. The objects `keep` live as long.
+
+    `free` is not called by code in Python, in which a KeyboardInterrupt would be lost.
+    """
+    call = functools.partial(free)
+    setattr(call, "keep", keep)
+    return ffi.gc(pointer, call)
 
 
 def _take(pointer: Any, session: Any = None) -> Any:

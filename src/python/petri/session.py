@@ -12,7 +12,7 @@ from typing import Any, Callable, Iterator, List, Mapping, NamedTuple, Optional,
 
 from . import films, trajectories, values
 from ._petri import ffi, lib
-from .archive import Recording, _check, _file_name
+from .archive import Recording, _check, _file_name, _owned
 from .errors import Diagnostic, ScriptError, finish
 from .functions import Functions
 from .parameters import Parameters
@@ -61,7 +61,7 @@ class Snapshot:
         if not pointer:
             raise MemoryError("out of memory")
         # The snapshot must be freed before the session.
-        self._c = ffi.gc(pointer, lambda p, session=session: lib.petri_snapshot_free(p))
+        self._c = _owned(pointer, lib.petri_snapshot_free, session)
         self._session = session
         self.frame = frame
         self.nbytes: int = lib.petri_snapshot_bytes(pointer)
@@ -176,7 +176,7 @@ class Session:
         pointer = lib.petri_open(options)
         if not pointer:
             raise ValueError(f"invalid options: {wanted}")
-        return ffi.gc(pointer, lambda p, keep=(handle, archive): lib.petri_python_close(p))
+        return _owned(pointer, lib.petri_python_close, handle, archive)
 
     def _printed(self, value: Any) -> str:
         with self._lock:
