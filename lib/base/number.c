@@ -167,7 +167,8 @@ static char *write_decimal(char *at, Decimal decimal) {
         return write_scientific(at, &digits, exponent);
     if (exponent >= 0)
         return write_fixed(at, &digits, exponent + 1);
-    memcpy(at, "0.000", 5);
+    static const char zeros[] = {'0', '.', '0', '0', '0'};
+    memcpy(at, zeros, sizeof zeros);
     at += 1 - exponent;
     write_all(at, &digits);
     return at + digits.count;

@@ -41,7 +41,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, HdrPaint *shad
     cairo_t *cr = canvas->cr;
     draw_forget_path(canvas);
     cairo_save(cr);
-    draw_set_edges(canvas, paint->style.antialias, FILL_WINDING);
+    draw_set_edges(canvas, paint->style.antialias != 0, FILL_WINDING);
     if (box->cut) {
         double x1 = point[0], y1 = point[1], x2 = x1 + box->width, y2 = y1 + box->height;
         draw_clamp_point(canvas, &x1, &y1);

@@ -145,12 +145,12 @@ static void stroke_in_segments(Canvas *canvas, const DisplayPaint *paint) {
 }
 
 static void fill_part(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
-    draw_set_edges(canvas, paint->style.antialias && canvas->path_work <= SMOOTH_WORK, (int)shape->rule);
+    draw_set_edges(canvas, paint->style.antialias != 0 && canvas->path_work <= SMOOTH_WORK, (int)shape->rule);
     cairo_fill_preserve(canvas->cr);
 }
 
 static void stroke_part(Canvas *canvas, const PATHOperands *shape, const DisplayPaint *paint) {
-    draw_set_edges(canvas, paint->style.antialias, (int)shape->rule);
+    draw_set_edges(canvas, paint->style.antialias != 0, (int)shape->rule);
     set_stroke_style(canvas, paint);
     if (canvas->path_work > SMOOTH_WORK && !canvas->vector && cairo_get_dash_count(canvas->cr) == 0) {
         stroke_in_segments(canvas, paint);
@@ -187,9 +187,9 @@ void draw_fill_and_stroke(Canvas *canvas, const PATHOperands *shape, const Displ
         draw_with_effect(canvas, shape, paint);
         return;
     }
-    if (shape->fill)
+    if (shape->fill != 0)
         fill_part(canvas, shape, paint);
-    if (shape->stroke)
+    if (shape->stroke != 0)
         stroke_part(canvas, shape, paint);
 }
 
@@ -201,7 +201,7 @@ bool draw_find_box(Canvas *canvas, const PATHOperands *shape, const DisplayPaint
     cairo_get_matrix(cr, &matrix);
     double wide =
         fmax(fmax(fabs(matrix.xx) + fabs(matrix.xy), fabs(matrix.yx) + fabs(matrix.yy)) * paint->style.width, 1);
-    double border = shape->stroke ? 2 * wide + 2 : 2; // miters reach two line widths, because the miter limit is 4
+    double border = shape->stroke != 0 ? 2 * wide + 2 : 2; // miters reach two line widths, because the miter limit is 4
     cairo_identity_matrix(cr);
     cairo_path_extents(cr, &box[0], &box[1], &box[2], &box[3]);
     cairo_set_matrix(cr, &matrix);
@@ -234,7 +234,7 @@ cairo_pattern_t *draw_make_mask(Canvas *canvas, const PATHOperands *shape, const
     cairo_push_group_with_content(cr, CAIRO_CONTENT_ALPHA);
     cairo_set_operator(cr, CAIRO_OPERATOR_OVER);
     cairo_set_source_rgba(cr, 0, 0, 0, 1);
-    if ((int)shape->rule > FILL_EVEN_ODD && shape->fill) {
+    if ((int)shape->rule > FILL_EVEN_ODD && shape->fill != 0) {
         cairo_paint(cr);
         cairo_set_operator(cr, CAIRO_OPERATOR_DEST_OUT);
     }

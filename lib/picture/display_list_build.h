@@ -3,7 +3,7 @@
 
 #include "picture/display_list_write.h"
 
-enum { DISPLAY_NONE = UINT32_MAX }; // a null index
+#define DISPLAY_NONE UINT32_MAX // a null index
 
 // A range of consecutive path elements in DisplayListBuild.paths.
 typedef struct DisplayRun {

@@ -19,7 +19,7 @@ bool session_begin(const Options *options, TestCase *test, TextList *words) {
 static size_t time_length(Str text) {
     static const char *const units[] = {" s", " ms", " us", " ns"};
     size_t at = 0;
-    while (at < text.len && memchr("0123456789.e+-", text.bytes[at], 14))
+    while (at < text.len && text.bytes[at] && strchr("0123456789.e+-", text.bytes[at]))
         at++;
     Str rest = {text.bytes + at, text.len - at};
     for (size_t i = 0; at > 0 && i < sizeof units / sizeof units[0]; i++) {

@@ -166,7 +166,10 @@ static bool check_options(const TestOptions *own) {
 
 static int test_run(const CommandContext *context, Options *options) {
     TestOptions *own = test_options(options);
-    Suite suite = {.host = context, .options = options, .output.fd = STDOUT_FILENO, .review = {context, options}};
+    Suite suite = {.host = context,
+                   .options = options,
+                   .output.fd = STDOUT_FILENO,
+                   .review = {.host = context, .options = options}};
     suite.colour = own->colour == ALWAYS || (own->colour == AUTO && isatty(STDOUT_FILENO) && option_default_colour());
     if (!check_options(own))
         return STATUS_USAGE;

@@ -47,12 +47,12 @@ static void read_string(Reader *reader, const char *operand) {
         reader->found(reader->user_data, name.bytes);
 }
 
-// Reads the operands of a command. The operand PAINT is a command, which is read next.
-static void read_operands(Reader *reader, size_t command) {
-    switch (command) {
+// A function for each command, which reads its operands. The operand PAINT is a command, which is read next.
 #define PETRI_COMMAND(name, operands, text)                                                                            \
-    case PETRI_DRAW_##name:                                                                                            \
-        operands break;
+    static void read_##name(Reader *reader) {                                                                          \
+        (void)reader;                                                                                                  \
+        operands                                                                                                       \
+    }
 #define NUMBER(name) skip(reader, 1);
 #define FLAG(name) skip(reader, 1);
 #define ALPHA(name) skip(reader, 1);
@@ -70,16 +70,20 @@ static void read_operands(Reader *reader, size_t command) {
 #define STRING(name) read_string(reader, #name);
 #define PAINT(name)
 #include "petri-display-list.inc"
-    default:
-        reader->at = reader->count;
-    }
-}
+static void (*const READERS[])(Reader *) = {
+#define PETRI_COMMAND(name, operands, text) [PETRI_DRAW_##name] = read_##name,
+#include "petri-display-list.inc"
+};
 
 void image_files_find(PetriPicture *picture, ImageFileCallback *found, void *user_data) {
     Reader reader = {.found = found, .user_data = user_data};
     if (petri_picture_display_list(picture, &reader.numbers, &reader.count) != PETRI_OK)
         return;
     skip(&reader, 3); // width, height and a flag
-    while (reader.at < reader.count)
-        read_operands(&reader, next(&reader));
+    while (reader.at < reader.count) {
+        size_t command = next(&reader);
+        if (command >= sizeof READERS / sizeof READERS[0] || !READERS[command])
+            return;
+        READERS[command](&reader);
+    }
 }
