@@ -163,6 +163,19 @@ int subprocess_run(const char *program, const char *folder, char **argv, unsigne
     return subprocess_collect(&child, output, errors) ? -1 : status;
 }
 
+int subprocess_git(const char *folder, const TextList *words, unsigned seconds, Text *output, Text *errors) {
+    TextList all = {0};
+    texts_add(&all, "git");
+    for (size_t i = 0; i < words->count; i++)
+        texts_add(&all, words->items[i]);
+    // git would fetch an object that a partial clone lacks, by a program that the configuration names.
+    setenv("GIT_NO_LAZY_FETCH", "1", true);
+    setenv("GIT_ALLOW_PROTOCOL", "none", true);
+    int status = subprocess_run("git", folder, all.items, seconds, output, errors);
+    texts_free(&all);
+    return status;
+}
+
 void subprocess_describe(int status, const Text *errors, Text *error_text) {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
         text_add_format(error_text, "did not end within %d s", SUBPROCESS_MAX_SECONDS);

@@ -25,6 +25,9 @@ bool subprocess_start(Subprocess *child, const char *program, const char *folder
 // Starts a program in the same way and waits until it ends. Adds its output and its messages to the texts, and returns
 // its status as waitpid does. Returns -1 with errno set on failure.
 int subprocess_run(const char *program, const char *folder, char **argv, unsigned seconds, Text *output, Text *errors);
+// Runs git in the same way. `words` are those after `git`. Only for commands that show no signatures: then the
+// configuration of a stranger's repository cannot start other programs.
+int subprocess_git(const char *folder, const TextList *words, unsigned seconds, Text *output, Text *errors);
 // Starts a program, which is searched in PATH, with the default signal mask and action for SIGPIPE. files[i] becomes
 // its descriptor i; -1 means /dev/null. If `own_group` is true, Ctrl-C in the terminal does not reach it. `words` are
 // as for execv. Returns the process id, or -1 with errno set.

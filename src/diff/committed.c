@@ -1,7 +1,7 @@
 // committed.c: a side that is a script as git has it: REVISION:FILE.
 //
 // The script and the modules in git are those of the revision; other files are those on disk. `git cat-file` executes
-// no filters, hooks or pagers of the repository.
+// no filters, hooks or pagers of the repository; see also subprocess_git.
 #include "base/file.h"
 #include "base/source.h"
 #include "cli/subprocess.h"
@@ -35,8 +35,12 @@ static bool read_committed(const char *revision, const char *path, Text *text, T
     SCOPED_STRING folder = memory_folder(path);
     SCOPED_TEXT object = {0};
     text_add_format(&object, "%s:./%s", revision, path + path_directory(str_from(path)).len);
-    char *words[] = {"git", "cat-file", "blob", object.bytes, NULL};
-    int status = subprocess_run("git", folder, words, PATIENCE, text, errors);
+    TextList words = {0};
+    texts_add(&words, "cat-file");
+    texts_add(&words, "blob");
+    texts_add(&words, object.bytes);
+    int status = subprocess_git(folder, &words, PATIENCE, text, errors);
+    texts_free(&words);
     return status >= 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 

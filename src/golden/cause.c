@@ -13,11 +13,11 @@ typedef struct Search {
     unsigned seconds; // that git and `petri diff` may take
 } Search;
 
-// Runs a program in the folder of the script. Returns its exit status, or -1.
-static int run_there(const Search *search, const char *program, const TextList *words, Text *output) {
+// Runs petri in the folder of the script. Returns its exit status, or -1.
+static int run_there(const Search *search, const TextList *words, Text *output) {
     SCOPED_STRING folder = memory_folder(search->test->script);
     SCOPED_TEXT errors = {0};
-    int status = subprocess_run(program, folder, words->items, search->seconds, output, &errors);
+    int status = subprocess_run(search->host->program, folder, words->items, search->seconds, output, &errors);
     return status >= 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -50,21 +50,24 @@ static int try_revision(const Search *search, const char *revision, Text *output
     TextList words = {0};
     texts_add(&words, "petri");
     add_diff(search, revision, search->test->name[0] == '-' ? "./" : "", &words);
-    int status = run_there(search, search->host->program, &words, output);
+    int status = run_there(search, &words, output);
     texts_free(&words);
     return status;
 }
 
 // Returns the commit that last changed the golden, or an empty text if git does not know any.
 static Text recording_commit(const Search *search) {
-    static const char *const parts[] = {"git", "--no-pager", "log", "-1", "--format=%h", "--"};
+    static const char *const parts[] = {"rev-list", "-1", "--abbrev-commit", "HEAD", "--"};
     const char *golden = search->test->recorded;
+    SCOPED_STRING folder = memory_folder(search->test->script);
+    SCOPED_TEXT errors = {0};
     TextList words = {0};
     Text commit = {0};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
         texts_add(&words, parts[i]);
     texts_add(&words, golden + path_directory(str_from(golden)).len);
-    if (run_there(search, "git", &words, &commit) != 0)
+    int status = subprocess_git(folder, &words, search->seconds, &commit, &errors);
+    if (status < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
         commit.len = 0;
     while (commit.len > 0 && commit.bytes[commit.len - 1] == '\n')
         commit.bytes[--commit.len] = '\0';

@@ -93,6 +93,29 @@ commit "strange name"
 sed -i 's/=-G/=-3*G/' 'history/below/a:b $(x).fl'
 petri test 'history/below/a:b $(x).fl'
 check "names are never read by a shell" has out "    + -33  a:b \$(x).fl:4"
+
+# a stranger's repository: a signed commit and an object that is missing, and programs for both in the configuration
+printf '#!/bin/sh\ntouch "%s/started"\n' "$PWD" >starter
+chmod +x starter
+git -C history cat-file commit HEAD | awk 'NF == 0 && !done {
+    print "gpgsig -----BEGIN PGP SIGNATURE-----\n \n x\n -----END PGP SIGNATURE-----"
+    done = 1
+}
+{ print }' >signed
+git -C history update-ref HEAD "$(git -C history hash-object -t commit -w "$PWD/signed")"
+missing=$(git -C history rev-parse HEAD:below/fall.fl)
+rm -f "history/.git/objects/$(printf '%.2s' "$missing")/${missing#??}"
+for line in 'log.showSignature true' "gpg.program $PWD/starter" 'core.repositoryformatversion 1' 'extensions.partialClone far' \
+    'remote.far.promisor true' "remote.far.url $PWD/history" "remote.far.uploadpack $PWD/starter"; do
+    git -C history config "${line%% *}" "${line#* }"
+done
+echo >>history/below/fall.golden
+petri test history/below/fall.fl
+petri diff HEAD:history/below/fall.fl history/below/fall.fl
+check "what git lacks is an error" has err "cannot read HEAD:history/below/fall.fl from git: "
+check "git starts no program that the configuration of a repository names" [ ! -e started ]
+git -C history cat-file blob "$missing" >out 2>&1
+check "git alone would start it" [ -e started ]
 rm -rf history/.git
 petri test history/below/fall.fl
 check "without git, a failure has no cause but is shown whole" has out "+\$(:fall;:ball) = "

@@ -140,8 +140,8 @@ if SEED == 4
 
 test('a sweep in threads ends with a signal and can be resumed', async () => {
     const work = fs.mkdtempSync(join(tmpdir(), 'petri-sweep-'));
-    const args = ['sweep', join(root, 'samples/dish.fl'), '-D', 'DROPS=201..240', '--frames', '400', '--metric', 'energy', '--jobs', '2', '-o',
-        join(work, 'a.csv')];
+    const args = ['sweep', join(root, 'samples/dish.fl'), '-D', 'DROPS=201..240', '--frames', '400', '--metric', 'energy', '--jobs', '2',
+        '-o', join(work, 'a.csv')];
     const child = spawn('node', [cli, ...args], { stdio: ['ignore', 'ignore', 'pipe'] });
     let errors = '';
     child.stderr.on('data', data => { errors += data; });
