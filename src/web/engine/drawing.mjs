@@ -201,7 +201,7 @@ class Painter {
         this.placed = this.styled = this.composed = null; // the contexts that have the current transform, line and composite mode
         this.style = '#000'; // the paint: a style of Canvas 2D, or a function that returns it
         this.alpha = 1; // opacity of the paint, which also applies to images
-        this.solid = true;
+        this.isSolid = true;
         this.round = null; // the matrix of an elliptical gradient
         this.line = { width: 1, join: 'miter', cap: 'butt', mode: OVER, modulates: false, offset: 0, dashes: [] };
         this.filtering = null; // the filter
@@ -323,7 +323,7 @@ class Painter {
     // Returns true if the overlap of fill and stroke would be visible, or if the composite mode affects pixels outside the path.
     needsMask(fill, stroke) {
         const { mode, modulates } = this.line;
-        return modulates || UNBOUNDED.has(mode) || (fill && stroke && !(this.solid && mode === OVER));
+        return modulates || UNBOUNDED.has(mode) || (fill && stroke && !(this.isSolid && mode === OVER));
     }
 
     // Paints fill and stroke as one shape. Uses a mask if it is needed, or required by the caller (`masked`).
@@ -379,7 +379,7 @@ class Painter {
 
     // Executes commands until `ends` returns true for the last one. Returns the paint that they set, and restores the current paint.
     readUpTo(ends) {
-        const paintOf = ({ style, alpha, solid, round }) => ({ style, alpha, solid, round });
+        const paintOf = ({ style, alpha, isSolid, round }) => ({ style, alpha, isSolid, round });
         const before = { ...paintOf(this), line: this.line, filtering: this.filtering };
         let kind;
         do
@@ -408,11 +408,11 @@ class Painter {
     }
 
     paintAll(paint) {
-        const { style, alpha, solid, round } = this;
+        const { style, alpha, isSolid, round } = this;
         Object.assign(this, paint);
         this.begin(true, false);
         this.fillPath(this.context, this.everywhere(), 'nonzero');
-        Object.assign(this, { style, alpha, solid, round });
+        Object.assign(this, { style, alpha, isSolid, round });
     }
 
     filter(filter) {
@@ -503,11 +503,11 @@ class Painter {
         context.restore();
     }
 
-    setPaint(style, alpha, round = null, solid = false) {
+    setPaint(style, alpha, round = null, isSolid = false) {
         this.style = style;
         this.alpha = alpha;
         this.round = round;
-        this.solid = solid;
+        this.isSolid = isSolid;
     }
 
     pattern(matrix, alpha, image, name) {
