@@ -1,7 +1,7 @@
 // interrupt.c: Ctrl-C; see repl.h.
 //
-// Ctrl-C sets a flag. Between repl_begin and repl_end, it also interrupts the session. An interrupt that comes too late
-// is dropped.
+// Ctrl-C sets a flag, until the next input is read. Between repl_begin and repl_end, it also interrupts the session. An
+// interrupt that comes too late is dropped.
 #include "repl/repl.h"
 
 #include <signal.h>
@@ -25,9 +25,10 @@ void repl_catch_interrupt(void) {
 }
 
 void repl_begin(Prompt *prompt) {
-    interrupted = 0;
     petri_clear_interrupt(prompt->session);
     working = prompt->session;
+    if (interrupted) // since the input was read
+        petri_interrupt(prompt->session);
 }
 
 void repl_end(Prompt *prompt) {

@@ -42,7 +42,7 @@ typedef struct Repl {
 // Begin and end an operation that Ctrl-C interrupts.
 void repl_begin(Prompt *prompt);
 void repl_end(Prompt *prompt);
-// Returns true if Ctrl-C was typed since the last repl_begin or repl_clear_interrupt.
+// Returns true if Ctrl-C was typed since the last repl_clear_interrupt.
 bool repl_interrupted(void);
 void repl_clear_interrupt(void);
 // Catches Ctrl-C from now on.

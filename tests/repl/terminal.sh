@@ -115,7 +115,7 @@ type_keys 'frame' Enter Enter
 expect "an empty line repeats the last step, not the last input" '^@26> *$'
 type_keys C-l
 type_keys '.run' Enter
-expect ".run makes frames" "^> 'four'"
+expect ".run makes frames" '^@[0-9][0-9][0-9]'
 type_keys C-c
 expect "Ctrl-C stops .run" '^petri: interrupted after [0-9]* frames*'
 type_keys C-l '.goto 100000000' Enter
