@@ -12,6 +12,8 @@ Sha256 sha256_new(void) {
 }
 
 void sha256_add(Sha256 *hash, const char *text, size_t length) {
+    if (length == 0)
+        return; // `text` may be NULL
     size_t used = hash->length % sizeof hash->block;
     hash->length += length;
     if (used > 0) {

@@ -18,7 +18,7 @@ typedef struct Lines {
 } Lines;
 
 static Lines split_lines(Str text) {
-    Lines lines = {0};
+    Lines lines = {.items = memory_calloc(sizeof *lines.items)}; // never NULL
     const Text whole = {.bytes = (char *)text.bytes, .len = text.len};
     size_t at = 0;
     for (Str line; text_next_line(&whole, &at, &line);) {
