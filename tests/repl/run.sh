@@ -3,8 +3,9 @@
 # this folder, because sessions write files. `petri test` must also reproduce the goldens that a session records.
 # Without FILE, also tests the transcripts themselves.
 set -u
-here=$(cd "$(dirname "$0")" && pwd)
-petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1")
 shift
 update=
 if [ "${1:-}" = --update ]; then
@@ -13,30 +14,14 @@ if [ "${1:-}" = --update ]; then
 fi
 all=
 [ $# -gt 0 ] || { all=yes && set -- "$here"/*.session; }
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-unset NO_COLOR
-passed=0
-failed=0
-
-# check NAME COMMAND...: counts a check and, if the command fails, prints the output of the last `petri test`.
-check() {
-    name=$1
-    shift
-    if "$@"; then
-        passed=$((passed + 1))
-        echo "ok $name"
-    else
-        failed=$((failed + 1))
-        echo "FAIL $name"
-        cat "$work/out"
-    fi
-}
+start=$PWD
+scratch
+print_details() { cat "$work/out"; } # of the last `petri test`
 run() { "$petri" test "$@" >"$work/out" 2>&1; }
-has() { grep -Fq -e "$1" "$work/out"; }
+said() { has "$work/out" "$1"; }
 
 for session in "$@"; do
+    [ "${session#/}" != "$session" ] || session=$start/$session
     name=$(basename "$session" .session)
     folder=$work/$name
     mkdir "$folder"
@@ -51,34 +36,34 @@ for session in "$@"; do
 done
 
 if [ -n "$all" ]; then
-    mkdir "$work/own"
-    cd "$work/own" || exit 1
+    mkdir own
+    cd own || exit 1
     printf '!counter state=:n rate=60\n' >count.fl
     printf '.step 3\n$:n\n.step 1+\n.time 1\n' >inputs
     "$petri" repl count.fl <inputs >count.session 2>/dev/null
     check "what petri repl prints is a transcript, but for its messages" [ "$(head -n 1 count.session)" = "petri> .step 3" ]
     run count.session
-    check "a missing message is a difference" has "the answers differ"
-    check "the difference is shown" has "+prompt:1:3: error: "
-    check "the name of the test is that of the file" has "FAIL count.session"
+    check "a missing message is a difference" said "the answers differ"
+    check "the difference is shown" said "+prompt:1:3: error: "
+    check "the name of the test is that of the file" said "FAIL count.session"
     run --update count.session
     check "--update records the messages" grep -q '^prompt:1:3: error: ' count.session
     check "--update records the exit status" grep -qx '# exit status 1' count.session
     check "the recorded session passes" run .
-    check "the folder has one test" has "1 passed, 0 failed"
+    check "the folder has one test" said "1 passed, 0 failed"
     sed 's/ *$//; s/^-- [0-9.e-]* [munk]*s,/-- 77 s,/' count.session >edited && mv edited count.session
     check "blanks after prompts and times are not compared" grep -q '^@2>$' count.session
     check "such a session passes" run count.session
     printf 'petri> 1+1\n3\n' >count.session
     run count.session
-    check "a wrong answer fails" has "-3"
-    check "the answer is shown" has "+2"
+    check "a wrong answer fails" said "-3"
+    check "the answer is shown" said "+2"
     printf '# repl -D N=5 other.fl\npetri> N\n5\npetri>\n' >count.session
     printf 'let N=N or 2\n' >other.fl
     check "a transcript names its options and script" run count.session
     printf '# repl nowhere.fl\npetri> 1\n1\n' >alone.session
     run alone.session
-    check "a missing script is reported where it was" has "+error: cannot read 'nowhere.fl'"
+    check "a missing script is reported where it was" said "+error: cannot read 'nowhere.fl'"
     : >count.session
     check "an empty transcript has no inputs" run count.session
 
@@ -96,8 +81,7 @@ if [ -n "$all" ]; then
     "$petri" repl longer.session >"$work/out"
     check "its inputs lead to the same state" [ "$(tail -n 3 "$work/out" | head -n 1)" = "$(tail -n 2 live | head -n 1)" ]
     printf '.record kept.session\n.record --replace kept.session\n' | "$petri" repl >"$work/out" 2>&1
-    check ".record replaces no file by itself" has "'kept.session' already exists; to replace it, run"
-    check ".record --replace replaces it" has "-- 0 inputs and their answers written to kept.session"
+    check ".record replaces no file by itself" said "'kept.session' already exists; to replace it, run"
+    check ".record --replace replaces it" said "-- 0 inputs and their answers written to kept.session"
 fi
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish
