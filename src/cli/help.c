@@ -90,13 +90,9 @@ size_t help_columns(int fd) {
     return columns > 0 ? (size_t)columns : 0;
 }
 
-void help_write(Output *output, const Text *text) {
-    help_wrap(output, text, help_columns(output->fd));
-}
-
 int help_print(const Text *text) {
     Output *output = help_begin();
-    help_write(output, text);
+    help_wrap(output, text, help_columns(output->fd));
     return help_end(output);
 }
 

@@ -15,9 +15,7 @@ int help_end(Output *output);
 void help_wrap(Output *output, const Text *text, size_t columns);
 // Returns the width of the terminal `fd`. The environment variable COLUMNS overrides it; without either, it is 80.
 size_t help_columns(int fd);
-// Writes text like help_wrap, to the width of the output's terminal.
-void help_write(Output *output, const Text *text);
-// Writes text like help_write, to standard output. Returns the exit status.
+// Writes text like help_wrap, to standard output and to the width of its terminal. Returns the exit status.
 int help_print(const Text *text);
 // Adds paragraphs and a newline. Joins the lines of a paragraph, but not empty lines or lines that begin with a space.
 void help_prose(Text *text, const char *prose);
