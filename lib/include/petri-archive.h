@@ -88,6 +88,7 @@ typedef struct PetriArchiveInfo {
     const char *sha256;     // digest of the run, in hexadecimal digits
     int64_t digest_every;   // number of frames from one digest to the next
     int64_t keyframe_every; // number of frames from one keyframe to the next
+    const char *spec;       // version of the specification by which the run was computed (PetriOptions.spec)
 } PetriArchiveInfo;
 
 // Gets the contents of an archive that was opened. The strings are valid until the archive is closed. Returns false if
@@ -133,7 +134,8 @@ PETRI_API bool petri_archive_digest(PetriArchive *archive, int64_t frame, uint8_
 // Returns the version of a file that the next frame of the replay uses, or NULL. Valid until the archive is closed.
 PETRI_API const char *petri_archive_read(void *archive, const char *name, size_t *length);
 
-// Begins a replay in a session that was opened for the archive (petri_archive_read) and has no script yet. Loads the
+// Begins a replay in a session that was opened for the archive (petri_archive_read) and has no script yet. Frames are
+// computed by the rules by which they were recorded, unless PetriOptions.spec was set. Loads the
 // nearest keyframe at or before `frame`, or the first one, and computes no frame, so that petri_tree and petri_system
 // return nothing before the next step. petri_step then computes the recorded frames with their recorded inputs and
 // times. After the last recorded frame, the run continues without recorded input. You can use petri_rewind during a

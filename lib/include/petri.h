@@ -199,6 +199,10 @@ typedef struct PetriOptions {
     // Do not read a module again after it was imported, until petri_load or petri_reload reads the script. If false
     // (the default), a module whose file has changed is read again in the next frame.
     bool keep_modules;
+    // Version of the specification by whose rules frames are computed, such as "0.3", or "0.3 barriers": only this rule
+    // is that of 0.3 (lib/spec/README.md has the names). NULL (the default): the present version, and for the replay of
+    // an archive, that of the archive.
+    const char *spec;
 } PetriOptions;
 
 // Writes the default options to the first `size` bytes of `options`. Use petri_default_options instead.
@@ -212,7 +216,7 @@ static inline PetriOptions petri_default_options(void) {
 }
 
 // Creates a session without a script. Free it with petri_close. Returns NULL if out of memory, if the options were not
-// initialised, or if `fps` is not positive and finite.
+// initialised, if `fps` is not positive and finite, or if `spec` is not a version.
 PETRI_API PetriSession *petri_open(const PetriOptions *options);
 
 // Frees a session and sets the handle to NULL. NULL handles are ignored. Free its configurations and snapshots first.
@@ -512,6 +516,10 @@ PETRI_API const char *petri_version(void);
 
 // Returns the version of the library as a number, like PETRI_VERSION_NUMBER.
 PETRI_API int petri_version_number(void);
+
+// Returns the version of the specification by which a session computes its frames, such as "0.4"; NULL: the present
+// version. Valid until the library is unloaded.
+PETRI_API const char *petri_spec(const PetriSession *session);
 
 #ifdef __cplusplus
 }

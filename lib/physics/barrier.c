@@ -117,11 +117,56 @@ static void reflect(const Columns *columns, size_t i, const Force *force, double
     end_bounce(columns, i, barrier, tau, u);
 }
 
+// The rule of version 0.3 of the specification, which takes back all motion since the contact. Symbols as above.
+//
+//   x, w and b as above; if x ≥ 0: done; if not w < 0: put on the surface; done
+//   τ = x / w;  outside = τ > delta;  if outside: τ = delta
+//   move back to the contact;  v_k = v_k·restitution
+//   w = Σ v_k·normal_k
+//   if outside: x as above; if x < 0: put on the surface
+//   if w < 0: v_k = v_k − (2·w)·normal_k
+//   if b < 0 and w/b < τ: τ = max(w/b, 0)                      not beyond the apex of the bounce
+//   if τ > 0: move again for the time τ, with the same force
+//   a_k = (v_k − u_k) / τ if τ > 0, else 0
+static void reflect_0_3(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
+    const PhysForce *barrier = &force->given;
+    size_t n = columns->dimensions, stride = columns->stride;
+    double radius = columns->radius[phys_numbers_at(columns, i)], x = particle_height(columns, i, barrier, -radius);
+    if (x >= 0)
+        return;
+    double w = velocity_along(columns, i, barrier), b = acceleration_along(columns, barrier);
+    if (!(w < 0)) {
+        put_on_surface(columns, i, barrier, x);
+        return;
+    }
+    double tau = x / w > delta ? delta : x / w;
+    bool outside = x / w > delta;
+    move_back_to_contact(columns, i, tau);
+    for (size_t k = 0; k < n; k++)
+        columns->velocity[k * stride + i] *= barrier->restitution;
+    w = velocity_along(columns, i, barrier);
+    if (outside && (x = particle_height(columns, i, barrier, -radius)) < 0)
+        put_on_surface(columns, i, barrier, x);
+    if (w < 0)
+        reduce_velocity(columns, i, barrier, 2 * w);
+    if (b < 0 && w / b < tau)
+        tau = w / b > 0 ? w / b : 0;
+    Block block = block_at(columns, i);
+    double *acceleration = phys_acceleration(columns), *u = acceleration + n;
+    for (size_t k = 0; k < n; k++)
+        u[k] = velocity_component(&block, k);
+    if (tau > 0)
+        move_particles(n, &block, tau, speed_of_light);
+    for (size_t k = 0; k < n; k++)
+        acceleration[k] = tau > 0 ? (velocity_component(&block, k) - u[k]) / tau : 0;
+}
+
 void phys_integrate_reflect(const IntegratePass *pass, size_t i, const double *before) {
     const Columns *columns = pass->columns;
     double *acceleration = phys_acceleration(columns);
     for (size_t k = 0; k < columns->dimensions; k++)
         acceleration[k] = (columns->velocity[k * columns->stride + i] - before[k]) / pass->delta;
     for (uint32_t b = 0; b < pass->barrier_count; b++)
-        reflect(columns, i, phys_barriers(pass)[b], pass->delta, pass->speed_of_light);
+        (pass->old_barriers ? reflect_0_3 : reflect)(columns, i, phys_barriers(pass)[b], pass->delta,
+                                                     pass->speed_of_light);
 }

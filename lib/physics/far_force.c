@@ -1,6 +1,7 @@
 // far_force.c: passes of pair forces with `theta` (spec far-field.md).
 #include "physics/far_force.h"
 
+#include "base/spec.h"
 #include "physics/division.h"
 #include "physics/far_walk.h"
 #include "physics/threads.h"
@@ -122,8 +123,8 @@ bool phys_far_pays(PhysSystem *system, Force *force, uint32_t group, uint32_t ot
     const Group *groups = system->groups.bytes;
     *pays = groups[other].count >= PHYS_FAR_MIN_PARTICLES;
     FarForest *forest = *pays ? get_forest(system, force->given.kind) : NULL;
-    if (!forest)
-        return !*pays;
+    if (!forest || system->options.old_rules & SPEC_OLD_FAR_FIELDS)
+        return forest || !*pays;
     FarPass inward = make_pass(system, forest, force, group, other),
             outward = make_pass(system, forest, force, other, group);
     double pairs = 0;

@@ -1,6 +1,7 @@
 // integrate.c: divides the integration of one group among threads (integrate.h).
 #include "physics/integrate.h"
 
+#include "base/spec.h"
 #include "physics/threads.h"
 
 #include <assert.h>
@@ -85,6 +86,7 @@ bool phys_integrate_begin(PhysSystem *system, uint32_t number, double delta, dou
     system->columns.uniform_mass = !system->record_stride;
     system->columns.no_anchors = !system->record_stride && !system->remote && !columns->anchor[0];
     pass.keep_force = system->options.keep_forces;
+    pass.old_barriers = system->options.old_rules & SPEC_OLD_BARRIERS;
     *integrator = (Integrator){
         .kernel = integrate_all_one, .lanes = 1, .pass = pass, .group = group, .random = draws_random(&pass)};
     integrator->wide = columns->dimensions <= PHYS_VECTOR_DIMENSIONS && group->count >= MIN_FOR_LANES;

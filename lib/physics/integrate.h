@@ -20,6 +20,7 @@ typedef struct IntegratePass {
     const Force *const *forces; // single-particle forces, then barriers; each from the group outwards to the top
     uint32_t force_count;       // length of `forces`, with barriers
     uint32_t barrier_count;     // number of barriers, which are the last elements of `forces`
+    bool old_barriers;          // SPEC_OLD_BARRIERS
     bool keep_force; // true: store the sums of forces for PhysColumns.force; false: set them to 0 for the next step
     const atomic_bool *stop; // set when the frame is aborted, so that the remaining particles are skipped; NULL: never
     uint64_t draw_count; // number of random numbers that each random force has drawn for the group so far in this step

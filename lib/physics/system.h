@@ -88,7 +88,7 @@ void phys_threads_free(PhysThreads *threads);
 // Divides the work of systems among processes (division.h).
 typedef struct PhysDivision PhysDivision;
 
-// How a system is computed. Results are bit-identical with all options.
+// How a system is computed. Results are bit-identical with all options but `old_rules`.
 typedef struct PhysOptions {
     int threads;    // maximum number of threads, including the caller; <= 0: one per processor
     CpuLevel cpu;   // instruction set; limited to cpu_detected.level
@@ -99,6 +99,7 @@ typedef struct PhysOptions {
     bool keep_forces;  // fill PhysColumns.force, which costs one store per particle and step, and allow phys_explain
                        // (explain.h), which costs one copy of all rows per frame
     const PhysDivision *division; // other processes, which must outlive the system; NULL: none
+    unsigned old_rules;           // rules of an earlier specification (base/spec.h)
 } PhysOptions;
 
 // Replaces the options. A new system has one thread, the detected instruction set and automatic neighbour lists.

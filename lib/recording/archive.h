@@ -11,8 +11,8 @@
 #include <sqlite3.h>
 #include <stdatomic.h>
 
-#define ARCHIVE_FORMAT 1      // user version of the database
-#define ARCHIVE_SEMANTICS "1" // changes if a new version of petri computes other results
+// User version of the database. 1: petri 0.3, without versions of the specification.
+#define ARCHIVE_FORMAT 2
 #define ARCHIVE_MAX_FRAME INT64_C(100000000000000000)
 #define ARCHIVE_MAX_TEXT (1 << 20) // bytes of a name, or of a text for information
 

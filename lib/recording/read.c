@@ -1,6 +1,7 @@
 // read.c: opening archives, and their contents.
 #include "base/heap.h"
 #include "base/host_struct.h"
+#include "base/spec.h"
 #include "recording/archive.h"
 
 #include <errno.h>
@@ -124,6 +125,8 @@ bool petri_archive_info(PetriArchive *archive, PetriArchiveInfo *info, size_t si
     data.script = read_meta(archive, 0, "script");
     data.command = read_meta(archive, 1, "command");
     data.version = read_meta(archive, 2, "petri");
+    data.spec = read_meta(archive, 6, "spec");
+    data.spec = data.spec[0] ? data.spec : SPEC_FIRST;
     data.keyframe_every = archive_meta_integer(archive, "keyframe_every");
     data.digest_every = archive_meta_integer(archive, "digest_every");
     data.digests = archive->digest_count;

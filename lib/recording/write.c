@@ -120,7 +120,7 @@ static void add_first_rows(PetriArchive *archive) {
     PetriParameter parameter;
     const char *script = recorder_script_name(archive->session);
     add_meta_integer(archive, "format", ARCHIVE_FORMAT);
-    add_pair(archive, SQL_ADD_META, "semantics", ARCHIVE_SEMANTICS);
+    add_pair(archive, SQL_ADD_META, "spec", petri_spec(archive->session));
     add_pair(archive, SQL_ADD_META, "petri", petri_version());
     add_pair(archive, SQL_ADD_META, "script", script);
     add_pair(archive, SQL_ADD_META, "command", archive->options.command ? archive->options.command : "");

@@ -31,6 +31,15 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
+void scene_set_rules(Scene *scene, unsigned old_rules) {
+    if (scene->physics.old_rules == old_rules)
+        return;
+    scene->physics.old_rules = old_rules;
+    for (PhysicsSystem *system = scene->systems; system; system = system->next)
+        if (system->engine)
+            phys_set_options(system->engine, &scene->physics);
+}
+
 PhysThreads *scene_threads(const Scene *scene) {
     return scene->physics.pool;
 }

@@ -27,6 +27,8 @@ Scene *scene_new(Arena *arena, Schema *schema);
 void scene_free(Scene *scene);
 // Sets how the physics of new systems is computed. Results do not depend on the options.
 void scene_set_physics(Scene *scene, const PhysOptions *options);
+// Sets the rules by which the physics of all systems is computed (base/spec.h).
+void scene_set_rules(Scene *scene, unsigned old_rules);
 // Returns the thread pool that all systems share, or NULL if there is only one thread.
 PhysThreads *scene_threads(const Scene *scene);
 // Removes all systems, with what they store of the last frame's tree. Call it when the state dictionary is cleared.

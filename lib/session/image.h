@@ -65,7 +65,8 @@ typedef struct Incoming {
     Clock clock;
     InputState input_state;
     InputBindings bindings;
-    bool has_input; // false: the new data contains no input, so the session keeps its own
+    unsigned old_rules; // by which the new data was computed (base/spec.h)
+    bool has_input;     // false: the new data contains no input, so the session keeps its own
 } Incoming;
 
 // Reads a line of the part IMAGE_INPUT; ignores lines of other parts. Returns false if its value is not valid.

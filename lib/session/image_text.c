@@ -3,6 +3,7 @@
 
 #include "ast/literal.h"
 #include "base/number.h"
+#include "base/spec.h"
 #include "session/session.h"
 #include "value/format.h"
 
@@ -10,7 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define HEADER "petri-state 1\n"
+#define HEADER "petri-state 2\n"
+#define HEADER_1 "petri-state 1\n" // without a version of the specification
 // Highest frame number that can be restored. It is low enough that later frame numbers cannot overflow.
 #define MAX_FRAMES INT64_C(100000000000000000)
 
@@ -77,6 +79,7 @@ Str image_state_text(PetriSession *session) {
     TextWriter writer = text_writer(session);
     Text *text = &writer.text;
     text_add_c(text, HEADER);
+    text_add_format(text, "spec %s\n", spec_version(session->old_rules));
     text_add_format(text, "frame %lld\n", (long long)session->clock.number);
     if (state_digest_is_stale(session->state))
         arena_charge(text->arena, state_slot_count(session->state));
@@ -277,14 +280,32 @@ static bool read_body(StateReader *reader, int64_t *frame) {
     return true;
 }
 
+// Reads the line with the version of the specification, which files of the first form do not have.
+static bool read_spec(TextReader *reader, unsigned *old_rules) {
+    enum { MAX_VERSION = 20 };
+    char version[MAX_VERSION + 1] = SPEC_FIRST;
+    if (text_reader_skip(reader, STR(HEADER_1)))
+        return spec_find(version, old_rules);
+    if (!text_reader_skip(reader, STR(HEADER "spec ")))
+        return false;
+    const char *end = memchr(reader->rest.bytes, '\n', reader->rest.len < MAX_VERSION ? reader->rest.len : MAX_VERSION);
+    if (!end)
+        return false;
+    snprintf(version, sizeof version, "%.*s", (int)(end - reader->rest.bytes), reader->rest.bytes);
+    size_t length = (size_t)(end + 1 - reader->rest.bytes);
+    reader->rest = (Str){end + 1, reader->rest.len - length};
+    return spec_find(version, old_rules);
+}
+
 const char *image_read_state(PetriSession *session, Incoming *incoming, Str text, int64_t *frame) {
     StateReader reader = {.in = {session, &incoming->arena, text}, .incoming = incoming};
     if (!str_starts_with(text, STR("petri-state ")))
         return "not a petri state file";
-    if (!text_reader_skip(&reader.in, STR(HEADER)))
+    if (!read_spec(&reader.in, &incoming->old_rules))
         return "written by another version of petri";
-    bool good = utf8_find_error(text) == text.len && hash_matches(&text);
-    reader.in.rest = (Str){text.bytes + sizeof HEADER - 1, good ? text.len - (sizeof HEADER - 1) : 0};
+    size_t header = text.len - reader.in.rest.len;
+    bool good = utf8_find_error(text) == text.len && hash_matches(&text) && text.len >= header;
+    reader.in.rest = good ? (Str){text.bytes + header, text.len - header} : (Str){"", 0};
     good = good && read_body(&reader, frame);
     if (state_clear_exhausted(incoming->state)) // running out of memory must not be reported as a corrupt file
         arena_exhausted(&incoming->arena);

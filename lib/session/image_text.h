@@ -2,7 +2,8 @@
 //
 // A state file is line-based text, so that users can read and compare it:
 //
-//     petri-state 1
+//     petri-state 2
+//     spec 0.4                              version of the specification by which the state was computed
 //     frame 99
 //     $(:cells;0) = 12.5;-3                 every entry of the dictionary
 //     system 0 $(:cells)                    each system: its index among systems with the same prefix,
@@ -10,7 +11,8 @@
 //     end 1f0e6c9d7a5b4832                  hash of all bytes before this line
 //
 // A keyframe is a state file and a setup: the lines of the other parts (image.h). Values are in the language's printed
-// form, which reads back as the same doubles. The hash detects files that were truncated or edited.
+// form, which reads back as the same doubles. The hash detects files that were truncated or edited. Files of petri 0.3
+// begin with `petri-state 1` and have no line `spec`.
 #pragma once
 
 #include "session/image.h"

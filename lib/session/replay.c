@@ -202,6 +202,8 @@ static PetriStatus fill_keyframe(PetriSession *session, Incoming *incoming, void
     const char *reason = image_read_state(session, incoming, keyframe->state, &frame);
     if (reason || !find_numbers(keyframe->setup, "clock", numbers, 4))
         return PETRI_INVALID;
+    if (!session->spec_chosen)
+        scene_set_rules(session->scene, session->old_rules = incoming->old_rules);
     incoming->has_input = true;
     for (uint32_t i = 0; i < keyframe->setup->count; i++)
         if (!image_read_input(incoming, keyframe->setup->lines[i].name, keyframe->setup->lines[i].value))

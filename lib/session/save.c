@@ -1,5 +1,6 @@
 // save.c: state files (petri_save, petri_restore).
 #include "base/file.h"
+#include "base/spec.h"
 #include "session/image_text.h"
 #include "session/session.h"
 
@@ -36,6 +37,11 @@ static PetriStatus read_state_file(PetriSession *session, Incoming *incoming, vo
         report_state_error(session, "cannot load the state from", file, reason);
     else
         clock_resume(&incoming->clock, frame);
+    if (!reason && incoming->old_rules != session->old_rules)
+        session_report_text(session, DIAG_WARNING, "state-spec",
+                            str_format(&session->text_arena,
+                                       "'%s' was computed by version %s of the specification; the run continues by %s",
+                                       file, spec_version(incoming->old_rules), spec_version(session->old_rules)));
     return reason ? PETRI_INVALID : PETRI_OK;
 }
 

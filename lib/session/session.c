@@ -3,6 +3,7 @@
 
 #include "base/heap.h"
 #include "base/host_struct.h"
+#include "base/spec.h"
 #include "builtin/files.h"
 
 #include <math.h>
@@ -31,7 +32,8 @@ static bool read_options(PetriOptions *options, PetriRanks *ranks, const PetriOp
         (options->ranks && !host_struct_read(ranks, sizeof *ranks, options->ranks)))
         return false;
     options->ranks = options->ranks ? ranks : NULL;
-    return options->fps > 0 && isfinite(options->fps);
+    unsigned old_rules;
+    return options->fps > 0 && isfinite(options->fps) && (!options->spec || spec_find(options->spec, &old_rules));
 }
 
 static void report_scene(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
@@ -78,6 +80,8 @@ static PhysOptions physics_options(const PetriOptions *options, Ranks *ranks) {
                            .neighbours = (PhysNeighbours)options->neighbours,
                            .keep_forces = options->keep_forces,
                            .division = ranks_init(ranks, options->ranks)};
+    if (options->spec)
+        spec_find(options->spec, &physics.old_rules);
     cpu_choose(options->cpu, &physics.cpu);
     return physics;
 }
@@ -109,10 +113,17 @@ static PetriStatus init_components(PetriSession *session, void *context) {
         (options->profile && !session->vm.profile))
         return PETRI_OUT_OF_MEMORY;
     PhysOptions physics = physics_options(options, &session->ranks);
+    session->spec_chosen = options->spec;
+    session->options.spec = NULL;  // pointed to the host's memory
     session->options.cpu = NULL;   // pointed to the host's memory
     session->options.ranks = NULL; // pointed to a local variable of petri_open
     scene_set_physics(session->scene, &physics);
+    session->old_rules = physics.old_rules;
     return PETRI_OK;
+}
+
+const char *petri_spec(const PetriSession *session) {
+    return spec_version(session ? session->old_rules : 0);
 }
 
 PetriSession *petri_open(const PetriOptions *options) {

@@ -97,6 +97,8 @@ struct PetriSession {
     // Work units that the next outermost protected call starts with. Before the systems are updated, it is the work of
     // the evaluation, because both share one limit. Otherwise it is 0.
     uint64_t spent;
+    unsigned old_rules;        // rules of an earlier specification (base/spec.h)
+    bool spec_chosen;          // true: by the host, so that a replay does not change them
     uint64_t total_work;       // work units since the session was opened
     Budget budget;             // work and memory of the script
     uint32_t call_depth;       // nesting depth of protected calls

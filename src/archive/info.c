@@ -35,6 +35,7 @@ static void print_info(PetriArchive *archive, Output *output) {
     print_line(output, "script", info.script);
     print_line(output, "command", info.command);
     print_line(output, "petri", info.version);
+    print_line(output, "spec", info.spec);
     for (size_t i = 0; petri_archive_parameter(archive, i, &name, &value); i++) {
         SCOPED_TEXT line = {0};
         text_add_format(&line, "%s=%s", name, value);

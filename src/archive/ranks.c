@@ -29,6 +29,10 @@ static int wait_for_message(const MpiChannel *channel, Text *message) {
     return from;
 }
 
+bool ranks_is_first(const Verification *verification) {
+    return !verification->context->channel || verification->context->channel->rank == 0;
+}
+
 void ranks_divide(Verification *verification) {
     const MpiChannel *channel = verification->context->channel;
     if (!channel)

@@ -1,18 +1,25 @@
 // verify.c: `petri archive verify`, which computes a run again and compares it with its archive.
 #include "archive/open.h"
 #include "archive/ranks.h"
+#include "archive/report.h"
 #include "archive/segments.h"
+#include "base/spec.h"
 #include "cli/option_groups.h"
 #include "cli/output.h"
 #include "cli/script.h"
 
 #include <inttypes.h>
+#include <string.h>
 #include <unistd.h>
 
 // Options that no other command has.
 typedef struct Own {
     int64_t sample_segments; // 0: all
+    int spec;                // index of SPECS
+    const char *report;      // file, or "-"; NULL: none
 } Own;
+
+#define SPECS SPEC_VERSION, SPEC_FIRST
 
 static void print_difference(const Verification *verification, Output *output) {
     const SegmentResult *found = &verification->result;
@@ -22,6 +29,59 @@ static void print_difference(const Verification *verification, Output *output) {
                       found->digests[1]);
     if (found->details.len > 0)
         output_write(output, found->details.bytes, found->details.len);
+}
+
+// Returns true if the segment that differs is the same by the rules of `spec`.
+static bool is_same_by(const Verification *verification, const char *spec) {
+    Options options = *verification->options;
+    options.spec = spec;
+    Verification again = {.context = verification->context,
+                          .options = &options,
+                          .file = verification->file,
+                          .stride = 1,
+                          .count = 1,
+                          .chosen = 1};
+    again.segments = memory_calloc(sizeof *again.segments);
+    *again.segments = verification->segments[verification->differs_at];
+    segments_verify(&again);
+    bool same = !again.failed && !again.differs;
+    segments_free(&again);
+    return same;
+}
+
+// Prints the changes since the specification `spec` that cause the difference: one that does so alone, or all together.
+static void print_changes(const Verification *verification, const char *spec, Output *output) {
+    SCOPED_TEXT one = {0};
+    const SpecChange *cause = NULL;
+    for (size_t i = 0; i < SPEC_CHANGE_COUNT && !cause; i++) {
+        one.len = 0;
+        text_add_format(&one, "%s %s", spec, SPEC_CHANGES[i].name);
+        if (SPEC_CHANGES[i].rule && is_same_by(verification, one.bytes))
+            cause = &SPEC_CHANGES[i];
+    }
+    output_format(output, "the specification has changed since %s, by which this run was computed: ", spec);
+    for (size_t i = 0, found = 0; i < SPEC_CHANGE_COUNT; i++)
+        if (cause ? cause == &SPEC_CHANGES[i] : SPEC_CHANGES[i].rule)
+            output_format(output, "%s%s (lib/spec/%s)", found++ > 0 ? "; " : "", SPEC_CHANGES[i].sentence,
+                          SPEC_CHANGES[i].section);
+    SCOPED_TEXT command = {0};
+    text_add_format(&command, "petri archive verify --spec %s ", spec);
+    shell_add_word(&command, verification->file);
+    output_format(output, "\nto compute by the rules of %s, run '%s'\n", spec, command.bytes);
+}
+
+// Says why the first frame differs, or how to find out.
+static void print_cause(const Verification *verification, const char *spec, Output *output) {
+    unsigned old_rules, chosen;
+    bool other = spec_find(verification->options->spec, &chosen) && spec_find(spec, &old_rules) && old_rules != chosen;
+    if (other && is_same_by(verification, spec)) {
+        if (old_rules)
+            print_changes(verification, spec, output);
+        else
+            output_format(output, "the run was computed by version %s of the specification, not by %s\n", spec,
+                          verification->options->spec);
+        return;
+    }
     // An archive has digests and states, but no forces. They are known only to the program that computed them.
     SCOPED_TEXT command = {0};
     text_add_c(&command, "petri diff ");
@@ -59,21 +119,32 @@ static int verify_archive(const CommandContext *context, const Options *options,
     ranks_combine(&verification);
     bool done = !verification.failed;
     int status = STATUS_DAMAGED;
-    if (done && verification.differs)
+    if (done && verification.differs) {
         print_difference(&verification, output);
-    else if (done)
+        print_cause(&verification, info.spec, output);
+    } else if (done)
         print_success(&verification, &info, output);
     if (done)
         status = verification.differs ? STATUS_FAILED : STATUS_DONE;
+    const char *report = ((const Own *)options->own)->report;
+    bool reports = status == STATUS_DONE && report && ranks_is_first(&verification);
+    if (reports && !report_write(archive, options->spec, report))
+        status = STATUS_FAILED;
     segments_free(&verification);
     return status;
 }
 
 static int verify_run(const CommandContext *context, Options *options) {
+    static const char *const specs[] = {SPECS};
+    if (((const Own *)options->own)->report && ((const Own *)options->own)->sample_segments > 0) {
+        message("a report needs all frames; drop --sample");
+        return STATUS_USAGE;
+    }
     Output output;
     PetriArchive *archive = archive_open(options, options->script);
     if (!archive)
         return STATUS_DAMAGED;
+    options->spec = specs[((const Own *)options->own)->spec];
     output_start(&output, STDOUT_FILENO);
     int status = verify_archive(context, options, archive, &output);
     petri_archive_close(&archive);
@@ -83,6 +154,8 @@ static int verify_run(const CommandContext *context, Options *options) {
 // clang-format off
 static const OptionSpec ROWS[] = {
     LIMIT_OPTIONS
+    OWN("spec", 0, "VERSION", ONE_OF(option_choice, SPECS), spec, "compute by this version of the specification (default: " SPEC_VERSION ")")
+    OWN("report", 0, "FILE", option_text, report, "if all frames are verified, write a report for a publication to FILE (-: standard output)")
     OWN("sample", 0, "K", WHOLE(1, INT64_MAX), sample_segments, "verify only K segments, chosen at random")
     SHARED("threads", 0, "N", WHOLE(1, 1024), threads, "verify N segments at a time (default: number of CPUs)")
     QUIET_OPTION NO_MORE_OPTIONS
@@ -102,6 +175,8 @@ const Command VERIFY_COMMAND = {
     .examples = "  petri run dish.fl --archive run.petri           write an archive\n"
                 "  petri archive verify run.petri                  verify all frames\n"
                 "  petri archive verify run.petri --sample 5       verify five random segments\n"
+                "  petri archive verify run.petri --report run.txt write a report that others can check\n"
+                "  petri archive verify old.petri --spec 0.3       compute by the rules of petri 0.3\n"
                 "  mpirun -n 16 petri archive verify run.petri     divide the segments among 16 processes\n",
     .missing_operand = "no archive given",
     .no_stdin = "cannot read an archive from standard input; give a file",

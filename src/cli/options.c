@@ -157,6 +157,7 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.stack_limit = host->stack_bytes;
     wanted.threads = (int)options->threads;
     wanted.neighbours = (PetriNeighbours)options->neighbours;
+    wanted.spec = options->spec;
     wanted.simplify = !options->unsimplified;
     wanted.no_batches = options->no_batches;
     wanted.keep_modules = options->keep_modules;

@@ -37,6 +37,7 @@ typedef struct Options {
     uint64_t memory;        // bytes; 0: default of the library
     uint64_t work;          // units per frame; 0: default of the library
     int neighbours;         // PetriNeighbours
+    const char *spec;       // PetriOptions.spec
     bool unsimplified;
     bool no_batches;
     bool keep_modules; // modules are not read again during the run

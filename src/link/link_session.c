@@ -169,6 +169,7 @@ int link_session_run(LinkSession *link_session, const CommandContext *host, Opti
     options->read = provide_file;
     options->unsaved_host = link_session;
     options->frames = linked->frame + 1;
+    options->spec = linked->digest || linked->hash ? linked->spec : NULL; // NULL: a new link, or no frame to compare
     int status = frames_open(&link_session->frames, host, options);
     if (status != OPTIONS_READ)
         return status;

@@ -1,6 +1,7 @@
 // open.c: `petri run LINK` and `petri render LINK`, which run the script of a link and verify its frame, and `petri
 // view LINK`, which shows it.
 #include "base/file.h"
+#include "base/spec.h"
 #include "cli/option_groups.h"
 #include "cli/output.h"
 #include "cli/script.h"
@@ -108,10 +109,14 @@ static int compare_state(const LinkSession *link_session, const Options *options
         return status;
     }
     bool same = strcmp(digest, expected) == 0;
-    message(same ? "%s: frame %" PRId64 ": state matches the link exactly"
+    SCOPED_TEXT rules = {0};
+    text_add_c(&rules, "");
+    if (strcmp(linked->spec, SPEC_VERSION) != 0)
+        text_add_format(&rules, ", by the rules of version %s of the specification", linked->spec);
+    message(same ? "%s: frame %" PRId64 ": state matches the link exactly%s"
                  : "%s: frame %" PRId64
-                   ": state differs from the link, probably because another version of petri made the link",
-            linked->name, linked->frame);
+                   ": state differs from the link, probably because another version of petri made the link%s",
+            linked->name, linked->frame, rules.bytes);
     return same ? status : STATUS_FAILED;
 }
 

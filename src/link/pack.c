@@ -4,6 +4,7 @@
 // changes are limited. Its name must be printable.
 #include "link/pack.h"
 
+#include "base/spec.h"
 #include "cli/cli.h"
 #include "cli/json.h"
 
@@ -18,6 +19,7 @@ void link_free(Linked *linked) {
     free(linked->changes);
     free(linked->name);
     free(linked->digest);
+    free(linked->spec);
     free(linked->hash);
     text_free(&linked->text);
     *linked = (Linked){0};
@@ -90,6 +92,7 @@ static void add_json(Text *out, const Linked *linked) {
     if (linked->digest) {
         json_put_integer(&json, "f", linked->frame);
         json_put_text(&json, "d", linked->digest);
+        json_put_text(&json, "s", SPEC_VERSION);
     }
     json_close(&json, "}");
 }
@@ -163,6 +166,7 @@ static bool frame_value(const Json *value, int64_t *number) {
 }
 
 static const char NOT_A_LINK[] = "not a petri link";
+static const char NEWER[] = "the link is from a newer petri; update petri to open it";
 
 static bool parse_change(LinkedChange *change, const Json *items) {
     if (json_length(items) != 3)
@@ -196,26 +200,26 @@ static const char *parse_changes(Linked *linked, const Json *changes) {
 // Returns NULL, or the reason why the link is invalid.
 static const char *parse_link(Linked *linked, const Json *all) {
     const Json *frame = json_get(all, "f"), *name = json_get(all, "n");
-    const Json *digest = json_get(all, "d"), *hash = json_get(all, "h");
+    const Json *digest = json_get(all, "d"), *hash = json_get(all, "h"), *spec = json_get(all, "s");
     const char *text = string_value(json_get(all, "t"));
     if (!text || (name && (!string_value(name) || !is_printable(string_value(name)))) ||
-        (digest && !string_value(digest)) || (hash && !string_value(hash)) ||
+        (digest && !string_value(digest)) || (hash && !string_value(hash)) || (spec && !string_value(spec)) ||
         (frame && !frame_value(frame, &linked->frame)))
         return NOT_A_LINK;
     text_add_c(&linked->text, text);
     linked->name = memory_strdup(!name || string_value(name)[0] == '\0' ? "script.fl" : string_value(name));
     linked->digest = !digest ? NULL : memory_strdup(string_value(digest));
+    linked->spec = memory_strdup(spec ? string_value(spec) : SPEC_FIRST);
     linked->hash = !hash ? NULL : memory_strdup(string_value(hash));
-    return parse_changes(linked, json_get(all, "c"));
+    unsigned old_rules;
+    return spec_find(linked->spec, &old_rules) ? parse_changes(linked, json_get(all, "c")) : NEWER;
 }
 
 static bool read_json(Linked *linked, const Text *text) {
     SCOPED_JSON document = {0};
     const Json *all = json_read(&document, text_str(text), MAX_DEPTH);
     bool newer = json_integer_or(all, "v", VERSION) > VERSION;
-    const char *problem = newer                        ? "the link is from a newer petri; update petri to open it"
-                          : !json_is(all, JSON_OBJECT) ? NOT_A_LINK
-                                                       : parse_link(linked, all);
+    const char *problem = newer ? NEWER : !json_is(all, JSON_OBJECT) ? NOT_A_LINK : parse_link(linked, all);
     return !problem || report_error(problem);
 }
 

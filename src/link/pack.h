@@ -1,7 +1,8 @@
 // pack.h: links that contain a script, shared with the playground (src/web/page/link.mjs).
 //
 // A link is `#` and compressed JSON (deflate without a header, then base64url). `v` is the version, `t` the script
-// text, `n` the file name, `f` a frame and `d` the digest of the state in that frame. `c` contains changes of
+// text, `n` the file name, `f` a frame, `d` the digest of the state in that frame and `s` the version of the
+// specification by which it was computed; links of petri 0.3 have none. `c` contains changes of
 // parameters, each as [frame after which it is made, name, value]. Links of petri 0.2 have `h`, the SHA-256 of the
 // printed state, instead of `d`.
 #pragma once
@@ -24,6 +25,7 @@ typedef struct Linked {
     size_t change_count;
     int64_t frame; // frame to which the script runs; -1: no frame was computed
     char *digest;  // digest of the state in that frame, in hexadecimal; NULL: not in the link
+    char *spec;    // version of the specification
     char *hash;    // SHA-256 of the printed state, in links of petri 0.2; NULL: not in the link
 } Linked;
 

@@ -17,7 +17,7 @@ petri run world.fl --frames 200 --every 199 --print state
 cp out unbroken
 petri run world.fl --frames 100 --state half.state
 check "a run with --state succeeds" status_is 0
-check "a run with --state writes the state" has half.state "petri-state 1"
+check "a run with --state writes the state" has half.state "petri-state 2"
 petri run world.fl --frames 100 --every 199 --print state --state half.state
 sed -n '/^@199/,$p' unbroken >expected
 check "two runs of 100 frames equal one of 200 bit for bit, time included" cmp -s out expected
@@ -37,7 +37,7 @@ for damage in cut edited version other empty; do
     case $damage in
     cut) head -c 200 good.state >bad.state ;;
     edited) sed 's/= 0\./= 1./' good.state >bad.state ;;
-    version) sed 's/^petri-state 1/petri-state 99/' good.state >bad.state ;;
+    version) sed 's/^petri-state 2/petri-state 99/' good.state >bad.state ;;
     other) echo "something else" >bad.state ;;
     empty) : >bad.state ;;
     esac

@@ -6,7 +6,7 @@ cat >w.fl <<'END'
     for i in ..300
         !particle id=i velocity=1;i
 END
-good_state() { head -n 1 "$1" | grep -qx 'petri-state 1' && tail -n 1 "$1" | grep -q '^end [0-9a-f]*$'; }
+good_state() { head -n 1 "$1" | grep -qx 'petri-state 2' && tail -n 1 "$1" | grep -q '^end [0-9a-f]*$'; }
 
 "$petri" run w.fl --realtime --runtime 8 --state later/w.state >out 2>err </dev/null &
 job=$!

@@ -118,7 +118,7 @@ whole() {
         base=$(basename "$file")
         cmp -s "$file" "good.new/$base" || cmp -s "$file" "old/$base" ||
             case $base in
-            *.state) head -n 1 "$file" | grep -qx 'petri-state 1' && tail -n 1 "$file" | grep -q '^end [0-9a-f]*$' ;;
+            *.state) head -n 1 "$file" | grep -qx 'petri-state 2' && tail -n 1 "$file" | grep -q '^end [0-9a-f]*$' ;;
             *.table) awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR > 4 }' "$file" ;;
             *.table.runs | *.table.part) ;; # the same command resumes from these files
             *.csv) awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR % 7 != 1 }' "$file" ;;

@@ -1,8 +1,10 @@
 // link.mjs: links that contain a script: `#` and compressed JSON (deflate-raw, base64url). v: version, t: text, n: file name, c: parameter
-// changes as [last frame before the change, name, value], f: frame, d: digest of the state after this frame.
+// changes as [last frame before the change, name, value], f: frame, d: digest of the state after this frame,
+// s: version of the specification by which it was computed; links of petri 0.3 have none.
 // Links of petri 0.2 have h, the SHA-256 of the printed state, instead of d.
 
 const VERSION = 1;
+export const SPEC = '0.4'; // version of the specification (lib/base/spec.h)
 const MAX_LENGTH = 100000; // characters; longer links are truncated by some browsers and mail programs
 const MAX_TEXT = 4 << 20; // maximum length of the uncompressed text
 const MAX_CHANGES = 10000;
@@ -27,7 +29,7 @@ async function through(stream, bytes, max = Infinity) {
 export async function packLink({ text, name, changes = [], frame, digest }) {
     if (changes.length > MAX_CHANGES)
         throw new Error(`too many parameter changes for a link: ${changes.length}, at most ${MAX_CHANGES}; press Reset to discard them`);
-    const json = JSON.stringify({ v: VERSION, t: text, n: name, c: changes, f: frame, d: digest });
+    const json = JSON.stringify({ v: VERSION, t: text, n: name, c: changes, f: frame, d: digest, s: SPEC });
     const packed = await through(new CompressionStream('deflate-raw'), new TextEncoder().encode(json));
     let binary = '';
     for (const byte of packed)
@@ -60,12 +62,12 @@ export async function readLink(link, max = MAX_LENGTH) {
     }
     if (json?.v > VERSION)
         throw new Error('the link is from a newer petri; reload the page to get the latest version');
-    const { t: text, n: name = 'script.fl', c: changes = [], f: frame = 0, d: digest = null, h: hash = null } = json ?? {};
+    const { t: text, n: name = 'script.fl', c: changes = [], f: frame = 0, d: digest = null, h: hash = null, s: spec = '0.3' } = json ?? {};
     if (Array.isArray(changes) && changes.length > MAX_CHANGES)
         throw new Error('the link contains more than 10000 parameter changes, so it is not opened');
     if (typeof text !== 'string' || !isFileName(name) || !Array.isArray(changes) || !changes.every(isChange)
         || !Number.isInteger(frame) || frame < -1 || frame > 1e6
-        || [digest, hash].some(value => value !== null && typeof value !== 'string'))
+        || [digest, hash].some(value => value !== null && typeof value !== 'string') || typeof spec !== 'string')
         throw new Error('not a petri link');
-    return { text, name, changes, frame, digest, hash };
+    return { text, name, changes, frame, digest, hash, spec };
 }

@@ -5,6 +5,7 @@ import { Editor } from './editor.mjs';
 import { Gallery } from './gallery.mjs';
 import { Hint } from './hint.mjs';
 import { Keys } from './keys.mjs';
+import { SPEC } from './link.mjs';
 import { Live } from './live.mjs';
 import { say } from './message.mjs';
 import { Particle } from './particle.mjs';
@@ -90,7 +91,8 @@ async function openText(text, name, { id = null, play = false, ...wanted } = {})
     const opened = await page.dish.open(text, name, wanted), kind = wanted.digest ? 'digest' : 'SHA-256';
     if (opened?.digest)
         say(opened.same ? `Frame ${wanted.frame}: the state matches the link exactly (${kind} ${opened.digest}).`
-            : `Frame ${wanted.frame}: the state differs from the link, probably because another version of petri made the link.`,
+            : `Frame ${wanted.frame}: the state differs from the link, probably because another version of petri made the link${
+                wanted.spec === SPEC ? '' : `, by version ${wanted.spec} of the specification`}.`,
         !opened.same);
     if (opened && play && !matchMedia('(prefers-reduced-motion: reduce)').matches)
         page.dish.run();

@@ -139,7 +139,7 @@ static void test_changed_rows_are_detected(void **state) {
         "DELETE FROM keyframe WHERE frame = 9",
         "UPDATE keyframe SET frame = 8 WHERE frame = 9",
         "UPDATE note SET text = 'x'",
-        "PRAGMA user_version = 2",
+        "PRAGMA user_version = 3",
         "PRAGMA application_id = 7",
         "CREATE TABLE more (x)",
         "CREATE VIEW v AS SELECT * FROM meta",

@@ -17,9 +17,9 @@ typedef struct StateRow {
     const char *reported;
 } StateRow;
 
-static PetriStatus restore_text(Player *player, Folder *folder, const char *body) {
+static PetriStatus restore_with_header(Player *player, Folder *folder, const char *header, const char *body) {
     char text[400], end[40];
-    snprintf(text, sizeof text, "petri-state 1\n%s", body);
+    snprintf(text, sizeof text, "%s%s", header, body);
     snprintf(end, sizeof end, "end %016" PRIx64 "\n", hash_bytes(0, text, strlen(text)));
     strcat(text, end);
     folder_write(folder, "s.state", text);
@@ -27,6 +27,10 @@ static PetriStatus restore_text(Player *player, Folder *folder, const char *body
     player_reopen(player, &options);
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
     return petri_restore(player->session, folder_file(folder, "s.state"));
+}
+
+static PetriStatus restore_text(Player *player, Folder *folder, const char *body) {
+    return restore_with_header(player, folder, "petri-state 2\nspec 0.4\n", body);
 }
 
 // Returns the diagnostics without the name of the folder, which differs in each run.
@@ -39,6 +43,35 @@ static const char *report_text(Player *player) {
     else
         snprintf(text, sizeof text, "%s", player->diagnostics.text);
     return text;
+}
+
+static void test_state_files_have_a_version_of_the_specification(void **state) {
+    static const char another[] =
+        "error cannot load the state from 's.state': written by another version of petri [state-file]\n";
+    static const struct {
+        const char *header;
+        PetriStatus status;
+        const char *reported;
+    } rows[] = {
+        {"petri-state 2\nspec 0.4\n", PETRI_OK, ""},
+        {"petri-state 1\n", PETRI_OK,
+         "warning 's.state' was computed by version 0.3 of the specification; the run continues by 0.4 [state-spec]\n"},
+        {"petri-state 2\n", PETRI_INVALID, another},
+        {"petri-state 2\nspec 0.4", PETRI_INVALID, another},
+        {"petri-state 2\nspec \n", PETRI_INVALID, another},
+        {"petri-state 2\nspec 0.3 nothing\n", PETRI_INVALID, another},
+        {"petri-state 2\nspec 0.40000000000000000000000\n", PETRI_INVALID, another},
+        {"petri-state 3\nspec 0.5\n", PETRI_INVALID, another},
+    };
+    Player *player = *state;
+    Folder folder;
+    folder_open(&folder);
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        const char *body = "frame 9\n$(:n) = 7\n";
+        assert_int_equal(restore_with_header(player, &folder, rows[i].header, body), rows[i].status);
+        assert_text(rows[i].header, report_text(player), rows[i].reported);
+    }
+    folder_close(&folder);
 }
 
 static void test_invalid_state_files_are_rejected(void **state) {
@@ -209,6 +242,7 @@ static void test_restored_sessions_save_the_same_bytes(void **state) {
 
 TEST_GROUP(session_state) {
     const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_state_files_have_a_version_of_the_specification),
         PLAYER_TEST(test_invalid_state_files_are_rejected), PLAYER_TEST(test_large_frame_numbers),
         PLAYER_TEST(test_restored_sessions_save_the_same_bytes), PLAYER_TEST(test_saving_retains_no_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,79 @@
+# releases.sh: files of earlier releases (tests/archives). Part of tests/cli/run.sh.
+
+releases=$root/tests/archives
+present=$(sed -n 's/#define SPEC_VERSION "\(.*\)"/\1/p' "$root/lib/base/spec.h")
+# explained SENTENCE: the last run found a difference, which this change of the specification causes.
+explained() { status_is 1 && has out "the specification has changed since" && has out "$1"; }
+not_explained() { status_is 1 && has out "to compare the forces"; }
+
+if petri run plain.fl --frames 1 --archive plain.petri && status_is 0; then
+    for file in "$releases"/*/*.petri; do
+        release=$(basename "$(dirname "$file")")
+        archive=$release/$(basename "$file" .petri)
+        petri archive verify "$file" --spec "$release"
+        check "$archive is equal by the rules of $release" eval 'status_is 0 && has out "verified: "'
+        petri archive verify "$file"
+        case $archive in
+            0.3/floor) check "$archive is explained" explained 'along it, and only a faster one bounces (lib/spec/physics.md 4.4)' ;;
+            0.3/cluster) check "$archive is explained" explained 'all pairs where the tree would save nothing (lib/spec/far-field.md 5)' ;;
+            *) check "$archive is equal by the present rules" status_is 0 ;;
+        esac
+        petri archive info "$file"
+        check "$archive says its version" has out "spec        $release"
+    done
+
+    # A forged digest
+    cp "$releases/0.3/floor.petri" forged.petri
+    sqlite3 forged.petri "UPDATE digest SET digest = zeroblob(16) WHERE frame = 12" 2>err || true
+    if sqlite3 forged.petri "SELECT count(*) FROM digest" >/dev/null 2>&1; then
+        petri archive verify forged.petri
+        check "a forged digest is no change of the specification" eval 'status_is 2 || not_explained'
+    fi
+
+    cat >ball.fl <<'END'
+!physics state=:ball dimensions=2
+    !constant acceleration=0;-9.8
+    !barrier position=0;0 normal=0.1;1 restitution=0.5
+    !particle id=0 position=0;0.2 radius=0.1 mass=1
+END
+    petri run ball.fl --quiet --frames 90 --archive ball.petri
+    petri archive verify ball.petri --spec 0.3
+    check "a run of the present version differs by the rules of 0.3" \
+        has out "the run was computed by version $present of the specification, not by 0.3"
+    petri archive verify ball.petri --report report.txt
+    check "a verified run has a report" eval 'status_is 0 && has report.txt "spec $present" && has report.txt "frame 89 "'
+    # The report can be checked without its archive and without this program's code.
+    body=$(grep -c . report.txt)
+    head -n $((body - 1)) report.txt >body.txt
+    check "the checksum is that of the other lines" has report.txt "checksum $(sha256sum body.txt | cut -d' ' -f1)"
+    check "the script's sum is that of the file" has report.txt "script ball.fl $(sha256sum ball.fl | cut -d' ' -f1)"
+    petri run ball.fl --quiet --frames 90 --every 89 --print digest
+    check "the digests are those of the run" eval \
+        'for digest in $(sed -n "s/^= //p" out); do has report.txt "$digest"; done'
+    petri archive verify "$releases/0.3/floor.petri" --report bad.txt
+    check "a run that differs has no report" eval 'status_is 1 && ! [ -e bad.txt ]'
+    petri archive verify ball.petri --sample 1 --report bad.txt
+    check "a sample has no report" eval 'status_is 2 && has err "needs all frames" && ! [ -e bad.txt ]'
+fi
+
+cp "$releases/0.3/floor.state" old.state
+petri archive unpack "$releases/0.3/floor.petri" unpacked
+mkdir -p unpacked
+[ -e unpacked/floor.fl ] || cp count.fl unpacked/floor.fl # in a build without archives
+petri run unpacked/floor.fl --frames 1 --state old.state
+check "a state of 0.3 continues by the present rules, which is reported" eval \
+    "has err \"computed by version 0.3 of the specification; the run continues by $present\""
+check "the saved state has the version" eval "sed -n 2p old.state | grep -qx 'spec $present'"
+sed 's/^spec .*/spec 9.9/' old.state >new.state
+petri run unpacked/floor.fl --frames 1 --state new.state
+check "a state of a later version is refused" eval 'status_is 1 && has err "another version of petri"'
+petri run "$(cat "$releases/0.3/floor.link")"
+if has err "built without"; then
+    echo "skipped: links"
+else
+    check "a link of 0.3 runs by its rules" eval \
+        'status_is 0 && has err "matches the link exactly, by the rules of version 0.3 of the specification"'
+    petri link unpacked/floor.fl --frame 60
+    petri run "$(cat out)"
+    check "a new link runs by the present rules" eval 'status_is 0 && has err "state matches the link exactly" && ! has err 0.3'
+fi
