@@ -41,7 +41,7 @@ extern "C" {
 
 // Version of this header. petri_version_number returns the version of the library, which may be newer.
 #define PETRI_VERSION_MAJOR 0
-#define PETRI_VERSION_MINOR 3
+#define PETRI_VERSION_MINOR 4
 #define PETRI_VERSION_PATCH 0
 #define PETRI_VERSION_NUMBER (PETRI_VERSION_MAJOR * 10000 + PETRI_VERSION_MINOR * 100 + PETRI_VERSION_PATCH)
 
@@ -511,7 +511,7 @@ PETRI_API bool petri_diagnostic(const PetriSession *session, size_t number, Petr
 // Removes the stored diagnostics, so that petri_diagnostic returns only diagnostics of later calls.
 PETRI_API void petri_clear_diagnostics(PetriSession *session);
 
-// Returns the version of the library, such as "0.3.0". Lives as long as the library.
+// Returns the version of the library, such as "0.4.0". Lives as long as the library.
 PETRI_API const char *petri_version(void);
 
 // Returns the version of the library as a number, like PETRI_VERSION_NUMBER.
