@@ -9,7 +9,7 @@
 //     command TEXT                   that recorded the run
 //     inputs N                       what a host gave during the run; if there are some, only the archive has them
 //     spec 0.4                       version of the specification
-//     petri 0.4.0                    the program that verified the run,
+//     petri VERSION                  the program that verified the run,
 //     processor NAME                 and where
 //     archive SHA256                 digest of the run (`petri archive cite`)
 //     frames FIRST to LAST
