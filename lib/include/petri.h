@@ -26,6 +26,13 @@
 //   leaves the state unchanged (petri_step lists the exceptions).
 // - Errors and warnings about scripts are reported through PetriOptions.on_diagnostic, once per position and load. The
 //   library never prints or exits, and never changes the locale, signal handlers or working directory of the process.
+// - Later versions may add values to enums. Ignore, or treat as unknown, a value that you do not know.
+// - petri_set_global passes a value to a script: call it before petri_load, and again before any frame. petri_define
+// and
+//   petri_set_parameter pass text that a user has typed, and check it against the parameters of the script.
+// - From version 0.4 on, no public name is removed or changes its meaning. A name that is replaced stays as an alias
+//   until version 2.0, and its comment says so. libpetri-draw and libpetri-archive keep these rules, too, but only work
+//   with the libpetri of the same version, which the loader checks.
 // - If a required pointer is NULL, a function does nothing and returns PETRI_INVALID, false, NULL or 0.
 // - After fork, the child process may close the sessions of its parent, but must not use them for anything else.
 #ifndef PETRI_H
@@ -122,6 +129,19 @@ typedef enum PetriNeighbours {
 // Communication between processes that run one script together; see petri-ranks.h.
 typedef struct PetriRanks PetriRanks;
 
+// How frames are computed, for tests and measurements. Nothing in it affects results, and a later version may ignore a
+// field. Set the other fields to 0 for the default.
+typedef struct PetriTuning {
+    size_t size;                // sizeof(PetriTuning)
+    bool no_simplify;           // do not fold constant expressions at load time
+    bool no_batches;            // execute each iteration of a loop on its own instead of many together
+    PetriNeighbours neighbours; // default PETRI_NEIGHBOURS_AUTO
+    // The most advanced vector instructions that physics may use: "scalar", "avx2" or "avx512". NULL or any other
+    // string: the best available. The environment variable PETRI_CPU, read when the library is loaded, limits all
+    // sessions in the same way.
+    const char *cpu;
+} PetriTuning;
+
 // Options of a session. Start with petri_default_options.
 typedef struct PetriOptions {
     size_t size; // sizeof(PetriOptions)
@@ -130,7 +150,6 @@ typedef struct PetriOptions {
     // 0. Default false (lockstep): petri_step does not wait, and `time` is the frame number divided by fps.
     bool realtime;
     double run_time; // value of `run_time` in scripts, in seconds; NaN (the default): unlimited
-    bool simplify;   // fold constant expressions at load time; does not affect results. Default true
     bool colour;     // colour PetriDiagnostic.rendered with ANSI escapes. Default false
     bool profile;    // measure the time of each source line, for petri_profile. Default false
     // Bytes of C stack that evaluation may use. Deeper recursion is reported as an error in the script. The default of
@@ -140,10 +159,9 @@ typedef struct PetriOptions {
     // diagnostic that gives the position in the script. Work is counted, not timed, so a script is aborted at the same
     // point on every machine. A loop iteration, a call, a node or a group of sixteen numbers costs one unit, about 10
     // ns.
-    size_t memory_limit;        // bytes held for the script; petri itself uses up to about 64 MiB more. Default 2 GiB
-    uint64_t work_limit;        // units per call; default 2^30, about 10 s
-    int threads;                // number of worker threads; 0 (the default): one per processor. Does not affect results
-    PetriNeighbours neighbours; // default PETRI_NEIGHBOURS_AUTO
+    size_t memory_limit; // bytes held for the script; petri itself uses up to about 64 MiB more. Default 2 GiB
+    uint64_t work_limit; // units per call; default 2^30, about 10 s
+    int threads;         // number of worker threads; 0 (the default): one per processor. Does not affect results
     // Keep a copy of the state while a frame is computed, so that an aborted frame can be rolled back completely. If
     // false (the default), an aborted frame can be partly done: each system has either completed the frame or not
     // started it. This is enough for a host that then exits.
@@ -158,13 +176,9 @@ typedef struct PetriOptions {
     // Called for each diagnostic by the thread that uses the session. NULL (the default): not reported.
     void (*on_diagnostic)(void *user_data, const PetriDiagnostic *diagnostic);
     void *user_data; // passed to on_diagnostic, should_interrupt and on_file_read
-    // The most advanced vector instructions that physics may use: "scalar", "avx2" or "avx512". NULL (the default) or
-    // any other string: the best available. The environment variable PETRI_CPU, read when the library is loaded, limits
-    // all sessions in the same way. Does not affect results.
-    const char *cpu;
     // Other processes that run the script together with this one (petri-ranks.h); NULL (the default): none. petri_open
-    // copies the struct. All ranks need the same options, including `cpu`. If one rank is interrupted, all ranks must
-    // be interrupted, and none may continue its session.
+    // copies the struct. All ranks need the same options, including `tuning`. If one rank is interrupted, all ranks
+    // must be interrupted, and none may continue its session.
     const PetriRanks *ranks;
     // Provides the contents of all files: loaded scripts, modules, included files, images, and files that scripts read
     // with `read` and `csv`. NULL (the default): files are read from disk. Returns the bytes and sets *length, or
@@ -187,9 +201,6 @@ typedef struct PetriOptions {
     // Polled about every 10 µs during a call, by the same thread; return true to interrupt the call. For hosts whose
     // other threads cannot call petri_interrupt. Must not call the session. NULL (the default): never polled.
     bool (*should_interrupt)(void *user_data);
-    // For tests: execute each iteration of a loop on its own instead of many together. Does not affect results. Default
-    // false.
-    bool no_batches;
     // Called after the session has read a script, a module, an included file or a file that a script reads with `read`
     // or `csv`. `bytes` is NULL if there is no such file. Also called for each folder that `glob` lists: its name ends
     // in a slash, and `bytes` contains the names in it, one per line. `name` is relative to the script's folder, unless
@@ -203,6 +214,7 @@ typedef struct PetriOptions {
     // is that of 0.3 (lib/spec/README.md has the names). NULL (the default): the present version, and for the replay of
     // an archive, that of the archive.
     const char *spec;
+    const PetriTuning *tuning; // NULL: the default. petri_open copies the struct
 } PetriOptions;
 
 // Writes the default options to the first `size` bytes of `options`. Use petri_default_options instead.
@@ -215,8 +227,12 @@ static inline PetriOptions petri_default_options(void) {
     return options;
 }
 
-// Creates a session without a script. Free it with petri_close. Returns NULL if out of memory, if the options were not
-// initialised, if `fps` is not positive and finite, or if `spec` is not a version.
+// Returns why petri_open cannot use the options, such as "fps is not positive and finite", or NULL if it can. Lives as
+// long as the library.
+PETRI_API const char *petri_options_problem(const PetriOptions *options);
+
+// Creates a session without a script. Free it with petri_close. Returns NULL if the options have a problem, else if out
+// of memory.
 PETRI_API PetriSession *petri_open(const PetriOptions *options);
 
 // Frees a session and sets the handle to NULL. NULL handles are ignored. Free its configurations and snapshots first.
@@ -474,7 +490,11 @@ typedef struct PetriSystem {
     size_t anchor_stride;
 } PetriSystem;
 
-// Gets a particle system by number, in the order of the script. Returns false past the last, or if out of memory.
+// Returns the number of particle systems in the current frame.
+PETRI_API size_t petri_system_count(PetriSession *session);
+
+// Gets a particle system by number, in the order of the script. Returns false past the last (petri_system_count), or if
+// out of memory.
 PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system, size_t size);
 
 // Sets whether the memory of columns stays readable, with unspecified contents, after the columns become invalid. Use

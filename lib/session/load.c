@@ -168,7 +168,7 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
     unit->sink = diag_sink_new(unit_arena(session, unit), MAX_ERRORS);
     CompileOptions options = {.module = module,
                               .lint = session->loader.lint,
-                              .simplify = session->options.simplify,
+                              .simplify = !session->no_simplify,
                               .lines = session->options.profile,
                               .defines = session->config.defines,
                               .define_count = session->config.define_count,

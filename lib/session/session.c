@@ -18,22 +18,41 @@ void petri_options_init(PetriOptions *options, size_t size) {
     const PetriOptions usual = {.size = size,
                                 .fps = 60,
                                 .run_time = NAN,
-                                .simplify = true,
                                 .stack_limit = (size_t)4 << 20,
                                 .memory_limit = (size_t)2 << 30,
                                 .work_limit = UINT64_C(1) << 30};
     host_struct_write(options, size, &usual, sizeof usual);
 }
 
-// Reads the options of a host. Returns false if they are not valid.
-static bool read_options(PetriOptions *options, PetriRanks *ranks, const PetriOptions *given) {
-    petri_options_init(options, sizeof *options);
-    if (!host_struct_read(options, sizeof *options, given) ||
-        (options->ranks && !host_struct_read(ranks, sizeof *ranks, options->ranks)))
-        return false;
-    options->ranks = options->ranks ? ranks : NULL;
+// The options of a host, and copies of the structs to which they point.
+typedef struct Wanted {
+    PetriOptions options;
+    PetriTuning tuning;
+    PetriRanks ranks;
+} Wanted;
+
+// Reads the options of a host. Returns the reason why they are not valid, or NULL.
+static const char *read_options(Wanted *wanted, const PetriOptions *given) {
+    PetriOptions *options = &wanted->options;
     unsigned old_rules;
-    return options->fps > 0 && isfinite(options->fps) && (!options->spec || spec_find(options->spec, &old_rules));
+    *wanted = (Wanted){.tuning = {.size = sizeof wanted->tuning}};
+    petri_options_init(options, sizeof *options);
+    if (!host_struct_read(options, sizeof *options, given))
+        return "the options were not initialised, or a later version of petri knows one of them";
+    if (options->ranks && !host_struct_read(&wanted->ranks, sizeof wanted->ranks, options->ranks))
+        return "ranks were not initialised";
+    if (options->tuning && !host_struct_read(&wanted->tuning, sizeof wanted->tuning, options->tuning))
+        return "tuning was not initialised";
+    options->ranks = options->ranks ? &wanted->ranks : NULL;
+    options->tuning = &wanted->tuning;
+    if (!(options->fps > 0) || !isfinite(options->fps))
+        return "fps is not positive and finite";
+    return options->spec && !spec_find(options->spec, &old_rules) ? "spec is not a version of the specification" : NULL;
+}
+
+const char *petri_options_problem(const PetriOptions *options) {
+    Wanted wanted;
+    return read_options(&wanted, options);
 }
 
 static void report_scene(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
@@ -77,12 +96,12 @@ _Static_assert((int)PETRI_NEIGHBOURS_NEVER == (int)PHYS_NEIGHBOURS_NEVER &&
 
 static PhysOptions physics_options(const PetriOptions *options, Ranks *ranks) {
     PhysOptions physics = {.threads = options->threads,
-                           .neighbours = (PhysNeighbours)options->neighbours,
+                           .neighbours = (PhysNeighbours)options->tuning->neighbours,
                            .keep_forces = options->keep_forces,
                            .division = ranks_init(ranks, options->ranks)};
     if (options->spec)
         spec_find(options->spec, &physics.old_rules);
-    cpu_choose(options->cpu, &physics.cpu);
+    cpu_choose(options->tuning->cpu, &physics.cpu);
     return physics;
 }
 
@@ -115,8 +134,8 @@ static PetriStatus init_components(PetriSession *session, void *context) {
     PhysOptions physics = physics_options(options, &session->ranks);
     session->spec_chosen = options->spec;
     session->options.spec = NULL;  // pointed to the host's memory
-    session->options.cpu = NULL;   // pointed to the host's memory
-    session->options.ranks = NULL; // pointed to a local variable of petri_open
+    session->options.ranks = NULL; // these pointed to local variables of petri_open
+    session->options.tuning = NULL;
     scene_set_physics(session->scene, &physics);
     session->old_rules = physics.old_rules;
     return PETRI_OK;
@@ -127,11 +146,10 @@ const char *petri_spec(const PetriSession *session) {
 }
 
 PetriSession *petri_open(const PetriOptions *options) {
-    PetriOptions wanted;
-    PetriRanks ranks = {0};
-    if (!read_options(&wanted, &ranks, options))
+    Wanted wanted;
+    if (read_options(&wanted, options))
         return NULL;
-    options = &wanted;
+    options = &wanted.options;
     PetriSession *session = heap_calloc(1, sizeof *session);
     if (!session)
         return NULL;
@@ -159,7 +177,8 @@ PetriSession *petri_open(const PetriOptions *options) {
             options->stack_limit, false);
     vm_init(&session->static_vm, &frame->arena, &session->symbols,
             (VmHost){session, ignore_diagnostic, log_vm, session_module}, options->stack_limit, true);
-    session->vm.no_batches = session->static_vm.no_batches = options->no_batches;
+    session->vm.no_batches = session->static_vm.no_batches = options->tuning->no_batches;
+    session->no_simplify = options->tuning->no_simplify;
     if (session_protect(session, NULL, init_components, NULL) != PETRI_OK)
         petri_close(&session);
     return session;

@@ -98,6 +98,7 @@ struct PetriSession {
     // the evaluation, because both share one limit. Otherwise it is 0.
     uint64_t spent;
     unsigned old_rules;        // rules of an earlier specification (base/spec.h)
+    bool no_simplify;          // PetriTuning.no_simplify
     bool spec_chosen;          // true: by the host, so that a replay does not change them
     uint64_t total_work;       // work units since the session was opened
     Budget budget;             // work and memory of the script

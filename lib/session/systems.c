@@ -75,6 +75,14 @@ void petri_keep_columns(PetriSession *session, bool keep) {
         arena_free_retained(&session->budget);
 }
 
+size_t petri_system_count(PetriSession *session) {
+    SceneView view;
+    size_t count = 0;
+    while (session && scene_view(session->scene, session->state, count, &view))
+        count++;
+    return count;
+}
+
 bool petri_system(PetriSession *session, size_t number, PetriSystem *system, size_t size) {
     PetriSystem found;
     return session && system && run_request(session, (Request){find_system, number, 0, &found}) &&

@@ -57,7 +57,7 @@ typedef struct CommandContext {
     size_t stack_bytes;               // size of the C stack that evaluation can use, in bytes
     const char *program;              // path of this program, valid in any working directory
     const char *invoked_as;           // argv[0], for hints that show commands
-    const char *cpu;                  // PetriOptions.cpu
+    const char *cpu;                  // PetriTuning.cpu
     const SimilarCommand *similar;    // for hints about unknown options, then one without a name; NULL: no hints
     const struct PetriRanks *ranks;   // the processes (ranks) that mpirun has started; NULL: a single process
     const struct MpiChannel *channel; // messages between the ranks; NULL: a single process

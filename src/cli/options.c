@@ -156,10 +156,13 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.colour = options->colour;
     wanted.stack_limit = host->stack_bytes;
     wanted.threads = (int)options->threads;
-    wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.spec = options->spec;
-    wanted.simplify = !options->unsimplified;
-    wanted.no_batches = options->no_batches;
+    PetriTuning tuning = {.size = sizeof tuning,
+                          .neighbours = (PetriNeighbours)options->neighbours,
+                          .no_simplify = options->unsimplified,
+                          .no_batches = options->no_batches,
+                          .cpu = host->cpu};
+    wanted.tuning = &tuning;
     wanted.keep_modules = options->keep_modules;
     wanted.keep_forces = options->prompt || options->keep_forces;
     wanted.rollback_frames = options->prompt || options->state_file; // a partly computed frame must not be saved
@@ -176,11 +179,11 @@ int options_open(const Options *options, const CommandContext *host,
     wanted.on_diagnostic = diagnostic;
     wanted.user_data = context;
     wanted.should_interrupt = options->should_interrupt;
-    wanted.cpu = host->cpu;
     wanted.ranks = host->ranks;
     *session = petri_open(&wanted);
     if (!*session) {
-        message("out of memory");
+        const char *problem = petri_options_problem(&wanted);
+        message("%s", problem ? problem : "out of memory");
         return STATUS_FAILED;
     }
     for (size_t i = 0; i < options->definitions.count; i++) {

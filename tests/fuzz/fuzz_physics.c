@@ -103,9 +103,10 @@ FUZZ_HARNESS(physics) {
     add_list(&script, "AS", data + 5, frames, itself);
     fuzz_append(&script, SCRIPT, strlen(SCRIPT));
     PetriOptions options = fuzz_options();
-    options.neighbours = PETRI_NEIGHBOURS_NEVER;
+    PetriTuning tuning = {.size = sizeof tuning, .neighbours = PETRI_NEIGHBOURS_NEVER};
+    options.tuning = &tuning;
     PetriSession *plain = petri_open(&options);
-    options.neighbours = PETRI_NEIGHBOURS_ALWAYS;
+    tuning.neighbours = PETRI_NEIGHBOURS_ALWAYS;
     PetriSession *listed = fuzz_open(&options);
     if (!plain)
         fuzz_fail("cannot open a session");

@@ -235,10 +235,11 @@ static Run run_script(const FuzzText *script, bool plain) {
     Run run = {0};
     PetriOptions options = fuzz_options();
     options.work_limit = 1 << 22; // about 40 ms without sanitizers
-    options.simplify = !plain;
     options.profile = plain;
     options.threads = plain ? 3 : 1;
-    options.neighbours = plain ? PETRI_NEIGHBOURS_ALWAYS : PETRI_NEIGHBOURS_NEVER;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning),
+                                    .no_simplify = plain,
+                                    .neighbours = plain ? PETRI_NEIGHBOURS_ALWAYS : PETRI_NEIGHBOURS_NEVER};
     PetriSession *session = fuzz_open(&options);
     PetriStatus loaded = petri_load_text(session, fuzz_file("fuzz.fl"), script->bytes, script->length);
     if (loaded == PETRI_INVALID)

@@ -6,7 +6,8 @@
 
 FUZZ_HARNESS(script) {
     PetriOptions options = fuzz_options();
-    options.neighbours = size % 2 ? PETRI_NEIGHBOURS_ALWAYS : PETRI_NEIGHBOURS_AUTO;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning),
+                                    .neighbours = size % 2 ? PETRI_NEIGHBOURS_ALWAYS : PETRI_NEIGHBOURS_AUTO};
     PetriSession *session = fuzz_open(&options);
     petri_define(session, "COUNT=7");
     if (petri_load_text(session, "fuzz.fl", (const char *)data, size) == PETRI_OK) {

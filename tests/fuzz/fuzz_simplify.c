@@ -26,7 +26,7 @@ static bool stack_limit_reached(PetriSession *session) {
 static Run run_script(const uint8_t *data, size_t size, bool simplify) {
     Run run = {0};
     PetriOptions options = fuzz_options();
-    options.simplify = simplify;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify};
     options.profile = !simplify;
     PetriSession *session = fuzz_open(&options);
     run.loaded = petri_load_text(session, "fuzz.fl", (const char *)data, size);

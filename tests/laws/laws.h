@@ -222,7 +222,8 @@ static inline PetriSession *open_dish(const Dish *dish, int steps, uint64_t seed
     add_group(&text, dish, 0, 1);
     PetriOptions options = petri_default_options();
     options.threads = 1 + (int)(seed % 2);
-    options.neighbours = seed % 3 ? PETRI_NEIGHBOURS_ALWAYS : PETRI_NEIGHBOURS_NEVER;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning),
+                                    .neighbours = seed % 3 ? PETRI_NEIGHBOURS_ALWAYS : PETRI_NEIGHBOURS_NEVER};
     PetriSession *session = petri_open(&options);
     assert_non_null(session);
     if (petri_load_text(session, "dish.fl", text.bytes, PETRI_NUL_TERMINATED) != PETRI_OK)

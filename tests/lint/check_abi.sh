@@ -72,6 +72,15 @@ if [ -e lib/cairo/libpetri-draw.so ]; then
     fi
 fi
 
+# Functions and values of enums of the last release (*.abi) stay, as the rules in petri.h say.
+sed -n -e "s/.*<elf-symbol name='\(petri_[a-z0-9_]*\)'.*/\1/p" -e "s/.*<enumerator name='\(PETRI_[A-Z0-9_]*\)'.*/\1/p" \
+    "$1"/tests/lint/*.abi | sort -u >"$scratch/released"
+cat "$headers"/*.h "$headers"/*.inc | grep -o '[A-Za-z_][A-Za-z0-9_]*' | sort -u >"$scratch/words"
+for name in $(comm -23 "$scratch/released" "$scratch/words"); do
+    echo "$name was in the last release; keep it as an alias, with a comment that says 'deprecated: use NEW'"
+    faults=1
+done
+
 for header in petri petri-archive petri-draw petri-edit petri-inspect petri-live petri-ranks; do
     awk 'match($0, /[ *]petri_[a-z_]+\(/) && /^PETRI_API/ { print substr($0, RSTART + 1, RLENGTH - 2) }' \
         "$headers/$header.h" | sort >"$scratch/declared"

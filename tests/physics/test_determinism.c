@@ -157,8 +157,8 @@ static uint64_t run_script(const char *script, int frames, size_t variant) {
     World world;
     PetriOptions options = petri_default_options();
     options.threads = variants[variant].threads;
-    options.cpu = variants[variant].cpu;
-    options.neighbours = variants[variant].neighbours;
+    options.tuning = &(PetriTuning){
+        .size = sizeof(PetriTuning), .cpu = variants[variant].cpu, .neighbours = variants[variant].neighbours};
     world_open_with(&world, options, script);
     world_to(&world, frames);
     EXPECT_REPORTED(&world, strstr(script, "(1/0") || strstr(script, "0/0)") ? "not-finite" : "");

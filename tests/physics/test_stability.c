@@ -217,8 +217,8 @@ static void test_divergence_is_deterministic(void **state) {
         PetriOptions options = petri_default_options();
         options.fps = 1;
         options.threads = ways[i].threads;
-        options.cpu = ways[i].cpu;
-        options.neighbours = ways[i].neighbours;
+        options.tuning =
+            &(PetriTuning){.size = sizeof(PetriTuning), .cpu = ways[i].cpu, .neighbours = ways[i].neighbours};
         world_open_with(&world, options,
                         P2 " let p=uniform(:p)\n for i in ..3000\n  !particle id=i position=50*p[2*i;2*i+1] radius=1\n"
                            " for i in ..2999\n  !distance from=i to=i+1 fixed=1 strength=5 power=1.001\n"

@@ -163,7 +163,7 @@ typedef struct ScriptRow {
 static inline void check_trees(Player *player, const ScriptRow *rows, size_t count, int frames) {
     for (int simplify = 1; simplify >= 0; simplify--) {
         PetriOptions options = player_options(player);
-        options.simplify = simplify;
+        options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify};
         player_reopen(player, &options);
         for (size_t i = 0; i < count; i++) {
             player_run(player, rows[i].script, frames);

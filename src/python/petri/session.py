@@ -150,12 +150,14 @@ class Session:
     def _open(self, wanted: Options, archive: Any = None) -> Any:
         options = ffi.new("PetriOptions *")
         lib.petri_options_init(options, ffi.sizeof("PetriOptions"))
-        for name in ("fps", "threads", "memory_limit", "work_limit", "realtime", "simplify", "keep_forces", "no_files"):
+        for name in ("fps", "threads", "memory_limit", "work_limit", "realtime", "keep_forces", "no_files"):
             value = getattr(wanted, name)
             if value is not None:
                 setattr(options, name, value)
+        tuning = ffi.new("PetriTuning *", {"size": ffi.sizeof("PetriTuning"), "no_simplify": not wanted.simplify})
+        options.tuning = tuning
         try:
-            options.neighbours = getattr(lib, f"PETRI_NEIGHBOURS_{wanted.neighbours.upper()}")
+            tuning.neighbours = getattr(lib, f"PETRI_NEIGHBOURS_{wanted.neighbours.upper()}")
         except AttributeError:
             raise ValueError(f"invalid options: {wanted}") from None
         keep = []
@@ -175,7 +177,10 @@ class Session:
         options.user_data = handle = ffi.new_handle(self._told)
         pointer = lib.petri_open(options)
         if not pointer:
-            raise ValueError(f"invalid options: {wanted}")
+            problem = lib.petri_options_problem(options)
+            if not problem:
+                raise MemoryError
+            raise ValueError(f"invalid options: {ffi.string(problem).decode()}: {wanted}")
         return _owned(pointer, lib.petri_python_close, handle, archive)
 
     def _printed(self, value: Any) -> str:

@@ -82,7 +82,7 @@ static const char *const worlds[] = {
 static char *run_frames(Player *player, const char *world, bool simplify, Folder *folder) {
     Notebook book = {0};
     PetriOptions options = player_options(player);
-    options.simplify = simplify;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify};
     options.fps = 8;
     player_reopen(player, &options);
     for (int frame = 0; frame < FRAMES; frame++) {

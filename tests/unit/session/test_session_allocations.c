@@ -83,7 +83,7 @@ static void test_similar_frames_allocate_nothing(void **state) {
     options.threads = 2;
     for (int simplify = 1; simplify >= 0; simplify--)
         for (size_t i = 0; i < COUNT_OF(rows); i++) {
-            options.simplify = simplify;
+            options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify};
             player_reopen(player, &options);
             player_run(player, rows[i].script, 5);
             look_up_everything(player->session);

@@ -197,7 +197,7 @@ static void use_picture(Life *life, PetriSession **session) {
 
 static void run_lifetime(Life *life) {
     PetriOptions options = petri_default_options();
-    options.simplify = life->simplify;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !life->simplify};
     options.profile = true;
     options.threads = 2;
     life->short_of = false;

@@ -16,7 +16,7 @@ static const char prelude[] = "let dz=frame*0 d1=1+dz d2=2+dz d3=3+dz\n"
 
 static void check_all(Player *player, bool simplify, const Check *checks, size_t count) {
     PetriOptions options = player_options(player);
-    options.simplify = simplify;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify};
     player_reopen(player, &options);
     for (size_t i = 0; i < count; i++) {
         Notebook script = {0};

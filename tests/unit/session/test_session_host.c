@@ -12,7 +12,21 @@ static void test_options_without_defaults_are_rejected(void **state) {
     memset(&options, 0xff, sizeof options);
     assert_null(petri_open(&options));
     assert_null(petri_open(NULL));
+    assert_string_equal(petri_options_problem(NULL),
+                        "the options were not initialised, or a later version of petri knows one of them");
     options = petri_default_options();
+    options.fps = 0;
+    assert_null(petri_open(&options));
+    assert_string_equal(petri_options_problem(&options), "fps is not positive and finite");
+    options.fps = 1;
+    options.spec = "0.2";
+    assert_null(petri_open(&options));
+    assert_string_equal(petri_options_problem(&options), "spec is not a version of the specification");
+    options.spec = "0.3";
+    options.tuning = &(PetriTuning){.no_batches = true};
+    assert_string_equal(petri_options_problem(&options), "tuning was not initialised");
+    options = petri_default_options();
+    assert_null(petri_options_problem(&options));
     assert_number("fps", options.fps, 60);
     assert_false(options.realtime);
     assert_true(isnan(options.run_time));
@@ -403,7 +417,7 @@ static void test_diagnostics_have_node_positions(void **state) {
         for (int simplify = 0; simplify <= 1; simplify++) {
             char place[100] = "";
             PetriOptions options = petri_default_options();
-            options.simplify = simplify;
+            options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify};
             options.on_diagnostic = store_position;
             options.user_data = place;
             PetriSession *session = petri_open(&options);

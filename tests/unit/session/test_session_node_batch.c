@@ -48,7 +48,7 @@ static const char *make_script(char *text, size_t size, bool in_place, bool dyna
 static const char *run_variant(Player *player, bool in_place, bool dynamic, int node, int loop, bool simplify) {
     char text[4000];
     PetriOptions options = player_options(player);
-    options.simplify = simplify;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify};
     player_reopen(player, &options);
     player_run(player, make_script(text, sizeof text, in_place, dynamic, nodes[node], loops[loop]), 2);
     return player_print(player, PETRI_PRINT_TREE | PETRI_PRINT_LOG);

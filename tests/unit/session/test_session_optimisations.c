@@ -11,8 +11,7 @@ enum { FRAMES = 3, ALL_SECTIONS = 15 };
 static Notebook record(const char *file, bool simplify, bool no_batches) {
     Player player = {0};
     PetriOptions options = player_options(&player);
-    options.simplify = simplify;
-    options.no_batches = no_batches;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify, .no_batches = no_batches};
     player_open_with(&player, &options);
     Notebook all = {0};
     note(&all, "", 0);

@@ -117,13 +117,51 @@ static void test_definition_overrides_the_default(void **state) {
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         for (int simplify = 1; simplify >= 0; simplify--) {
             PetriOptions options = player_options(player);
-            options.simplify = simplify;
+            options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify};
             player_reopen(player, &options);
             assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
             player_run(player, "let N=N or 3 -- 1..10\n!a v=N;2\n", 1);
             assert_text(rows[i].definition, player_tree(player), rows[i].tree);
             assert_text(rows[i].definition, player_diagnostics(player), rows[i].reported);
         }
+}
+
+static void give(PetriSession *session, int way, double x) {
+    char text[40];
+    if (way == 0) {
+        assert_int_equal(petri_set_global(session, "N", (PetriValue){1, &x, NULL}), PETRI_OK);
+    } else if (way == 1) {
+        snprintf(text, sizeof text, "%g", x);
+        assert_int_equal(petri_set_parameter(session, "N", text), PETRI_OK);
+    } else {
+        snprintf(text, sizeof text, "N=%g", x);
+        assert_int_equal(petri_define(session, text), PETRI_OK);
+        assert_int_equal(petri_reload(session, NULL), PETRI_OK);
+    }
+}
+
+// A value, the text of a parameter and a definition are the same to a script, before its first frame and later.
+static void test_values_are_passed_in_one_way(void **state) {
+    static const char script[] = "let N=N or 3 -- 1..10\n!physics state=:s dimensions=1 time=frame\n"
+                                 "    for i in ..N\n        !particle id=i position=i\n    !constant force=N\n";
+    Player *player = *state;
+    uint8_t digests[3][3][16];
+    for (int way = 0; way < 3; way++) {
+        PetriOptions options = player_options(player);
+        player_reopen(player, &options);
+        if (way == 0)
+            give(player->session, way, 4);
+        assert_int_equal(player_load(player, script), PETRI_OK);
+        for (int frame = 0; frame < 3; frame++) {
+            if (frame != 1)
+                give(player->session, way, 4 + frame);
+            player_step(player, 1);
+            assert_int_equal(petri_digest(player->session, digests[way][frame]), PETRI_OK);
+            if (memcmp(digests[way][frame], digests[0][frame], 16) != 0)
+                fail_msg("way %d, frame %d: %s", way, frame, player_state(player));
+        }
+    }
+    assert_memory_not_equal(digests[0][0], digests[0][2], 16);
 }
 
 // A definition that `or` would replace is an error that names a declaration without `or`. That declaration accepts it.
@@ -151,7 +189,7 @@ static void test_false_definitions(void **state) {
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         for (int simplify = 1; simplify >= 0; simplify--) {
             PetriOptions options = player_options(player);
-            options.simplify = simplify;
+            options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .no_simplify = !simplify};
             player_reopen(player, &options);
             assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
             PetriStatus status = player_load(player, rows[i].script);
@@ -430,6 +468,7 @@ TEST_GROUP(session_parameters) {
         PLAYER_TEST(test_parameters_are_recognised),
         PLAYER_TEST(test_comment_gives_range_step_and_help),
         PLAYER_TEST(test_definition_overrides_the_default),
+        PLAYER_TEST(test_values_are_passed_in_one_way),
         PLAYER_TEST(test_false_definitions),
         PLAYER_TEST(test_zero_is_set),
         PLAYER_TEST(test_unused_definitions_are_reported),

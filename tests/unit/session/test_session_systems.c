@@ -24,7 +24,10 @@ static void test_systems_are_listed_until_removed(void **state) {
     Player *player = *state;
     PetriSystem system;
     assert_false(petri_system(player->session, 0, &system, sizeof system));
+    assert_int_equal(petri_system_count(player->session), 0);
+    assert_int_equal(petri_system_count(NULL), 0);
     player_run(player, SCRIPT, 2);
+    assert_int_equal(petri_system_count(player->session), 2);
     assert_true(petri_system(player->session, 0, &system, sizeof system));
     assert_string_equal(system.name, ":a");
     assert_int_equal(system.dimensions, 2);
@@ -53,6 +56,7 @@ static void test_systems_are_in_the_order_of_the_script(void **state) {
         player_step(player, 1);
         for (size_t i = 0; petri_system(player->session, i, &system, sizeof system); i++)
             strcat(names, system.name);
+        assert_int_equal(petri_system_count(player->session), strlen(names) / 2);
         assert_text(expected[frame], names, expected[frame]);
     }
 }
@@ -340,7 +344,7 @@ static void test_aborted_explanation(void **state) {
     PetriOptions options = player_options(player);
     PetriExplanation found;
     options.keep_forces = true;
-    options.neighbours = PETRI_NEIGHBOURS_ALWAYS;
+    options.tuning = &(PetriTuning){.size = sizeof(PetriTuning), .neighbours = PETRI_NEIGHBOURS_ALWAYS};
     player_reopen(player, &options);
     const char *script = "!physics state=:a dimensions=2 time=time\n    for i in ..8\n        !collision\n"
                          "    for i in ..3000\n        !particle id=i position=i*3;0 radius=1\n";

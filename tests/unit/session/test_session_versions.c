@@ -171,8 +171,7 @@ static bool opens(const PetriOptions *options) {
 static void test_options_of_other_versions(void **state) {
     (void)state;
     PetriOptions options = petri_default_options();
-    options.size = offsetof(PetriOptions, cpu);
-    options.cpu = (const char *)1; // must not be read, because the host's struct ends before it
+    options.size = offsetof(PetriOptions, ranks); // the fields behind must not be read
     options.ranks = (const PetriRanks *)1;
     assert_true(opens(&options));
     NewerOptions newer;
