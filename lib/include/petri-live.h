@@ -131,6 +131,18 @@ PETRI_API PetriStatus petri_history_recompute(PetriHistory *history);
 // configuration.
 PETRI_API PetriStatus petri_history_reset(PetriHistory *history);
 
+// Moves a particle of the current frame: sets its position, its velocity, or both, as petri_state_set does, from which
+// the next frame continues. NULL keeps a vector; others have as many elements as the system has dimensions. The move
+// becomes a part of the frame: it is repeated when the frame is computed again, and frames after it are discarded. It
+// also changes what petri_system returns. Returns PETRI_INVALID if there is no such particle, if it is an anchor, or if
+// a number is not finite.
+PETRI_API PetriStatus petri_history_move_particle(PetriHistory *history, size_t system, uint32_t particle,
+                                                  const double *position, const double *velocity);
+
+// Returns true if a particle was moved in a frame of the timeline. Moves in a frame at which the timeline has started
+// again do not count.
+PETRI_API bool petri_history_is_moved(const PetriHistory *history, int64_t frame);
+
 typedef struct PetriHistoryInfo {
     int64_t first; // first and last frame of the timeline; -1: before frame 0
     int64_t last;

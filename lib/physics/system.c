@@ -370,6 +370,11 @@ const double *phys_velocity(const PhysSystem *system, uint32_t particle) {
     return position ? position + system->dimensions : NULL;
 }
 
+void phys_show_vector(PhysSystem *system, uint32_t particle, bool velocity, const double *vector) {
+    double *row = phys_row(system, particle) + (velocity ? system->dimensions : 0);
+    memmove(row, vector, system->dimensions * sizeof *row); // the vector can be the row
+}
+
 static bool has_mark(const PhysSystem *system, uint32_t particle, uint8_t mark) {
     return system->any_not_finite && (((const uint8_t *)system->not_finite.bytes)[particle] & mark);
 }

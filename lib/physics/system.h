@@ -184,6 +184,9 @@ uint32_t phys_particle_count(const PhysSystem *system);
 // phys_add_particle.
 const double *phys_position(const PhysSystem *system, uint32_t particle);
 const double *phys_velocity(const PhysSystem *system, uint32_t particle);
+// Replaces the position or the velocity of a particle in what phys_position and phys_columns return. The next frame
+// must begin with phys_begin.
+void phys_show_vector(PhysSystem *system, uint32_t particle, bool velocity, const double *vector);
 // Return true if the vector that the last phys_simulate computed was finite. Always true without keep_last_finite.
 bool phys_position_finite(const PhysSystem *system, uint32_t particle);
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);

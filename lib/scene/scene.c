@@ -276,6 +276,20 @@ bool scene_view_ids(const State *state, const SceneView *view, const double **id
     return true;
 }
 
+void scene_show_entry(Scene *scene, const State *state, StateSlot slot) {
+    Value value = state_slot_get(state, slot);
+    for (PhysicsSystem *system = scene->systems; system; system = system->next) {
+        if (value.kind != VALUE_NUMBERS || value.len == 0 || value.len != system->dimensions || !system->engine)
+            continue;
+        for (uint32_t i = 0; i < system->mirror.slot_count; i++)
+            if (system->mirror.slots[i] == slot && i / 2 < phys_particle_count(system->engine)) {
+                phys_show_vector(system->engine, i / 2, i % 2 == 1, value_numbers(&value));
+                // The next frame reads the tree, and the vector from the state.
+                system->mirror.state = system->mirror.state == MIRROR_CURRENT ? MIRROR_STALE : system->mirror.state;
+            }
+    }
+}
+
 bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *view, Value id, uint32_t *particle) {
     SceneFrame frame = {.state = state, .arena = arena};
     PhysicsTree tree = {.scene = scene,

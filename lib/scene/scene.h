@@ -74,6 +74,8 @@ Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uin
 bool scene_view_ids(const State *state, const SceneView *view, const double **ids);
 // Finds the particle with this id. Returns false if there is none.
 bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *view, Value id, uint32_t *particle);
+// Lets views show the value of a position or velocity that was stored in the state since the last update.
+void scene_show_entry(Scene *scene, const State *state, StateSlot slot);
 // Returns the location of the node of a force. Its source is NULL if it is unknown.
 Origin scene_force_origin(const Scene *scene, const SceneView *view, uint32_t force);
 // Forgets all locations of nodes until the next update. Call it before programs are freed.

@@ -4,10 +4,13 @@
 // computed again from the keyframe before it. At the start of an epoch, the session then gets the configuration and
 // the base of the clock that it had there, so that the bits are the same.
 //
+// Particles that the host moves in a frame (moves.h) are not in its keyframe, but are moved again after each restore.
+//
 // If there are too many keyframes, the one is dropped that saves the fewest steps relative to its age. Recent keyframes
 // are therefore closer together than old ones.
 #include "base/heap.h"
 #include "base/host_struct.h"
+#include "session/moves.h"
 #include "session/session.h"
 
 #include <string.h>
@@ -91,6 +94,7 @@ struct PetriHistory {
     size_t bytes; // size of all keyframes
     Epoch epochs[EPOCH_CAPACITY];
     size_t epoch_count;
+    Moves moves;
     int64_t first; // first and last frame of the timeline
     int64_t last;
     double seconds;        // time of computing since the last keyframe
@@ -122,6 +126,7 @@ static void drop_all(PetriHistory *history) {
     while (history->keyframe_count > 0)
         drop_keyframe(history, history->keyframe_count - 1);
     drop_epochs(history, 0, history->epoch_count);
+    moves_free(&history->moves);
 }
 
 // Returns the cost of dropping a keyframe: the number of frames from the previous keyframe to the next one, divided by
@@ -230,10 +235,13 @@ PetriStatus petri_history_start(PetriHistory *history, const char *reason) {
     return begin_timeline(history) && history->origin ? PETRI_OK : PETRI_OUT_OF_MEMORY;
 }
 
-// Starts the timeline if an earlier attempt ran out of memory. The session cannot have advanced since then.
+// Starts the timeline, or repeats moves, if an earlier attempt ran out of memory. The session cannot have advanced
+// since then.
 static PetriStatus ensure_started(PetriHistory *history) {
     if (!history)
         return PETRI_INVALID;
+    if (history->moves.torn)
+        return moves_repeat(&history->moves, history->session);
     return history->keyframe_count > 0 && history->origin ? PETRI_OK : petri_history_start(history, history->reason);
 }
 
@@ -243,6 +251,7 @@ static void drop_frames_after(PetriHistory *history, int64_t frame) {
         drop_keyframe(history, history->keyframe_count - 1);
     while (history->epoch_count > 1 && history->epochs[history->epoch_count - 1].start >= frame)
         drop_epochs(history, history->epoch_count - 1, 1);
+    moves_drop_after(&history->moves, frame);
     history->last = frame;
 }
 
@@ -279,12 +288,26 @@ static void record_time(PetriHistory *history) {
     history->time_count = (uint32_t)at + 1;
 }
 
+// Completes the current frame, which was computed or restored with `status`: moves particles again.
+static PetriStatus end_frame(PetriHistory *history, PetriStatus status) {
+    PetriStatus moved = moves_repeat(&history->moves, history->session);
+    return status == PETRI_OK ? moved : status;
+}
+
+static PetriStatus rewind_to(PetriHistory *history, const PetriSnapshot *snapshot) {
+    PetriStatus status = petri_rewind(history->session, snapshot);
+    return status == PETRI_OK ? end_frame(history, status) : status;
+}
+
 static PetriStatus replay_step(PetriHistory *history) {
     PetriSession *session = history->session;
+    int64_t before = session->clock.number;
     int64_t at = session->clock.number - history->times_start;
     bool known = session->clock.realtime && at >= 0 && at < history->time_count;
     follow_epoch(history);
-    return known ? petri_step_at(session, history->times[at].time, history->times[at].beat) : petri_step(session);
+    PetriStatus status =
+        known ? petri_step_at(session, history->times[at].time, history->times[at].beat) : petri_step(session);
+    return session->clock.number == before ? status : end_frame(history, status);
 }
 
 // Adds the current frame to the timeline.
@@ -323,7 +346,7 @@ PetriStatus petri_history_step(PetriHistory *history) {
     PetriStatus recorded = session->config_revision == config
                                ? record_frame(history)
                                : petri_history_start(history, "an imported file has changed");
-    return status == PETRI_OK ? recorded : status;
+    return end_frame(history, status == PETRI_OK ? recorded : status);
 }
 
 // Returns the last keyframe that is before `frame`, or NULL. If `frame` is the first of the timeline, returns it.
@@ -340,7 +363,7 @@ PetriStatus petri_history_rewind(PetriHistory *history, int64_t frame) {
     PetriStatus status = ensure_started(history);
     const Keyframe *from = status == PETRI_OK ? keyframe_before(history, frame) : NULL;
     if (status == PETRI_OK)
-        status = from ? petri_rewind(history->session, from->snapshot) : PETRI_INVALID;
+        status = from ? rewind_to(history, from->snapshot) : PETRI_INVALID;
     if (status == PETRI_OK)
         follow_epoch(history);
     return status;
@@ -356,7 +379,7 @@ static PetriStatus replay_frames(PetriHistory *history, int64_t frame) {
         return PETRI_INVALID;
     PetriStatus status = PETRI_OK;
     if (now >= frame || now < from->frame || now <= history->first || !has_config(history, epoch_of(history, now)))
-        status = petri_rewind(session, from->snapshot);
+        status = rewind_to(history, from->snapshot);
     while (status == PETRI_OK && session->clock.number < frame)
         status = replay_step(history);
     return status;
@@ -411,10 +434,22 @@ PetriStatus petri_history_reset(PetriHistory *history) {
     PetriStatus status = begin_move(history, &config);
     if (status != PETRI_OK)
         return status;
-    status = petri_rewind(history->session, history->origin);
+    bool outside = history->origin->at.clock.number < history->first;
+    status =
+        outside ? petri_rewind(history->session, history->origin) : rewind_to(history, history->keyframes[0].snapshot);
     end_move(history, config);
-    bool outside = status == PETRI_OK && history->session->clock.number < history->first;
-    return outside ? petri_history_start(history, NULL) : status;
+    return outside && status == PETRI_OK ? petri_history_start(history, NULL) : status;
+}
+
+PetriStatus petri_history_move_particle(PetriHistory *history, size_t system, uint32_t particle, const double *position,
+                                        const double *velocity) {
+    PetriStatus status = ensure_started(history);
+    if (status == PETRI_OK)
+        status =
+            moves_add(&history->moves, history->session, system, particle, (const double *const[]){position, velocity});
+    if (status == PETRI_OK)
+        drop_frames_after(history, history->session->clock.number);
+    return status;
 }
 
 bool petri_history_info(const PetriHistory *history, PetriHistoryInfo *info, size_t size) {
@@ -426,6 +461,10 @@ bool petri_history_info(const PetriHistory *history, PetriHistoryInfo *info, siz
                                     .keyframes = history->keyframe_count,
                                     .bytes = history->bytes};
     return host_struct_write(info, size, &found, sizeof found);
+}
+
+bool petri_history_is_moved(const PetriHistory *history, int64_t frame) {
+    return history && moves_exist(&history->moves, frame);
 }
 
 uint64_t petri_history_config(const PetriHistory *history, int64_t frame) {

@@ -70,8 +70,10 @@ PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue va
     if (!session || session->call_depth > 0)
         return PETRI_INVALID;
     PetriStatus status = session_run(session, set_entry, &request, "the assignment");
-    if (status == PETRI_OK)
+    if (status == PETRI_OK) {
+        session->frame.names_current = false; // names that statements of the prompt bind can depend on the entry
         recorder_state(session, key, value);
+    }
     return status;
 }
 

@@ -9,8 +9,8 @@
 //     3   run, state_lint, text_sink
 //     4   recorder, tree_lint; values, functions, systems, drawn_files
 //     5   load, frame, host_state, save
-//     6   history, definitions, prompt, session, print
-//     7   script
+//     6   moves, definitions, prompt, session, print
+//     7   history, script
 //     8   replay
 #pragma once
 

@@ -11,9 +11,9 @@
 #include <string.h>
 
 const PromptCommand *prompt_command_at(size_t index) {
-    static const PromptCommand *const groups[] = {STEP_COMMANDS, BREAK_COMMANDS,   PRINT_COMMANDS,
-                                                  WHY_COMMANDS,  PICTURE_COMMANDS, SET_COMMANDS,
-                                                  HOST_COMMANDS, RECALL_COMMANDS,  OTHER_COMMANDS};
+    static const PromptCommand *const groups[] = {STEP_COMMANDS,   BREAK_COMMANDS,   PRINT_COMMANDS, WHY_COMMANDS,
+                                                  MOVE_COMMANDS,   PICTURE_COMMANDS, SET_COMMANDS,   HOST_COMMANDS,
+                                                  RECALL_COMMANDS, OTHER_COMMANDS};
     for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
         for (const PromptCommand *command = groups[i]; command->name; command++)
             if (index-- == 0)

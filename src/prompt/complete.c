@@ -175,16 +175,24 @@ static void offer_parameter_values(Search *search, const char *name, size_t leng
     }
 }
 
-// Offers the ids of particles.
+// Offers the ids of particles, and their keys if there are several systems.
 static void offer_ids(Search *search) {
     enum { MAX_IDS = 1000 }; // of each system
     PetriSession *session = search->prompt->session;
     PetriSystem system;
+    bool several = petri_system(session, 1, &system, sizeof system);
     for (size_t i = 0; petri_system(session, i, &system, sizeof system); i++)
         for (uint32_t k = 0; k < system.particle_count && k < MAX_IDS; k++) {
-            const char *id = petri_format_value(session, petri_particle_id(session, i, k));
-            add_candidate(search, id ? id : "");
+            SCOPED_TEXT key = {0};
+            particle_add_key(search->prompt, i, &system, k, &key);
+            add_candidate(search, key.bytes + strlen(system.name) + 1);
+            add_candidate(search, several ? key.bytes : "");
         }
+}
+
+static void offer_vectors(Search *search) {
+    add_candidate(search, "position=");
+    add_candidate(search, "velocity=");
 }
 
 static void offer_expressions(Search *search, const Expressions *list) {
@@ -217,7 +225,7 @@ static void search_operand(Search *search, const char *line, size_t name, size_t
         [COMPLETE_WATCHED] = offer_watched, [COMPLETE_FILES] = offer_files,
         [COMPLETE_SYSTEMS] = offer_systems, [COMPLETE_KEYS] = offer_keys,
         [COMPLETE_KINDS] = offer_kinds,     [COMPLETE_PARAMETERS] = offer_parameters,
-        [COMPLETE_TOPICS] = offer_topics,
+        [COMPLETE_MOVE] = offer_ids,        [COMPLETE_TOPICS] = offer_topics,
     };
     size_t start = name + strspn(line + name, " \t");
     begin_search(search, line, start < length ? start : length, length);
@@ -227,6 +235,15 @@ static void search_operand(Search *search, const char *line, size_t name, size_t
         size_t value = word + strspn(line + word, " \t");
         begin_search(search, line, value, length);
         offer_parameter_values(search, line + start, word - start);
+    } else if (command && command->complete == COMPLETE_MOVE && word < length) {
+        size_t last = length;
+        while (last > word && !isspace((unsigned char)line[last - 1]))
+            last--;
+        begin_search(search, line, last, length);
+        if (memchr(line + last, '=', length - last))
+            search_language(search, line, length);
+        else
+            offer_vectors(search);
     } else if (command && command->complete != COMPLETE_LANGUAGE)
         offers[command->complete](search);
     else

@@ -171,12 +171,10 @@ static bool print_systems(Prompt *prompt, const SystemRequest *request,
             shown++;
         }
     }
-    if (count == 0) {
-        prompt_note(prompt, petri_frame_number(prompt->session) < 0 ? "no particles before the first frame; run .step"
-                                                                    : "no particle system was updated in this frame");
-    } else if (shown == 0) {
+    if (count == 0)
+        prompt_note(prompt, "%s", particle_none(prompt));
+    else if (shown == 0)
         return prompt_fail(prompt, "no such system: '%.40s'", wanted);
-    }
     return true;
 }
 

@@ -6,11 +6,11 @@
 //   bare.c                   commands typed without their dot
 //   complete.c               completion of words
 //   commands.c               table of all commands, and help
-//   *_commands.c, why_command.c   the commands
+//   *_commands.c, move_command.c, why_command.c   the commands
 //   breaks.c                 conditions that end commands
 //   recall.c                 earlier values and inputs
 //   expression.c             expressions that depend on the frame before
-//   arguments.c              their operands
+//   arguments.c, particle.c  their operands
 //   messages.c               notes, messages and interruption
 #pragma once
 
@@ -98,6 +98,10 @@ typedef struct PromptHost {
     void (*timeline)(Prompt *prompt, PetriHistoryInfo *info); // sets `first`, `last` and `reason`
     // Sets a parameter of the script; NULL: by petri_define and petri_reload, also names that are not parameters.
     PetriStatus (*set_parameter)(Prompt *prompt, const char *name, const char *value);
+
+    // Moves a particle in the current frame; NULL: by petri_history_move_particle.
+    PetriStatus (*move)(Prompt *prompt, size_t system, uint32_t particle, const double *position,
+                        const double *velocity);
 
     const char *keys_help; // sentences about keys for .help, each followed by a blank; NULL: none
 } PromptHost;
@@ -203,6 +207,7 @@ typedef enum Completes {
     COMPLETE_IDS,
     COMPLETE_KEYS,
     COMPLETE_KINDS,
+    COMPLETE_MOVE,
     COMPLETE_PARAMETERS,
     COMPLETE_SYSTEMS,
     COMPLETE_TOPICS,
@@ -219,7 +224,7 @@ typedef struct PromptCommand {
 } PromptCommand;
 // Each table ends with a row without a name.
 extern const PromptCommand STEP_COMMANDS[], BREAK_COMMANDS[], RECALL_COMMANDS[], PRINT_COMMANDS[], WHY_COMMANDS[],
-    SET_COMMANDS[], PICTURE_COMMANDS[], HOST_COMMANDS[], OTHER_COMMANDS[];
+    MOVE_COMMANDS[], SET_COMMANDS[], PICTURE_COMMANDS[], HOST_COMMANDS[], OTHER_COMMANDS[];
 // Returns the command at an index, in the order of .help. Returns NULL after the last command.
 const PromptCommand *prompt_command_at(size_t index);
 // Returns the command with this name, with or without the dot, or NULL. Names are not shortened.
@@ -260,6 +265,25 @@ void argument_last_count(char *text, int64_t *count);
 // returns the integer, or SIZE_MAX for `all`. Otherwise returns the number of lines that the host can show at once
 // minus `around`.
 size_t argument_lines(Prompt *prompt, char *text, size_t around);
+
+// The particle that an operand names, by its id or by its key in the state, such as `:cells;3` (particle.c).
+typedef struct ParticleName {
+    const char *typed;
+    Text value;    // value of the operand
+    double number; // the value, if it is a single number, else NaN
+} ParticleName;
+// Evaluates an operand. Computes an interrupted frame again, so that its systems can be searched. Returns false after a
+// message. The caller frees name->value with text_free.
+bool particle_read(Prompt *prompt, const char *text, ParticleName *name);
+// Finds the particle in system `number`. Returns false if it has no such particle.
+bool particle_find(Prompt *prompt, const ParticleName *name, size_t number, const PetriSystem *system,
+                   uint32_t *particle);
+// Appends the particle's key in the state.
+void particle_add_key(Prompt *prompt, size_t number, const PetriSystem *system, uint32_t particle, Text *key);
+// Returns the reason why the frame has no systems.
+const char *particle_none(const Prompt *prompt);
+// Writes the message that no system has the particle. Returns false.
+bool particle_unknown(Prompt *prompt, const ParticleName *name);
 
 // Writes a note that the script still uses its own binding of a name that was just bound at the prompt
 // (set_commands.c).

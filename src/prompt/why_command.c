@@ -10,11 +10,9 @@
 
 // The particle that the user asks for.
 typedef struct Question {
-    const char *asked;  // operand without the number of lines
-    const char *wanted; // value of the operand, as text
-    double number;      // value of the operand, if it is a single number, else NaN
-    bool each;          // print single contributions instead of one row per force
-    size_t max_lines;   // maximum number of contributions to print
+    ParticleName name;
+    bool each;        // print single contributions instead of one row per force
+    size_t max_lines; // maximum number of contributions to print
 } Question;
 
 // The forces on the particle, with which the rows of a table are filled.
@@ -106,18 +104,17 @@ static void print_answer(Prompt *prompt, const Question *question, const Answer 
     text_table_write(&table, prompt->output);
     if (shown < found->count && question->each)
         prompt_note(prompt, "%" PRIu32 " more contributions; '.why %s all' shows all", found->count - shown,
-                    question->asked);
+                    question->name.typed);
     else if (shown < found->count)
         prompt_note(prompt, "'.why %s all' shows the contribution of each particle, in the order of summation",
-                    question->asked);
+                    question->name.typed);
 }
 
 // Explains the force on one particle in the last step of the frame. Returns false after a message.
 static bool explain_particle(Prompt *prompt, const Question *question, Answer *answer, uint32_t particle) {
     const PetriSystem *system = answer->system;
-    const char *id = petri_format_value(prompt->session, petri_particle_id(prompt->session, answer->number, particle));
     SCOPED_TEXT title = {0};
-    text_add_format(&title, "%s;%s", system->name, id ? id : "");
+    particle_add_key(prompt, answer->number, system, particle, &title);
     if (system->anchor[particle * system->anchor_stride] || !system->force.data) {
         prompt_note(prompt, "%s %s", title.bytes,
                     system->force.data ? "is an anchor, which no force moves" : "took no step in this frame");
@@ -135,65 +132,34 @@ static bool explain_particle(Prompt *prompt, const Question *question, Answer *a
     return true;
 }
 
-// Returns true if the wanted value is a particle's id, or its key in the state, such as `:cells;3`.
-static bool is_wanted(Prompt *prompt, const Question *question, size_t number, const PetriSystem *system, uint32_t i) {
-    const char *id = petri_format_value(prompt->session, petri_particle_id(prompt->session, number, i));
-    size_t prefix = strlen(system->name);
-    if (!id || strcmp(id, question->wanted) == 0)
-        return id;
-    return strncmp(question->wanted, system->name, prefix) == 0 && question->wanted[prefix] == ';' &&
-           strcmp(question->wanted + prefix + 1, id) == 0;
-}
-
-static bool find_particle(Prompt *prompt, const Question *question, size_t number, const PetriSystem *system,
-                          uint32_t *particle) {
-    const PetriValue id = {.length = 1, .numbers = &question->number};
-    if (petri_find_particle(prompt->session, number, id, particle))
-        return true;
-    for (*particle = 0; *particle < system->particle_count; ++*particle)
-        if (is_wanted(prompt, question, number, system, *particle))
-            return true;
-    return false;
-}
-
 // Answers the question for each system that has the particle.
 static bool explain_in_systems(Prompt *prompt, const Question *question) {
     PetriSystem system;
     size_t count = 0, found = 0;
     bool good = true;
-    prompt_complete_frame(prompt);
     for (; good && petri_system(prompt->session, count, &system, sizeof system); count++) {
         uint32_t particle;
-        if (!find_particle(prompt, question, count, &system, &particle))
+        if (!particle_find(prompt, &question->name, count, &system, &particle))
             continue;
         found++;
         good = explain_particle(prompt, question, &(Answer){prompt->session, count, &system, {0}}, particle);
     }
     if (count == 0)
-        prompt_note(prompt, petri_frame_number(prompt->session) < 0 ? "no particles before the first frame; run .step"
-                                                                    : "no particle system was updated in this frame");
+        prompt_note(prompt, "%s", particle_none(prompt));
     else if (found == 0)
-        return prompt_fail(prompt, "no particle has this id: '%.40s'", question->asked);
+        return particle_unknown(prompt, &question->name);
     return good;
 }
 
 static bool run_why(Prompt *prompt, const char *rest) {
     SCOPED_STRING asked = memory_strdup(rest);
-    SCOPED_TEXT value = {0};
-    PetriEvaluation result;
-    Question question = {.asked = asked};
+    Question question = {0};
     if (strpbrk(asked, " \t")) // a single number is the id, not the number of contributions
         question.max_lines = argument_lines(prompt, asked, 0);
     question.each = strlen(asked) < strlen(rest);
-    prompt_busy(prompt);
-    PetriStatus status =
-        petri_evaluate(prompt->session, asked, PETRI_NUL_TERMINATED, &result, sizeof result, text_collect, &value);
-    prompt_idle(prompt);
-    if (!prompt_status(prompt, status))
-        return false;
-    question.wanted = value.bytes;
-    question.number = result.number;
-    return explain_in_systems(prompt, &question);
+    bool good = particle_read(prompt, asked, &question.name) && explain_in_systems(prompt, &question);
+    text_free(&question.name.value);
+    return good;
 }
 
 const PromptCommand WHY_COMMANDS[] = {

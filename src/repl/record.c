@@ -40,13 +40,15 @@ static bool can_record(Repl *repl, const char *script) {
                            "a golden must start at frame 0, but the history starts at frame %" PRId64 "%s%s",
                            history.first, !history.reason ? "" : ": ", !history.reason ? "" : history.reason);
     }
-    for (int64_t i = 1; i <= now; i++)
-        if (petri_history_config(repl->prompt.history, i) != petri_history_config(repl->prompt.history, i - 1))
+    const PetriHistory *known = repl->prompt.history;
+    for (int64_t i = 0; i <= now; i++)
+        if (petri_history_is_moved(known, i) ||
+            (i < now && petri_history_config(known, i) != petri_history_config(known, i + 1)))
             return prompt_fail(&repl->prompt,
                                "cannot record changes made at the prompt (frame %" PRId64
                                "); run .reset and step again, "
                                "or keep the session: .record NAME.session",
-                               i - 1);
+                               i);
     if (petri_history_config(repl->prompt.history, 0) != petri_config_revision(repl->prompt.session))
         return prompt_fail(&repl->prompt,
                            "cannot record: settings changed after these frames; run .reset and step again");

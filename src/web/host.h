@@ -63,6 +63,10 @@ HOST(archived_file) void host_archived_file(const char *name, double frame, cons
 // Lets the host of a prompt act: "step"; "goTo" a frame; "set" the parameter `name` to `value`; "run" the script;
 // "plot" the expression `name`. Returns the PetriStatus.
 HOST(prompt) int host_prompt(const char *act, double frame, const char *name, const char *value);
+// Lets the host of a prompt move a particle (petri_history_move_particle). `position` and `velocity` have `dimensions`
+// numbers; NULL keeps them. Returns the PetriStatus.
+HOST(move)
+int host_move(uint32_t system, uint32_t particle, uint32_t dimensions, const double *position, const double *velocity);
 // Returns true if a regular expression matches a part of a text.
 HOST(matches) bool host_matches(const char *pattern, const char *text);
 HOST(token) void host_token(int kind, size_t start, size_t end);

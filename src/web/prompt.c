@@ -36,6 +36,14 @@ static PetriStatus set_parameter(Prompt *prompt, const char *name, const char *v
     return host_prompt("set", 0, name, value);
 }
 
+static PetriStatus move(Prompt *prompt, size_t system, uint32_t particle, const double *position,
+                        const double *velocity) {
+    PetriSystem found;
+    return petri_system(prompt->session, system, &found, sizeof found)
+               ? host_move((uint32_t)system, particle, found.dimensions, position, velocity)
+               : PETRI_INVALID;
+}
+
 static bool was_interrupted(Prompt *prompt) {
     (void)prompt;
     return host_should_interrupt();
@@ -107,6 +115,7 @@ static const PromptHost HOST = {
     .go_to = go_to,
     .timeline = get_timeline,
     .set_parameter = set_parameter,
+    .move = move,
 };
 
 static bool send_output(void *user_data, const char *text, size_t length) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""laws.py PETRI: laws of the prompt's commands: going back to a condition, breaks, prev(), and shortened commands."""
+"""laws.py PETRI: laws of the prompt's commands: going back to a condition, breaks, prev(), shortened commands, and moved particles."""
 import math
 import os
 import random
@@ -14,7 +14,7 @@ SCRIPT = """let SPIN=SPIN or 3
 !counter state=:c rate=SPIN
 !physics state=:p dimensions=2
     for i in ..5
-        !particle id=i position=9*i;2*i velocity=3-i;i radius=2
+        !particle id=i position=9*i;2*i velocity=3-i;i radius=2 mass=i+1
     !collision
     !random strength=40
     !barrier position=-20;0 normal=1;0
@@ -131,11 +131,78 @@ def law_of_abbreviations(folder):
             check(word, errors[word], f"petri: ambiguous command: '{word}' begins {', '.join(begins)}")
 
 
+def random_inputs(numbers, count):
+    """Returns inputs that go back and forth, move particles and set parameters."""
+    vector = lambda: ";".join(str(numbers.randrange(-40, 40) / 4) for _ in range(2))
+    makers = [
+        lambda: f".step {numbers.randrange(1, 20)}", lambda: f".back {numbers.randrange(1, 12)}", lambda: ".step",
+        lambda: f".goto {numbers.randrange(0, 60)}", lambda: f".move (:p;{numbers.randrange(5)}) position={vector()}",
+        lambda: f".move {numbers.randrange(5)} velocity={vector()} position=$(:p;0)+{numbers.randrange(1, 9)}",
+        lambda: f".move :one velocity={numbers.randrange(9)}", lambda: f".set SPIN {numbers.randrange(1, 9)}",
+        lambda: f".until $:c > {numbers.randrange(1, 5)} --limit 30",
+    ]
+    return [".step 3"] + [numbers.choice(makers)() for _ in range(count)]
+
+
+def law_of_moves(folder, numbers):
+    """A move is a part of its frame: it happens again whenever the frame is computed again, and changes nothing else."""
+    for _ in range(20):
+        start, ago, on = numbers.randrange(1, 60), numbers.randrange(1, 70), numbers.randrange(1, 40)
+        which, vector = numbers.randrange(5), f"{numbers.randrange(-9, 9)};{numbers.randrange(99) / 8}"
+        here = min(ago, start + 1)
+        lines = printed([
+            f".goto {start}", ".state", f".move {which} position=$(:p;{which}) velocity=$(:p;{which};:velocity)", ".state",
+            f".move {which} {numbers.choice(['position', 'velocity'])}={vector}", ".state", f".step {on}", ".state",
+            f".back {on + here}", f".step {here}", ".state", f".step {on}", ".state", f".goto {start}", ".state", ".back", ".goto -1",
+            f".goto {start + on}", ".state", ".reset", f".step {start + 1}", ".state"], folder)
+        check(f"a move of {which} in {start} to where it is", lines[3], lines[1])
+        check(f"the state after .back {on + here} and .step {here} from {start + on}", lines[10], lines[5])
+        check(f"the state after .step {on} from {start}", lines[12], lines[7])
+        check(f"the state after .goto {start}", lines[14], lines[5])
+        check(f"the state after .goto {start + on}", lines[18], lines[7])
+        check(f"the state after .reset and .step {start + 1}", lines[21], lines[5])
+        differ = [a for a, b in zip(lines[3].splitlines(), lines[5].splitlines()) if a != b]
+        check("a move changes one entry", len(differ), 1)
+
+
+def law_of_momentum(folder, numbers):
+    """A change of one velocity changes the momentum by mass times this change. Small integers are exact."""
+    for _ in range(5):
+        velocities = [[numbers.randrange(-9, 9) for _ in range(2)] for _ in range(5)]
+        changed = numbers.randrange(5)
+        after = [[numbers.randrange(-9, 9) for _ in range(2)] if i == changed else v for i, v in enumerate(velocities)]
+        moves = [f".move {i} velocity={x};{y}" for i, (x, y) in enumerate(velocities)]
+        lines = printed([".step 9", *moves, ".energy p", f".move {changed} velocity={after[changed][0]};{after[changed][1]}",
+                         ".energy p"], folder)
+        for line, expected in ((lines[6], velocities), (lines[8], after)):
+            total = ";".join(str(sum((i + 1) * v[k] for i, v in enumerate(expected))) for k in range(2))
+            check("the momentum", re.search(r"momentum +(\S+)", line).group(1), total)
+
+
+def law_of_records(folder, numbers):
+    """A recorded session and an archive of any sequence of inputs give the same states again."""
+    for run in range(6):
+        inputs = random_inputs(numbers, 40)
+        lines = printed(inputs + [".state", f".record {run}.session"], folder)
+        again = subprocess.run([PETRI, "repl", f"{run}.session"], cwd=folder, capture_output=True, text=True, check=False).stdout
+        with open(f"{folder}/{run}.session", encoding="utf-8") as session:
+            check(f"session {run}", again, session.read())
+        check(f"the state of session {run}", lines[-2] in again, True)
+        archived = "\n".join(inputs[:9] + [f".archive {run}.petri"] + inputs[9:])
+        subprocess.run([PETRI, "repl", "s.fl"], input=archived, cwd=folder, capture_output=True, text=True, check=False)
+        verified = subprocess.run([PETRI, "archive", "verify", f"{run}.petri"], cwd=folder, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True, check=False)
+        check(f"archive {run}: {verified.stdout}", verified.returncode, 0 if "built without SQLite" not in verified.stdout else 2)
+
+
 with tempfile.TemporaryDirectory() as folder:
     with open(f"{folder}/s.fl", "w", encoding="utf-8") as script:
         script.write(SCRIPT)
     laws_of_conditions(folder, random.Random(1))
     law_of_previous_values(folder, random.Random(2))
     law_of_abbreviations(folder)
+    law_of_moves(folder, random.Random(3))
+    law_of_momentum(folder, random.Random(4))
+    law_of_records(folder, random.Random(5))
 print(f"{check.count - check.failed} passed, {check.failed} failed")
 sys.exit(check.failed > 0)

@@ -99,6 +99,8 @@ if [ $edits = yes ]; then
     expect "a key of the state is completed" '^@1> \$(:cells;1;:velocity)$'
     type_keys '.why :h' Tab
     expect "the id of a particle is completed" '^@1> \.why :home$'
+    type_keys C-u '.move :h' Tab ' vel' Tab '1 pos' Tab 'pola' Tab
+    expect "the id, attributes and words of .move are completed" '^@1> \.move :home velocity=1 position=polar$'
     type_keys C-u '.help !elec' Tab Enter
     expect "a topic is completed" '^!electrostatic (physics)'
     type_keys '.load bro' Tab Enter

@@ -16,6 +16,8 @@ done_is() { tail -n 1 out | grep -Fq "{\"done\": $1"; }
 cat >script.fl <<'END'
 let SIZE=SIZE or 3          -- 1..9 how large
 !counter state=:turns rate=SIZE
+!physics state=:p dimensions=2 time=time
+    !particle id=:dot
 !window size=64;64
     !canvas
         !ellipse point=32;32 radius=SIZE fill=true color=1
@@ -85,6 +87,13 @@ send '.parameters'
 check ".parameters lists the parameters" has out '{"text": "SIZE  3  1..9  how large"}'
 send '.why'
 check "a command without its operand fails" has out '{"text": ".why needs the id of a particle"}'
+send '.move :dot position=5;6'
+check ".move moves a particle" done_is true
+send '.back'
+send '$(:p;:dot)'
+check "a moved particle stays there, also after .back" has out '{"text": "5;6"}'
+send '.move 77 position=1'
+check ".move reports its errors" done_is false
 send '.step 3'
 check "a command that computes frames fails" has out '{"text": ".step works only in '"'petri repl'"
 check "a command that fails exits with status 1" status_is 1

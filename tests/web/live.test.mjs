@@ -165,7 +165,7 @@ test('a link to a script that was edited while it ran opens without a message', 
     await typed(page, GREEN);
     await hasColour(page, '0;255;0');
     await page.click('#link');
-    await says(page, /opens the script at its start, because the script was edited while it ran/);
+    await says(page, /opens the script at its start, because the script or its particles were changed while it ran/);
     const other = await context.newPage();
     await other.goto(page.url());
     await other.waitForFunction(() => document.body.dataset.ready);

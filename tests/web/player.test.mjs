@@ -43,8 +43,10 @@ test('frames are the same after going back and forth and after changes', () => {
         const player = opened();
         player.seek(random(40));
         for (let i = 0; i < 40; i++) {
-            const kind = random(8);
-            if (kind === 0)
+            const kind = random(9), [system] = player.session.systems;
+            if (kind === 8 && system)
+                player.move(0, random(system.count), ...[0, 1].map(i => (random(3) > i ? Array(system.dimensions).fill(random(9)) : null)));
+            else if (kind === 0)
                 player.set(random(2) ? 'N' : 'DIM', `${1 + random(3)}`);
             else if (kind === 1)
                 player.edit(SCRIPT(FORCES[random(3)]), !random(2));

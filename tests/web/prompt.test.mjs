@@ -37,6 +37,9 @@ const INPUTS = [
     '.goto 70', '.back until changes floor($:c*4)', 'prev($:c)', '.break prev($:c) < 0.5 and $:c >= 0.5', '.back 30', '.step 40', '.break',
     '.b 9', '.s', '.st', '.part 1', '.unb', '.until 1 --limt 2', '.back until false', 'prev(prev(1))', '.goto 90',
     '.watch $:c', '.watch q+1', '.watch', '.watch 1+', '.step 2', '.unwatch q+1', '.unwatch q+1', '.step', '.unwatch', '.step',
+    '.move 0', '.move 1 position=3;4', '.particles p', '.move (:p;2) velocity=-1 position=$(:p;1)+1', '.energy', '.move 9 position=4',
+    '.step 3', '.particles', '.back 2', '.back 2', '.particles p', '.step 5', '.particles', '.move 77 position=1', '.move :home position=1',
+    '.move 1 position=1;2;3', '.move 1 positon=1', '.move 1 position=1/0', '.move 2 velocity=prev($(:p;2;:velocity))', '.step',
     '.parameters', '.set', '.set SIZE', '.set NONE', '.set SIZE 6', '.set SIZE=7', '.step 3', '.particles p 1', '.tempo', '.fps',
     '!drag strength=2', '.step', '.tree drag', '.drop', '.drop everything', '.drop all', 'q*7', 'let SIZE=2', 'func f(x) x*2', 'f(4)',
     'help sin', 'step', 'step 4', 'state', 'quit now', '.stp', '.', '.unknown thing', '.parameters now', '.step 3 4',
@@ -75,7 +78,7 @@ function printedByPage(inputs) {
         reported.splice(0);
         const { text } = player.session.execute(`${input}\n`, {
             first: player.first, last: player.lastFrame, step: () => player.step(), goTo: frame => player.seek(frame),
-            set: (name, value) => player.set(name, value), run: () => {}, plot: () => {},
+            set: (name, value) => player.set(name, value), move: (...particle) => player.move(...particle), run: () => {}, plot: () => {},
         });
         return [text, reported.map(({ rendered }) => rendered).join('')];
     });

@@ -336,6 +336,11 @@ export interface History {
     step(): unknown;
     /** Goes to a frame before `frame`, from which few steps lead to it. Returns false if there is none. */
     rewind(frame: number): boolean;
+    /**
+     * Moves a particle of the current frame, given by the numbers of its system and of the particle in it. A vector that is missing is
+     * kept. Frames after this one are discarded.
+     */
+    move(system: number, particle: number, position?: number[], velocity?: number[]): unknown;
     free(): void;
 }
 

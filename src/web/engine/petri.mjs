@@ -90,7 +90,9 @@ class Engine {
                 }),
             archived_file: (name, frame, at, length) =>
                 now().results.push({ name: text(name), frame, bytes: this.memory.bytes().slice(at, at + length) }),
-            prompt: (act, frame, name, value) => now().actForPrompt(text(act), frame, text(name), text(value)),
+            prompt: (act, frame, name, value) => now().actForPrompt(text(act), ...name ? [text(name), text(value)] : [frame]),
+            move: (system, particle, dimensions, ...vectors) =>
+                now().actForPrompt('move', system, particle, ...vectors.map(at => (at ? [...this.memory.numbers(at, dimensions)] : null))),
             matches: (pattern, string) => (new RegExp(text(pattern)).test(text(string)) ? 1 : 0),
             token: (kind, start, end) => now().results.push({ kind: TOKENS[kind], start, end }),
             help: (kind, name, parameters, defaultValue, unit, help) =>
@@ -356,7 +358,8 @@ export class Session {
     }
 
     // Executes an input of the prompt as `petri repl` does: a command or code. `host` has `first` and `last`, the bounds of the timeline,
-    // and moves the session: step(), goTo(frame), set(name, value). run() and plot(expression) are requests of the input.
+    // and moves the session: step(), goTo(frame), set(name, value), move(system, particle, position, velocity), see History.move. run() and
+    // plot(expression) are requests of the input.
     execute(text, host) {
         const { engine } = this;
         this.host = host;
@@ -367,10 +370,10 @@ export class Session {
     }
 
     // Calls a function of the prompt's host, which can call the engine. Returns the status.
-    actForPrompt(act, frame, name, value) {
+    actForPrompt(act, ...given) {
         const { mayInterrupt, reported, written, results } = this;
         try {
-            this.host[act](...name === null ? [frame] : [name, value]);
+            this.host[act](...given);
             return 0;
         } catch (error) {
             return Math.max(STATUS.indexOf(error.status), 1);
@@ -599,6 +602,15 @@ class History {
     // Like Session.step. Steps from a past frame repeat the changes of parameters and of the script.
     step() {
         return this.session.check('compute the frame', wasm => wasm.petri_history_step(this.at));
+    }
+
+    // Moves a particle of the current frame, given by the numbers of its system and of the particle in it. Vectors are arrays; one that is
+    // missing is kept. Frames after this one are discarded.
+    move(system, particle, position, velocity) {
+        const { session } = this, copied = (vector, use) =>
+            vector ? session.memory.withText(new Uint8Array(Float64Array.from(vector).buffer), use) : use(0);
+        return session.check('move the particle', wasm => copied(position, first => copied(velocity, second =>
+            wasm.petri_history_move_particle(this.at, system, particle, first, second))));
     }
 
     // Goes to a frame before `frame`, from which few steps lead to it. Returns false if there is none. Pictures that depend on earlier

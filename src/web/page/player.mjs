@@ -82,9 +82,9 @@ export class Player {
         };
     }
 
-    // Stores the changes as a list and in a map from frames to changes. A change is [last frame before it, parameter, value], or, for the
-    // script, [last frame before it, null, text]. A link may have thousands of changes and a million frames, so searching the list after
-    // every frame would take too long.
+    // Stores the changes as a list and in a map from frames to changes. A change is [last frame before it, parameter, value]; for the
+    // script, [last frame before it, null, text]; for a particle, [frame, null, arguments of History.move]. A link may have thousands of
+    // changes and a million frames, so searching the list after every frame would take too long.
     setChanges(changes) {
         this.changes = changes;
         this.changesAt = new Map();
@@ -111,7 +111,9 @@ export class Player {
         const later = this.frame >= this.known ? this.changesAt.get(this.frame) ?? [] : [];
         this.known = Math.max(this.known, this.frame);
         for (const [, name, value] of later)
-            if (name === null)
+            if (Array.isArray(value))
+                this.history.move(...value);
+            else if (name === null)
                 this.session.reload(value, this.name);
             else
                 this.session.setParameter(name, value);
@@ -177,6 +179,14 @@ export class Player {
         this.record(name, value);
     }
 
+    // Moves a particle in the current frame (History.move). Forgets the later frames.
+    move(...particle) {
+        if (this.archive)
+            this.cutReplay();
+        this.history.move(...particle);
+        this.record(null, particle);
+    }
+
     // Replaces the script for the next and all later frames; state, frame numbers and clocks continue. If `again` is true, computes the
     // current frame with the new script. If the script has errors, throws and keeps the old script.
     edit(text, again) {
@@ -200,9 +210,11 @@ export class Player {
         }
     }
 
-    // Records a change after the current frame: a parameter, or the script if `name` is null.
+    // Records a change after the current frame. It replaces one of the same parameter, or of the script, but not moves of particles.
     record(name, value) {
-        const before = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));
+        const isReplaced = (other, old) => other === name && !Array.isArray(old) && !Array.isArray(value);
+        const before = this.changes.filter(([frame, other, old]) =>
+            frame < this.frame || (frame === this.frame && !isReplaced(other, old)));
         this.setChanges([...before, [this.frame, name, value]]);
         this.lastFrame = this.known = this.logged = this.frame;
         this.watches.forget(this.frame);

@@ -18,7 +18,7 @@ export class Transfer {
         history.replaceState(null, '', link);
         const copied = await navigator.clipboard?.writeText(location.href).then(() => true, () => false);
         say((copied ? 'Link copied. Nothing was uploaded.' : 'The link is in the address bar.')
-            + (edited ? ' It opens the script at its start, because the script was edited while it ran.' : ''));
+            + (edited ? ' It opens the script at its start, because the script or its particles were changed while it ran.' : ''));
     }
 
     // Opens the script in the page's link, and runs it in `petri view`. Returns '' on success, or the reason why no script was opened.

@@ -156,7 +156,7 @@ const handlers = {
             player[act](...given);
         };
         const done = player.session.execute(text, {
-            first: player.first, last: player.lastFrame, step: moves('step'), goTo: moves('seek'), set: moves('set'),
+            first: player.first, last: player.lastFrame, step: moves('step'), goTo: moves('seek'), set: moves('set'), move: moves('move'),
             run: () => (asked.runs = true), plot: expression => (asked.plot = expression),
         });
         return 'log' in asked ? shown({ ...done, ...asked }) : { type: 'printed', reported: take(), ...done, ...asked };

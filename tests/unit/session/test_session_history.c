@@ -240,11 +240,88 @@ static void test_recompute_restores_whole_frame(void **state) {
     petri_history_free(history);
 }
 
+static void move_particle(size_t system, uint32_t particle, const double *position, const double *velocity,
+                          PetriStatus expected) {
+    assert_int_equal(petri_history_move_particle(history, system, particle, position, velocity), expected);
+}
+
+static void digest_now(Player *player, uint8_t digest[16]) {
+    assert_int_equal(petri_digest(player->session, digest), PETRI_OK);
+}
+
+// A move is a part of its frame, wherever the timeline starts, and discards the frames after it.
+static void test_moves_are_part_of_their_frames(void **state) {
+    static const double there[] = {3, 4}, fast[] = {-50, 9};
+    Player *player = *state;
+    PetriSystem system;
+    start_history(player);
+    move_particle(0, 0, there, NULL, PETRI_INVALID); // there are no particles yet
+    step(player, 30);
+    move_particle(0, 2, there, NULL, PETRI_OK);
+    move_particle(0, 2, NULL, fast, PETRI_OK);
+    move_particle(0, 3, there, there, PETRI_OK);
+    hashes[29] = state_hash(player);
+    assert_true(petri_system(player->session, 0, &system, sizeof system));
+    assert_memory_equal(system.position.data + 2 * system.position.stride, there, sizeof there);
+    assert_memory_equal(system.velocity.data + 2 * system.velocity.stride, fast, sizeof fast);
+    step(player, 30);
+    assert_true(petri_history_is_moved(history, 29) && !petri_history_is_moved(history, 28));
+    static const int64_t way[] = {20, 29, 30, 28, 59, 29, 3, 45, 29, 59};
+    for (size_t i = 0; i < sizeof way / sizeof way[0]; i++)
+        go_to(player, way[i]);
+    assert_int_equal(petri_history_rewind(history, 30), PETRI_OK);
+    while (petri_frame_number(player->session) < 59) {
+        uint64_t before = hashes[petri_frame_number(player->session) + 1];
+        step(player, 1);
+        assert_true(hashes[petri_frame_number(player->session)] == before);
+    }
+    go_to(player, 29);
+    step(player, 1);
+    go_to(player, 29);
+    assert_int_equal(petri_history_start(history, NULL), PETRI_OK);
+    move_particle(0, 0, there, NULL, PETRI_OK); // in the first frame
+    assert_int_equal(info().last, 29);
+    hashes[29] = state_hash(player);
+    step(player, 20);
+    assert_int_equal(petri_history_reset(history), PETRI_OK);
+    assert_true(state_hash(player) == hashes[29]);
+    go_to(player, 40);
+    go_to(player, 49);
+    petri_history_free(history);
+}
+
+// Moves that are not valid change nothing, nor does a move to where a particle is.
+static void test_moves_without_effect(void **state) {
+    static const double infinite[] = {1, INFINITY}, there[] = {1, 2};
+    Player *player = *state;
+    PetriSystem system;
+    uint8_t before[16], after[16];
+    start_history(player);
+    assert_int_equal(player_load(player, "!physics state=:p dimensions=2\n    !particle id=0 position=1;2\n"
+                                         "    !anchor id=1 position=0;0\n"),
+                     PETRI_OK);
+    assert_int_equal(petri_history_start(history, NULL), PETRI_OK);
+    step(player, 9);
+    digest_now(player, before);
+    move_particle(1, 0, there, there, PETRI_INVALID);
+    move_particle(0, 2, there, there, PETRI_INVALID);
+    move_particle(0, 1, there, there, PETRI_INVALID); // an anchor
+    move_particle(0, 0, there, infinite, PETRI_INVALID);
+    move_particle(0, 0, infinite, there, PETRI_INVALID);
+    assert_false(petri_history_is_moved(history, 8));
+    assert_true(petri_system(player->session, 0, &system, sizeof system));
+    move_particle(0, 0, system.position.data, system.velocity.data, PETRI_OK);
+    digest_now(player, after);
+    assert_memory_equal(before, after, sizeof after);
+    petri_history_free(history);
+}
+
 TEST_GROUP(session_history) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_goto_any_frame_gives_same_bits),        PLAYER_TEST(test_change_applies_to_later_frames),
         PLAYER_TEST(test_goto_before_start_is_rejected),         PLAYER_TEST(test_many_changes_drop_the_oldest_frames),
         PLAYER_TEST(test_changes_without_snapshots_are_limited), PLAYER_TEST(test_recompute_restores_whole_frame),
+        PLAYER_TEST(test_moves_are_part_of_their_frames),        PLAYER_TEST(test_moves_without_effect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

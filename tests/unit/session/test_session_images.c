@@ -196,8 +196,25 @@ static void check_frame(PetriSession *session, PetriHistory *history, int64_t *l
     memcpy(known->digests[frame], digest, sizeof digest);
 }
 
-// Goes back and forth at random, changes the configuration at random, and compares each frame that is computed again.
-// The history may keep only few snapshots.
+// Moves a particle of the current frame. The arguments may be invalid.
+static void move_particle(PetriSession *session, PetriHistory *history, uint64_t *random, int64_t *last) {
+    PetriSystem system;
+    double numbers[3];
+    size_t number = next_random(random, 2);
+    uint32_t particle = next_random(random, 5), chosen = next_random(random, 4);
+    for (int i = 0; i < 3; i++)
+        numbers[i] = next_random(random, 100) / 7.0;
+    bool exists = petri_system(session, number, &system, sizeof system) && particle < system.particle_count &&
+                  !system.anchor[particle * system.anchor_stride];
+    PetriStatus status = petri_history_move_particle(history, number, particle, chosen > 0 ? numbers : NULL,
+                                                     chosen != 1 ? numbers : NULL);
+    assert_int_equal(status, exists ? PETRI_OK : PETRI_INVALID);
+    assert_true(!exists || petri_history_is_moved(history, petri_frame_number(session)));
+    *last = exists ? petri_frame_number(session) - 1 : *last; // this frame has changed
+}
+
+// Goes back and forth at random, changes the configuration and moves particles at random, and compares each frame that
+// is computed again. The history may keep only few snapshots.
 static void test_history_gives_the_same_digests(void **state) {
     static Known known;
     Player *player = *state;
@@ -210,7 +227,7 @@ static void test_history_gives_the_same_digests(void **state) {
         for (int i = 0; i < 150; i++) {
             PetriHistoryInfo info;
             assert_true(petri_history_info(history, &info, sizeof info));
-            uint32_t kind = next_random(&random, 12);
+            uint32_t kind = next_random(&random, 14);
             int64_t span = info.last - info.first + 1, frame = info.first + next_random(&random, (uint32_t)span);
             if (kind == 0)
                 change_config(session, &random);
@@ -220,6 +237,8 @@ static void test_history_gives_the_same_digests(void **state) {
                 assert_int_equal(petri_history_rewind(history, frame), PETRI_OK);
             else if (kind == 3)
                 assert_int_equal(petri_history_recompute(history), PETRI_OK);
+            else if (kind == 12)
+                move_particle(session, history, &random, &last);
             else if (kind < 8 && petri_frame_number(session) < MAX_FRAME - 1)
                 assert_int_equal(petri_history_step(history), PETRI_OK);
             else if (petri_frame_number(session) < MAX_FRAME - 40)

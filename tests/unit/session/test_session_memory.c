@@ -224,6 +224,17 @@ static PetriStatus act_state(Stage *stage) {
     return status;
 }
 
+// Moves a particle, and repeats the move when its frame is computed again.
+static PetriStatus act_move(Stage *stage) {
+    const double vector[] = {3, 4};
+    PetriHistory *history = petri_history_new(stage->player.session, 0);
+    PetriStatus status = of_pointer(history);
+    if (status == PETRI_OK)
+        status = petri_history_move_particle(history, 0, 1, vector, vector);
+    petri_history_free(history);
+    return status;
+}
+
 static PetriStatus act_set_global(Stage *stage) {
     return petri_set_global(stage->player.session, "given", some_value);
 }
@@ -421,6 +432,7 @@ static const Row rows[] = {
     {"systems", act_systems, false},
     {"explain", act_explain, false},
     {"state", act_state, false},
+    {"move", act_move, false},
     {"give", act_set_global, false},
     {"add a function", act_add_function, false},
     {"picture", act_picture, false},

@@ -224,6 +224,7 @@ static void test_null_arguments_are_accepted(void **state) {
         petri_evaluate(none, "1", 1, &result, sizeof result, NULL, NULL),
         petri_evaluate(session, NULL, 0, &result, sizeof result, NULL, NULL),
         petri_evaluate(session, "1", 1, NULL, 0, NULL, NULL),
+        petri_history_move_particle(NULL, 0, 0, NULL, NULL),
         petri_set_parameter(none, "A", "1"),
         petri_set_parameter(session, NULL, "1"),
     };
@@ -241,6 +242,7 @@ static void test_null_arguments_are_accepted(void **state) {
     petri_config_apply(NULL, NULL);
     petri_config_apply(session, NULL);
     assert_null(petri_snapshot(NULL));
+    assert_false(petri_history_is_moved(NULL, 0));
     assert_null(petri_config_get(NULL));
     assert_null(petri_source_file(NULL, 0));
     assert_null(petri_visible_name(NULL, 0));
