@@ -47,6 +47,29 @@ export async function visited(url, { settings = {}, prepare, ready, use, expecte
     await context.close();
 }
 
+// Playwright's other protocol needs a Firefox of theirs. The unset features cannot be emulated through WebDriver BiDi.
+const FIREFOX = '/usr/bin/firefox-esr';
+const CONTEXT = { viewport: { width: 1280, height: 800 }, colorScheme: null, reducedMotion: null, forcedColors: null, contrast: null };
+export const firefoxOptions = { skip: options.skip || (existsSync(FIREFOX) ? false : `missing: ${FIREFOX}`), timeout: 180000 };
+
+// Opens the page in Firefox, which must not log messages to the console.
+export async function openedInFirefox(use) {
+    const { firefox } = await import(pathToFileURL(modules));
+    const browser = await firefox.launch({ executablePath: FIREFOX, channel: 'moz-firefox', headless: true });
+    try {
+        const page = await (await browser.newContext(CONTEXT)).newPage(), said = [];
+        page.setDefaultTimeout(120000);
+        page.on('console', message => said.push(message.text()));
+        page.on('pageerror', error => said.push(error.message));
+        await page.goto(world.server.url);
+        await page.waitForFunction(() => document.body.dataset.ready);
+        await use(page);
+        assert.deepEqual(said, []);
+    } finally {
+        await browser.close();
+    }
+}
+
 export const opened = (hash, how) => visited(world.server.url + hash, { ready: () => document.body.dataset.ready, ...how });
 
 export const frameOf = page => page.evaluate(() => Number(document.body.dataset.frame));

@@ -5,10 +5,13 @@ import { HighlightStyle, StreamLanguage, bracketMatching, indentUnit, syntaxHigh
 import { lintGutter, setDiagnostics } from '@codemirror/lint';
 import { highlightSelectionMatches, searchKeymap } from '@codemirror/search';
 import { EditorState } from '@codemirror/state';
-import { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from '@codemirror/view';
+import {
+    Decoration, EditorView, ViewPlugin, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers,
+} from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import { dragNumbers } from './drag_numbers.mjs';
 
+const MAX_INDENT = 24; // columns by which wrapped lines are indented
 const KEYWORDS = /^(let|func|for|in|if|elif|else|where|import|from|stable|and|or|not|true|false|null|debug)\b/;
 
 const flitter = StreamLanguage.define({
@@ -59,6 +62,24 @@ const theme = EditorView.theme({
     '.cm-help': { padding: '.3em .6em', maxWidth: '40em' },
 });
 
+// Wrapped lines continue two columns to the right of their first character. Lines are wrapped only on the screen.
+const hangingIndent = ViewPlugin.define(view => ({ decorations: indented(view), update(update) {
+    if (update.docChanged || update.viewportChanged)
+        this.decorations = indented(update.view);
+} }), { decorations: plugin => plugin.decorations });
+
+function indented(view) {
+    const marks = [];
+    for (const { from, to } of view.visibleRanges)
+        for (let at = from; at <= to;) {
+            const line = view.state.doc.lineAt(at), columns = Math.min(line.text.search(/\S|$/), MAX_INDENT) + 2;
+            marks.push(Decoration.line({ attributes: { style: `padding-left: calc(6px + ${columns}ch); text-indent: -${columns}ch` } })
+                .range(line.from));
+            at = line.to + 1;
+        }
+    return Decoration.set(marks);
+}
+
 // Converts a position to an offset. petri's columns count characters; CodeMirror's offsets count UTF-16 code units.
 function offset(state, line, column) {
     if (line < 1 || line > state.doc.lines)
@@ -72,6 +93,7 @@ export class Editor {
         this.help = help;
         this.extensions = [
             lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), closeBrackets(),
+            EditorView.lineWrapping, hangingIndent,
             highlightSelectionMatches(), indentUnit.of('    '), flitter, syntaxHighlighting(colours), lintGutter(), theme,
             autocompletion({ override: [context => this.complete(context)] }),
             hoverTooltip((view, at) => this.explain(view, at)),

@@ -4,7 +4,7 @@ export class Keys {
     // page: has the dish, live and editor. actions: save and savePicture, functions.
     constructor(root, page, actions) {
         const $ = id => root.getElementById(id);
-        Object.assign(this, { page, actions, frame: $('frame'), dialog: $('keys'), places: [$('frame'), $('below')] });
+        Object.assign(this, { page, actions, frame: $('frame'), dialog: $('keys'), places: [$('frame'), $('below'), $('parameters')] });
         $('help').onclick = () => this.dialog.showModal();
         $('keys-close').onclick = () => this.dialog.close();
         $('full').hidden = !root.fullscreenEnabled;

@@ -120,6 +120,7 @@ function listen() {
 
 async function begin() {
     $('below').innerHTML = CONTROLS;
+    $('tabs').before($('parameters'));
     const start = globalThis.petriStart ?? { source: new URL('petri/engine.wasm', location.href).href };
     const dish = page.dish = new Dish($('picture'), host, start);
     const given = await (await fetch('samples.json')).json();

@@ -1,8 +1,8 @@
-// splitter.mjs: the line between script and picture, which the pointer and arrow keys move.
+// splitter.mjs: the line between picture and script, which the pointer and arrow keys move.
 import { readSetting, storeSetting } from './settings.mjs';
 
-const PLACE = 'petri.split';
-const MIN = 15, MAX = 85, STEP = 2, USUAL = 50; // per cent of the width
+const PLACE = 'petri.picture';
+const MIN = 15, MAX = 85, STEP = 2, USUAL = 55; // per cent of the width
 
 export class Splitter {
     constructor(line) {
