@@ -10,7 +10,7 @@ const RULER = '-'.repeat(80);
 
 // Returns names and licences of all packages in an esbuild metafile, sorted by name. Throws if a package has no licence file.
 export function packagesOf(metafile) {
-    const folders = Object.keys(metafile.inputs).map(path => /^(.*node_modules\/(?:@[^/]+\/)?[^/]+)\//.exec(path)?.[1]);
+    const folders = Object.keys(metafile.inputs).map(path => /^(?:\(disabled\):)?(.*node_modules\/(?:@[^/]+\/)?[^/]+)\//.exec(path)?.[1]);
     return [...new Set(folders)].filter(Boolean).map(folder => {
         const { name, version } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
         const file = readdirSync(folder).find(entry => /^(licen[sc]e|copying)/i.test(entry));

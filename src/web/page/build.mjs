@@ -8,13 +8,14 @@ import { packagesOf, writeLicences } from '../../packaging/licences.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [, , output, samples] = process.argv;
+const LATER = ['node:fs/promises', './exports.js']; // modules that are loaded when they are needed
 const { metafile } = await build({
     entryPoints: {
         page: join(here, 'main.mjs'), start: join(here, 'preload.mjs'), worker: join(here, 'worker.mjs'),
-        'petri-dish': join(here, 'embed.mjs'),
+        'petri-dish': join(here, 'embed.mjs'), exports: join(here, 'exports.mjs'),
     },
     outdir: output, bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.css': 'text' },
-    external: ['node:fs/promises'], logLevel: 'warning', metafile: true,
+    external: LATER, logLevel: 'warning', metafile: true,
 });
 writeLicences(join(output, 'third-party-licences.txt'), packagesOf(metafile));
 for (const name of ['index.html', 'style.css', 'offline.js'])
@@ -30,7 +31,7 @@ writeFileSync(join(output, 'samples.json'), JSON.stringify({ scripts: texts, fil
 // The page of `petri link --html`, which contains everything but the script. `petri link` replaces the text of #petri-data.
 const { outputFiles: [code, worker] } = await build({
     entryPoints: [join(here, 'standalone.mjs'), join(here, 'worker.mjs')], outdir: output, bundle: true, minify: true, format: 'iife',
-    target: 'es2022', write: false, logLevel: 'warning', logOverride: { 'empty-import-meta': 'silent' }, external: ['node:fs/promises'],
+    target: 'es2022', write: false, logLevel: 'warning', logOverride: { 'empty-import-meta': 'silent' }, external: LATER,
 });
 const packed = bytes => gzipSync(bytes, { level: 9 }).toString('base64');
 const filled = [

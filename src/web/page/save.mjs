@@ -1,6 +1,7 @@
-// save.mjs: saves files: the script, or, with a dialog, the picture, a video, the particles or the state.
+// save.mjs: saves files: the script, or, with a dialog, the picture, a film, the particles or the state.
+import { errorText } from './dish.mjs';
 
-const SUFFIXES = { film: 'webm', particles: 'csv', state: 'csv' };
+const RANGED = ['gif', 'mp4', 'webm', 'particles']; // kinds that contain a range of frames
 const SECONDS = 5; // default length of a video in seconds; longer if more frames have been computed
 
 export function saveAs(name, blob) {
@@ -34,17 +35,17 @@ export class SaveDialog {
         const { dish, get: $ } = this;
         dish.pause();
         $('export-status').textContent = '';
-        const [picture, film, , state] = $('saving-form').elements.kind;
-        picture.disabled = film.disabled = !dish.draws;
-        if (picture.disabled && (picture.checked || film.checked))
-            state.checked = true;
+        for (const choice of $('saving-form').elements.kind)
+            choice.disabled = !dish.draws && !/particles|state/.test(choice.value);
+        if (!dish.draws)
+            $('saving-form').elements.kind.value = 'state';
         $('saving-to').value = Math.max(dish.lastFrame, Math.ceil(dish.fps * SECONDS) - 1);
         this.arrange();
         this.dialog.showModal();
     }
 
     arrange() {
-        const ranged = this.kind === 'film' || this.kind === 'particles', $ = this.get;
+        const ranged = RANGED.includes(this.kind), $ = this.get;
         $('saving-from').disabled = $('saving-to').disabled = !ranged;
         $('saving-range').classList.toggle('off', !ranged);
     }
@@ -58,7 +59,7 @@ export class SaveDialog {
 
     async save() {
         const { dish, kind, get: $ } = this;
-        const name = `${this.stem()}${kind === 'state' ? `-${dish.frame}` : ''}.${SUFFIXES[kind]}`;
+        const name = kind === 'state' ? `${this.stem()}-${dish.frame}.csv` : `${this.stem()}.${kind === 'particles' ? 'csv' : kind}`;
         if (kind === 'picture') {
             this.savePicture();
             this.dialog.close();
@@ -73,7 +74,11 @@ export class SaveDialog {
         dish.remote.progress = ({ done, of }) => Object.assign(progress, { value: done, max: of });
         Object.assign(progress, { hidden: false, value: 0, max: 1 });
         this.working = $('saving-go').disabled = true;
-        const answer = await dish.attempt('save', { kind, from, to });
+        let problem = '';
+        const answer = await dish.ask('save', { kind, from, to }).catch(async error => {
+            problem = errorText(error);
+            await dish.fail(error);
+        });
         this.working = $('saving-go').disabled = false;
         progress.hidden = true;
         if (answer) {
@@ -83,7 +88,6 @@ export class SaveDialog {
         await this.stopping;
         if (dish.loaded !== null)
             await dish.seek(at);
-        if (!answer)
-            $('export-status').textContent = 'The export failed. The message under the picture shows the reason.';
+        $('export-status').textContent = problem;
     }
 }

@@ -1,7 +1,6 @@
 // worker.mjs: the engine's thread. It answers every message, one at a time, so the page knows when the thread is idle.
 import { loadEngine } from '../engine/petri.mjs';
-import { makeFilm, makeState, makeTable } from './exports.mjs';
-import { addImage, imageOf } from './paint.mjs';
+import { addImage, imageOf, paint, sizeOf } from './paint.mjs';
 import { Player } from './player.mjs';
 import { passes } from './task.mjs';
 import { StateTable, Watches } from './tables.mjs';
@@ -181,11 +180,8 @@ const handlers = {
     // Exports a range of frames to a file.
     async save({ id, kind, from, to }) {
         const range = { from, to, shouldInterrupt, onProgress: (done, of) => postMessage({ type: 'progress', id, done, of }) };
-        return {
-            type: 'saved',
-            blob: await (kind === 'film' ? makeFilm(player, images, picture, range)
-                : kind === 'particles' ? makeTable(player, range) : makeState(player)),
-        };
+        const { makeFile } = await import('./exports.js');
+        return { type: 'saved', blob: await makeFile(kind, { player, images, show: picture, paint, sizeOf }, range) };
     },
     pointer({ inside, x, y, buttons }) {
         player.session.pointer(inside, x, y, buttons);

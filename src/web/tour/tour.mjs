@@ -88,7 +88,7 @@ async function makeFilm() {
     dish.pause();
     progress.hidden = false;
     dish.remote.progress = ({ done, of }) => Object.assign(progress, { value: done, max: of });
-    const answer = await dish.attempt('save', { kind: 'film', from: 0, to: lesson.film - 1 });
+    const answer = await dish.attempt('save', { kind: 'webm', from: 0, to: lesson.film - 1 });
     progress.hidden = true;
     if (answer)
         saveAs('petri.webm', answer.blob);
