@@ -10,6 +10,7 @@
 #   ```c NAME.c                 writes a file of that name
 #   ```console                  runs lines `$ COMMAND`; the following lines are the expected output, in which a line
 #                               `...` matches any number of lines
+#   ```session ARGUMENTS        gives the inputs of a session to `petri repl ARGUMENTS`; the block is its expected output
 #   ![…](PATH/NAME.png)         if an earlier command made NAME.png, it must have the size in pixels of the stored picture
 #                               and about its file size; --update stores the new picture
 #   [text](PATH#HEADING)        the file and the heading must exist
@@ -42,6 +43,10 @@ mkdir "$work/bin"
 ln -s "$petri" "$work/bin/petri"
 PATH=$work/bin:$PATH
 export PATH
+# For pages that commit scripts.
+GIT_AUTHOR_NAME=reader GIT_AUTHOR_EMAIL=reader@example.org
+GIT_COMMITTER_NAME=$GIT_AUTHOR_NAME GIT_COMMITTER_EMAIL=$GIT_AUTHOR_EMAIL
+export GIT_AUTHOR_NAME GIT_AUTHOR_EMAIL GIT_COMMITTER_NAME GIT_COMMITTER_EMAIL
 
 can_draw=yes
 printf '!window size=1;1\n    !canvas\n' >"$work/empty.fl"
@@ -78,15 +83,29 @@ split() { # PAGE FOLDER
                 text = folder "/" count ".text"
                 printf "" > text
             }
+            if ($1 == "```session") {
+                sub(/^```session */, "")
+                step("command")
+                print "petri repl " $0 " <" folder "/" count ".in 2>&1" > (folder "/" count ".command")
+                close(folder "/" count ".command")
+                wanted = folder "/" count ".want"
+                inputs = folder "/" count ".in"
+            }
             next
         }
         fence != "" && /^```[ \t]*$/ {
             if (text) close(text)
-            text = fence = ""
+            if (inputs) close(inputs)
+            text = inputs = fence = ""
             finish()
             next
         }
         text { print > text }
+        inputs {
+            print > wanted
+            if (match($0, /^(petri|@[0-9]+)> ?/) || match($0, /^\.\.\.( |$)/))
+                print substr($0, RLENGTH + 1) > inputs
+        }
         fence == "```console" && /^\$ / {
             finish()
             step("command")
