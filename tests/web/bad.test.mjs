@@ -105,7 +105,7 @@ test('without shared memory, stop ends the engine, and another one starts', opti
 const LOST = [['petri/engine.wasm', /cannot load the engine: .* returned status 404/], ['worker.js', /cannot start the engine/]];
 for (const [file, message] of LOST)
     test(`a page that cannot load ${file} reports it and shows the text`, options, () => visited(world.server.url, {
-        prepare: page => page.route(`**/${file}`, route => route.fulfill({ status: 404 })),
+        prepare: page => page.route(`**/${file}*`, route => route.fulfill({ status: 404 })),
         expected: /404|willReadFrequently|MIME|Failed to/,
         ready: () => document.getElementById('message').textContent,
         use: async page => {
@@ -149,8 +149,9 @@ test('a script of a link cannot read files or use the network', options, async (
             assert.doesNotMatch(await page.textContent('#printed'), /'/);
         },
     });
-    const own = ['', 'start.js', 'page.js', 'style.css', 'samples.json', 'worker.js', 'petri/engine.wasm', 'petri-dish.js', 'offline.js'];
-    const others = asked.map(url => url.replace(/#.*/, ''))
+    const own = ['', 'start.js', 'page.js', 'style.css', 'samples.json', 'worker.js', 'petri/engine.wasm', 'petri-dish.js', 'offline.js',
+        'icon.svg'];
+    const others = asked.map(url => url.replace(/[?#].*/, ''))
         .filter(url => !own.some(name => url === world.server.url + name) && !/^(data|blob):/.test(url));
     assert.deepEqual(others, []);
 });

@@ -53,15 +53,15 @@ const CONTEXT = { viewport: { width: 1280, height: 800 }, colorScheme: null, red
 export const firefoxOptions = { skip: options.skip || (existsSync(FIREFOX) ? false : `missing: ${FIREFOX}`), timeout: 180000 };
 
 // Opens the page in Firefox, which must not log messages to the console.
-export async function openedInFirefox(use) {
+export async function openedInFirefox(use, url = world.server.url) {
     const { firefox } = await import(pathToFileURL(modules));
     const browser = await firefox.launch({ executablePath: FIREFOX, channel: 'moz-firefox', headless: true });
     try {
         const page = await (await browser.newContext(CONTEXT)).newPage(), said = [];
         page.setDefaultTimeout(120000);
-        page.on('console', message => said.push(message.text()));
+        page.on('console', message => /willReadFrequently|Service ?Worker/.test(message.text()) || said.push(message.text()));
         page.on('pageerror', error => said.push(error.message));
-        await page.goto(world.server.url);
+        await page.goto(url);
         await page.waitForFunction(() => document.body.dataset.ready);
         await use(page);
         assert.deepEqual(said, []);

@@ -36,7 +36,7 @@ const restore = page => inWorker(page, 'restoreContext');
 // Opens the page with a worker whose WebGL context can be lost. The browser logs a warning for each loss.
 const withLoss = use => opened('', {
     expected: /willReadFrequently|CONTEXT_LOST_WEBGL|GPU stall|restoreContext/,
-    prepare: page => page.route('**/worker.js', async route => {
+    prepare: page => page.route('**/worker.js*', async route => {
         const response = await route.fetch();
         await route.fulfill({ response, body: `OffscreenCanvas.prototype.getContext = (get => function (kind, ...more) {
             const context = get.call(this, kind, ...more);

@@ -143,7 +143,7 @@ test('nodes that need WebGL 2 are reported below the picture', options, () => em
     '<petri-dish><pre>!window size=64;32\n    !bloom radius=2\n        !canvas\n</pre></petri-dish>', async page => {
         assert.equal(await page.textContent(within('#message')), 'Not drawn: bloom. This browser does not support WebGL 2.');
     }, {
-        prepare: page => page.route('**/worker.js', async route => {
+        prepare: page => page.route('**/worker.js*', async route => {
             const response = await route.fetch();
             await route.fulfill({ response, body: `OffscreenCanvas.prototype.getContext = (get => function (kind, ...more) {
                 return kind === 'webgl2' ? null : get.call(this, kind, ...more); })(OffscreenCanvas.prototype.getContext);

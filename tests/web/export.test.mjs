@@ -131,7 +131,7 @@ test('Firefox exports the same GIF as Chromium, and an MP4', { ...firefoxOptions
 });
 
 test('without WebCodecs, the dialog says why there is no video, and the page continues', options, () => opened('', {
-    prepare: page => page.route('**/worker.js', async route => {
+    prepare: page => page.route('**/worker.js*', async route => {
         const response = await route.fetch();
         await route.fulfill({ response, body: `delete globalThis.VideoEncoder;${await response.text()}` });
     }),

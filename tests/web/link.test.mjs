@@ -51,7 +51,7 @@ test('a link that exceeds the limit of work stops in the page after the same fra
     assert.equal(status, 1);
     const [, frame] = stderr.match(new RegExp(`stopped after frame (\\d+): the link exceeded its limit of ${LIMIT} units`));
     await opened(link, {
-        prepare: page => page.route('**/worker.js', async route => {
+        prepare: page => page.route('**/worker.js*', async route => {
             const response = await route.fetch(), body = await response.text();
             const changed = body.replace(/[\w.]+\.web_link_work_limit\(\)/, LIMIT);
             assert.notEqual(changed, body);

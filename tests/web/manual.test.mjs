@@ -135,7 +135,7 @@ test('pages are accessible, in light and dark, on a phone, and offline', ways, a
         assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true);
         await page.waitForFunction(() => navigator.serviceWorker.controller);
         await page.evaluate(async () => {
-            while (!await (await caches.open('petri')).match('functions.html'))
+            while (!await caches.match('tutorial.html'))
                 await new Promise(resolve => setTimeout(resolve, 20));
         });
         await page.waitForLoadState('networkidle'); // requests that are under way would fail

@@ -113,7 +113,7 @@ test('the speed menu sets the number of frames per second', options, () => opene
     },
 }));
 
-const withoutWebgl = page => page.route('**/worker.js', async route => {
+const withoutWebgl = page => page.route('**/worker.js*', async route => {
     const response = await route.fetch(), get = 'OffscreenCanvas.prototype.getContext';
     const without = `const get = ${get};
         ${get} = function (kind, ...more) { return kind === 'webgl2' ? null : get.call(this, kind, ...more); };`;

@@ -107,7 +107,7 @@ test('the first page leads to the tour, which works offline', ways, () => opened
     settings: { reducedMotion: 'no-preference' },
     use: async (page, context) => {
         await page.click('a:text-is("Tour")');
-        await page.waitForFunction(() => document.body.dataset.offline && document.body.dataset.task);
+        await page.waitForFunction(async () => document.body.dataset.task && await caches.match('tour.js'));
         await page.waitForLoadState('networkidle'); // requests that are under way would fail
         await context.setOffline(true);
         await page.goto(`${world.server.url}tour/${fileOf(LESSONS.length - 1)}`);

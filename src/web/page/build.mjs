@@ -1,4 +1,5 @@
 // build.mjs OUTPUT SAMPLES: bundles the page with esbuild.
+import { createHash } from 'node:crypto';
 import { copyFileSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -8,17 +9,29 @@ import { packagesOf, writeLicences } from '../../packaging/licences.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [, , output, samples] = process.argv;
-const LATER = ['node:fs/promises', './exports.js']; // modules that are loaded when they are needed
-const { metafile } = await build({
-    entryPoints: {
-        page: join(here, 'main.mjs'), start: join(here, 'preload.mjs'), worker: join(here, 'worker.mjs'),
-        'petri-dish': join(here, 'embed.mjs'), exports: join(here, 'exports.mjs'),
-    },
-    outdir: output, bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.css': 'text' },
-    external: LATER, logLevel: 'warning', metafile: true,
-});
-writeLicences(join(output, 'third-party-licences.txt'), packagesOf(metafile));
-for (const name of ['index.html', 'style.css', 'offline.js'])
+const OPTIONS = { external: ['node:fs/promises'], bundle: true, minify: true, target: 'es2022', logLevel: 'warning' };
+const inputs = {};
+// The addresses of files that are loaded later, with their hashes, so that a page never loads those of another version (offline.js).
+const define = {};
+
+async function bundle(entryPoints) {
+    const entries = Object.entries(entryPoints).map(([name, file]) => [name, join(here, file)]);
+    const { metafile } = await build({
+        ...OPTIONS, entryPoints: Object.fromEntries(entries), outdir: output, format: 'esm', loader: { '.css': 'text' },
+        metafile: true, define,
+    });
+    Object.assign(inputs, metafile.inputs);
+    for (const [name] of entries) {
+        const hash = createHash('sha256').update(readFileSync(join(output, `${name}.js`))).digest('base64').slice(0, 8);
+        define[`${name.replace('-', '_').toUpperCase()}_FILE`] = JSON.stringify(`./${name}.js?v=${encodeURIComponent(hash)}`);
+    }
+}
+
+await bundle({ exports: 'exports.mjs' });
+await bundle({ worker: 'worker.mjs' });
+await bundle({ page: 'main.mjs', start: 'preload.mjs', 'petri-dish': 'embed.mjs' });
+writeLicences(join(output, 'third-party-licences.txt'), packagesOf({ inputs }));
+for (const name of ['index.html', 'style.css', 'icon.svg', 'manifest.webmanifest'])
     copyFileSync(join(here, name), join(output, name));
 const files = folder => readdirSync(join(samples, folder)).filter(name => name.endsWith('.fl'))
     .map(name => [`${folder}/${name}`, readFileSync(join(samples, folder, name), 'utf8')]);
@@ -30,8 +43,8 @@ writeFileSync(join(output, 'samples.json'), JSON.stringify({ scripts: texts, fil
 
 // The page of `petri link --html`, which contains everything but the script. `petri link` replaces the text of #petri-data.
 const { outputFiles: [code, worker] } = await build({
-    entryPoints: [join(here, 'standalone.mjs'), join(here, 'worker.mjs')], outdir: output, bundle: true, minify: true, format: 'iife',
-    target: 'es2022', write: false, logLevel: 'warning', logOverride: { 'empty-import-meta': 'silent' }, external: LATER,
+    ...OPTIONS, entryPoints: [join(here, 'standalone.mjs'), join(here, 'worker.mjs')], outdir: output, format: 'iife', write: false,
+    logOverride: { 'empty-import-meta': 'silent' },
 });
 const packed = bytes => gzipSync(bytes, { level: 9 }).toString('base64');
 const filled = [

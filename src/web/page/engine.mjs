@@ -1,5 +1,6 @@
 // engine.mjs: the page's side of the worker: requests, answers, and restarting a worker that does not respond.
 
+/* global WORKER_FILE -- build.mjs defines the address of worker.js. */
 const PATIENCE = 3000; // ms that an interrupted request may take to stop; after that, the engine is terminated
 
 // Creates a worker. A worker must have the same origin as the page. If the script at `url` has another origin, creates a worker of the
@@ -15,9 +16,9 @@ function makeWorker(url) {
 // Starts a worker: worker.js, or the result of the global function `petriWorker` if the page has set it. Its property `broken` is a promise
 // that resolves when the worker fails, possibly before the first request.
 export function startWorker() {
-    const worker = globalThis.petriWorker?.() ?? makeWorker(new URL('./worker.js', import.meta.url));
+    const worker = globalThis.petriWorker?.() ?? makeWorker(new URL(WORKER_FILE, import.meta.url));
     worker.broken = new Promise(resolve => {
-        worker.onerror = event => resolve(event.message || 'cannot start the engine: worker.js cannot be loaded');
+        worker.onerror = event => resolve(event.message || 'cannot start the engine: worker.js cannot be loaded; reload the page');
     });
     return worker;
 }

@@ -5,6 +5,7 @@ import { Player } from './player.mjs';
 import { passes } from './task.mjs';
 import { StateTable, Watches } from './tables.mjs';
 
+/* global EXPORTS_FILE -- build.mjs defines the address of exports.js. */
 const STEP_TIME = 30; // ms that the frames of one picture may take
 const SEEK_STEPS = 50; // frames between checks for new requests
 let engine, player, checker, hasArchives = false, reported = [], flag = null, current = 0;
@@ -180,7 +181,9 @@ const handlers = {
     // Exports a range of frames to a file.
     async save({ id, kind, from, to }) {
         const range = { from, to, shouldInterrupt, onProgress: (done, of) => postMessage({ type: 'progress', id, done, of }) };
-        const { makeFile } = await import('./exports.js');
+        const { makeFile } = await import(EXPORTS_FILE).catch(() => {
+            throw new Error('cannot load exports.js; reload the page');
+        });
         return { type: 'saved', blob: await makeFile(kind, { player, images, show: picture, paint, sizeOf }, range) };
     },
     pointer({ inside, x, y, buttons }) {

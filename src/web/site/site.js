@@ -80,11 +80,6 @@
         document.querySelector('nav details').open = false;
     $('served').hidden = location.protocol !== 'file:';
     if (location.protocol !== 'file:' && 'serviceWorker' in navigator)
-        navigator.serviceWorker.register('../offline.js').then(async () => {
-            await navigator.serviceWorker.ready;
-            const cache = await caches.open('petri');
-            const pages = [...document.querySelectorAll('nav[aria-label=Pages] a')].map(link => link.getAttribute('href'));
-            await cache.addAll(['index.html', 'index.js', 'search.js', 'site.css', 'site.js', 'try.js', ...pages]
-                .map(name => new URL(name, location.href).href));
-        }).catch(() => {});
+        navigator.serviceWorker.register('../offline.js').then(() => navigator.serviceWorker.ready)
+            .then(({ active }) => active.postMessage('manual/')).catch(() => {});
 }

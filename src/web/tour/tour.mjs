@@ -127,11 +127,7 @@ async function begin() {
     document.body.dataset.ready = 'yes';
     if ('serviceWorker' in navigator && location.protocol !== 'file:') {
         await navigator.serviceWorker.register('../offline.js');
-        await navigator.serviceWorker.ready;
-        const names = [...$('lessons').querySelectorAll('a')].map(link => link.href);
-        await (await caches.open('petri')).addAll([...names, ...['./', 'tour.js', 'tour.css', '../worker.js', '../petri/engine.wasm']
-            .map(name => new URL(name, location.href).href)]);
-        document.body.dataset.offline = 'yes';
+        (await navigator.serviceWorker.ready).active.postMessage('tour/');
     }
 }
 
