@@ -188,3 +188,26 @@ test('axe finds nothing in the list of keys and on a phone', options, () => open
         assert.deepEqual(await violations(), []);
     },
 }));
+
+test('the search in the script says how many matches there are, also after an edit, and when there are none', options, () => opened('', {
+    use: async page => {
+        await typed(page, 'let a=1\nlet b=a+a\n');
+        await page.keyboard.press('Control+f');
+        const search = async (text, found) => {
+            await page.fill('.cm-search [name=search]', text);
+            await page.press('.cm-search [name=search]', 'End'); // the editor reads the field after a key
+            await page.waitForFunction(wanted => document.querySelector('.cm-search output')?.textContent === wanted, found);
+        };
+        await search('zebra', 'no matches');
+        await search('let b', '1 match');
+        await search('a', '3 matches');
+        await page.fill('.cm-search [name=replace]', 'long');
+        await page.press('.cm-search [name=replace]', 'End');
+        await page.click('.cm-search [name=replaceAll]');
+        await page.waitForFunction(() => document.querySelector('.cm-search output').textContent === 'no matches');
+        await page.check('.cm-search [name=re]');
+        await search('(', 'not a regular expression');
+        await search('l.n', '3 matches');
+        await search('', '');
+    },
+}));

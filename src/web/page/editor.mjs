@@ -10,6 +10,7 @@ import {
 } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import { dragNumbers } from './drag_numbers.mjs';
+import { showMatches } from './matches.mjs';
 
 const MAX_INDENT = 24; // columns by which wrapped lines are indented
 const KEYWORDS = /^(let|func|for|in|if|elif|else|where|import|from|stable|and|or|not|true|false|null|debug)\b/;
@@ -58,6 +59,8 @@ const theme = EditorView.theme({
     '.cm-gutters': { color: 'light-dark(#5a636e, #98a1ad)', backgroundColor: 'var(--panel)', border: 'none' },
     '.cm-activeLine': { backgroundColor: 'light-dark(#0b57a40d, #7cc0ff14)' },
     '&.cm-focused .cm-selectionBackground, .cm-selectionBackground': { backgroundColor: 'light-dark(#b7d4f4, #274b73) !important' },
+    '.cm-panels': { color: 'var(--front)', backgroundColor: 'var(--panel)' },
+    '.cm-panels button, .cm-panels input': { color: 'inherit', background: 'var(--back)', borderColor: 'var(--edge)' },
     '.cm-tooltip': { color: 'var(--front)', backgroundColor: 'var(--panel)' },
     '.cm-help': { padding: '.3em .6em', maxWidth: '40em' },
 });
@@ -94,7 +97,7 @@ export class Editor {
         this.extensions = [
             lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), closeBrackets(),
             EditorView.lineWrapping, hangingIndent,
-            highlightSelectionMatches(), indentUnit.of('    '), flitter, syntaxHighlighting(colours), lintGutter(), theme,
+            highlightSelectionMatches(), showMatches, indentUnit.of('    '), flitter, syntaxHighlighting(colours), lintGutter(), theme,
             autocompletion({ override: [context => this.complete(context)] }),
             hoverTooltip((view, at) => this.explain(view, at)),
             EditorView.contentAttributes.of({ 'aria-label': 'The script', 'aria-describedby': 'advice', tabindex: '0' }),
