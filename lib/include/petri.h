@@ -497,6 +497,23 @@ PETRI_API size_t petri_system_count(PetriSession *session);
 // out of memory.
 PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system, size_t size);
 
+// A force of the host, called once at the start of each physics step of each system, before any particle moves.
+// `system` describes the particles as in petri_system, but with the positions and velocities at the start of the step;
+// `force` and `anchor` are not available, and `steps` is 0. `clock` is the simulation clock of the system and `delta`
+// the length of the step, both in seconds. `force` has `dimensions` numbers for each particle, all 0: the function
+// adds forces there, which act on the particles like their attribute `force`, and are ignored for anchors. All
+// arguments are valid only during the call. Returns false to interrupt the frame. Must not call the session and must
+// return normally: no longjmp, no exception.
+//
+// Results stay deterministic if the forces depend only on the arguments. Threads do not affect the arguments. Frames
+// that are computed again (petri_rewind) and explanations of forces call the function again. The step accounts for the
+// force to first order, like for all forces.
+typedef bool PetriForceCallback(void *user_data, const PetriSystem *system, double clock, double delta, double *force);
+
+// Sets the force of the host from the next frame on; NULL: none. Potential energies do not include it. Archives cannot
+// record it. Returns PETRI_INVALID if called within a callback, or if the session has several ranks.
+PETRI_API PetriStatus petri_set_force_callback(PetriSession *session, PetriForceCallback *callback, void *user_data);
+
 // Sets whether the memory of columns stays readable, with unspecified contents, after the columns become invalid. Use
 // it in hosts that cannot control when columns are last read, such as garbage-collected languages. The memory counts
 // towards the memory limit. It is freed by a call with `keep` false, or by petri_close.

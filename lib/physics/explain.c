@@ -313,7 +313,7 @@ static bool explain_step(Probe *probe, uint32_t particle) {
     }
     if (columns->anchor[probe->target])
         return true;
-    phys_start_step(system, probe->result->clock);
+    phys_start_step(system, probe->result->clock, probe->result->delta);
     explain_own_force(probe);
     return explain_pairs(probe) && explain_singles(probe, probe->result->delta);
 }

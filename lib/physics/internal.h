@@ -197,6 +197,7 @@ struct PhysSystem {
     Buffer own_force_rows;   // n doubles by handle: the `force` attributes; valid unless OWN_FORCES_NONE
     Buffer last_rows;        // rows of the previous description, which the host can still read
     Buffer force_rows;       // n doubles by handle: the forces of the last step; used if PhysOptions.keep_forces
+    Buffer host_vectors;     // arguments of PhysOptions.add_forces
     Buffer start_rows;       // `rows` as they were before the last frame (explain.h); used if PhysOptions.keep_forces
     PhysTime last_time;      // argument of the last phys_simulate
     uint64_t last_steps;     // number of steps that it took; 0 if it failed
@@ -321,8 +322,8 @@ void phys_link_groups(PhysSystem *system);
 // Sets only Group.populated, from `parent` and `count`.
 void phys_link_populated(Group *groups, uint32_t group_count);
 
-// step.c: starts a step at `clock`: sets the strengths of all forces and the initial forces on all particles.
-void phys_start_step(PhysSystem *system, double clock);
+// step.c: starts a step of `delta` at `clock`: sets the strengths of all forces and the initial forces on all particles.
+void phys_start_step(PhysSystem *system, double clock, double delta);
 // Takes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 

@@ -46,8 +46,8 @@ static void add_attributes(Reordering *reordering, bool positions) {
         add_attribute(reordering, columns->own_force, columns->dimensions);
         add_attribute(reordering, columns->ease, 1);
     }
-    if (own || positions)
-        add_attribute(reordering, columns->force, columns->dimensions); // if neither is true, all forces are still 0
+    if (own || positions || system->options.add_forces)
+        add_attribute(reordering, columns->force, columns->dimensions); // in other cases, all forces are still 0
     if (!system->record_stride)
         return;
     double *numbers[] = {columns->radius, columns->mass, columns->charge, columns->section, columns->volume};

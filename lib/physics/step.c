@@ -52,10 +52,34 @@ static void start_forces(PhysSystem *system, double clock) {
         phys_parallel(system, phys_chunk_count(system, system->columns.count, MIN_FOR_THREADS), start_chunk, &start);
 }
 
-void phys_start_step(PhysSystem *system, double clock) {
+// Adds the forces of the host (PhysOptions.add_forces) to the initial forces. Sets system->failed if out of memory.
+static void add_host_forces(PhysSystem *system, double clock, double delta) {
+    enum { VECTORS = 3 }; // position, velocity, force
+    const Columns *columns = &system->columns;
+    size_t n = columns->dimensions, stride = columns->stride, length = n * system->particle_count;
+    if (!phys_buffer_reserve(system, &system->host_vectors, 0, system->particle_count, VECTORS * n * sizeof(double)))
+        return;
+    double *position = system->host_vectors.bytes, *velocity = position + length, *force = velocity + length;
+    for (size_t i = 0; i < columns->count; i++)
+        for (size_t k = 0, to = n * system->order[i]; k < n; k++, to++) {
+            position[to] = columns->position[k * stride + i];
+            velocity[to] = columns->velocity[k * stride + i];
+            force[to] = 0;
+        }
+    const PhysStepStart step = {system->dimensions, system->particle_count, clock, delta, position, velocity, force};
+    if (!system->options.add_forces(system->options.add_context, system, &step))
+        system->failed = true;
+    for (size_t i = 0; i < columns->count; i++)
+        for (size_t k = 0, from = n * system->order[i]; k < n && !columns->anchor[i]; k++, from++)
+            columns->force[k * stride + i] += force[from];
+}
+
+void phys_start_step(PhysSystem *system, double clock, double delta) {
     ease_strengths(system, clock);
     phys_far_forget(system);
     start_forces(system, clock);
+    if (system->options.add_forces && system->columns.count)
+        add_host_forces(system, clock, delta);
 }
 
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light) {
@@ -66,7 +90,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     work += columns->count * columns->dimensions / NUMBERS_A_UNIT + system->force_count;
     if (!phys_charge(system, work))
         return false;
-    phys_start_step(system, clock);
+    phys_start_step(system, clock, delta);
     phys_fused_next_step(&system->fused);
     // 1. Forces between particles. A particle moves only when all forces that need its position are complete.
     Move move = {delta, speed_of_light, false};

@@ -88,7 +88,20 @@ void phys_threads_free(PhysThreads *threads);
 // Divides the work of systems among processes (division.h).
 typedef struct PhysDivision PhysDivision;
 
-// How a system is computed. Results are bit-identical with all options but `old_rules`.
+// A step that is about to be taken. Vectors have n (= dimensions) doubles for each particle, by handle.
+typedef struct PhysStepStart {
+    uint32_t dimensions;
+    uint32_t particle_count;
+    double clock;
+    double delta;
+    const double *position;
+    const double *velocity;
+    double *force; // zeros, to which the host adds; forces on anchors are ignored
+} PhysStepStart;
+// Adds forces of the host at the start of a step. Returns false if out of memory.
+typedef bool PhysAddForces(void *add_context, const PhysSystem *system, const PhysStepStart *step);
+
+// How a system is computed. Results are bit-identical with all options but `old_rules` and `add_forces`.
 typedef struct PhysOptions {
     int threads;    // maximum number of threads, including the caller; <= 0: one per processor
     CpuLevel cpu;   // instruction set; limited to cpu_detected.level
@@ -100,6 +113,8 @@ typedef struct PhysOptions {
                        // (explain.h), which costs one copy of all rows per frame
     const PhysDivision *division; // other processes, which must outlive the system; NULL: none
     unsigned old_rules;           // rules of an earlier specification (base/spec.h)
+    PhysAddForces *add_forces;    // called in each step and by phys_explain; ignored with `division`; NULL: none
+    void *add_context;            // passed to add_forces
 } PhysOptions;
 
 // Replaces the options. A new system has one thread, the detected instruction set and automatic neighbour lists.

@@ -47,6 +47,7 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
     Value prefix = state_slot_key(frame->state, start);
     *system = (PhysicsSystem){
         .next = *scene->next_place,
+        .scene = scene,
         .start = start,
         .occurrence = occurrence,
         .last_frame = scene->frame_number - 1,
@@ -60,7 +61,7 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
     *scene->next_place = system;
     scene->next_place = &system->next;
     if (system->engine)
-        phys_set_options(system->engine, &scene->physics);
+        scene_set_engine(system);
     return system;
 }
 

@@ -31,13 +31,35 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
+static bool add_forces(void *context, const PhysSystem *engine, const PhysStepStart *step) {
+    const PhysicsSystem *system = context;
+    return system->scene->add_forces(system->scene->forces_host, system->start, engine, step);
+}
+
+void scene_set_engine(PhysicsSystem *system) {
+    PhysOptions options = system->scene->physics;
+    options.add_forces = system->scene->add_forces ? add_forces : NULL;
+    options.add_context = system;
+    phys_set_options(system->engine, &options);
+}
+
+static void set_engines(const Scene *scene) {
+    for (PhysicsSystem *system = scene->systems; system; system = system->next)
+        if (system->engine)
+            scene_set_engine(system);
+}
+
 void scene_set_rules(Scene *scene, unsigned old_rules) {
     if (scene->physics.old_rules == old_rules)
         return;
     scene->physics.old_rules = old_rules;
-    for (PhysicsSystem *system = scene->systems; system; system = system->next)
-        if (system->engine)
-            phys_set_options(system->engine, &scene->physics);
+    set_engines(scene);
+}
+
+void scene_set_forces(Scene *scene, SceneAddForces *add, void *host) {
+    scene->add_forces = add;
+    scene->forces_host = host;
+    set_engines(scene);
 }
 
 PhysThreads *scene_threads(const Scene *scene) {

@@ -29,6 +29,11 @@ void scene_free(Scene *scene);
 void scene_set_physics(Scene *scene, const PhysOptions *options);
 // Sets the rules by which the physics of all systems is computed (base/spec.h).
 void scene_set_rules(Scene *scene, unsigned old_rules);
+// Adds forces of the host at the start of a step of the system with the prefix in this slot. `engine` is the system or,
+// for explanations, a copy. Returns false if out of memory.
+typedef bool SceneAddForces(void *host, StateSlot prefix, const PhysSystem *engine, const PhysStepStart *step);
+// Sets the function that adds forces in each step of all systems; NULL: none.
+void scene_set_forces(Scene *scene, SceneAddForces *add, void *host);
 // Returns the thread pool that all systems share, or NULL if there is only one thread.
 PhysThreads *scene_threads(const Scene *scene);
 // Removes all systems, with what they store of the last frame's tree. Call it when the state dictionary is cleared.

@@ -29,6 +29,7 @@ typedef struct Link {
 // A system, which is retained between frames and identified by its prefix.
 struct PhysicsSystem {
     PhysicsSystem *next;
+    const Scene *scene;
     StateSlot start;     // slot of the prefix; its value is the time when the run started
     uint32_t occurrence; // number of earlier systems with the same prefix in a frame; usually 0
     StateSlot run;
@@ -85,6 +86,8 @@ struct Scene {
     uint64_t frame_number;
     bool origins_valid; // false: the nodes of the last update may have been freed
     PhysOptions physics;
+    SceneAddForces *add_forces; // NULL: none
+    void *forces_host;          // passed to add_forces
     uint32_t *bodies; // by slot: mark of its particle (physics_slots.c)
     uint32_t body_capacity;
     uint32_t body_base;                 // base of the marks of the tree read last (physics_slots.c)
@@ -120,6 +123,9 @@ struct PhysicsTree {
     uint32_t next_group;   // number of the next group to read
     uint32_t next_link;    // number of the next distance force to read
 };
+
+// scene.c: sets the options of a system's engine to those of the scene.
+void scene_set_engine(PhysicsSystem *system);
 
 // Returns the key prefix;id or, unless `last` is NULL, prefix;id;last.
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last);

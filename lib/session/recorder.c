@@ -30,7 +30,7 @@ bool recorder_is_interrupted(const PetriSession *session) {
 }
 
 uint32_t recorder_host_functions(const PetriSession *session) {
-    return session->functions.count;
+    return session->functions.count + (session->step_forces.callback != NULL);
 }
 
 void recorder_jump(PetriSession *session) {

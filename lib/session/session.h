@@ -62,6 +62,12 @@ typedef struct HostFunctions {
     uint32_t count;
 } HostFunctions;
 
+// A force that the host computes in each step.
+typedef struct StepForces {
+    PetriForceCallback *callback; // NULL: none
+    void *user_data;
+} StepForces;
+
 struct PetriConfig {
     uint32_t references;
     uint64_t revision;
@@ -108,6 +114,7 @@ struct PetriSession {
 
     HostGlobals host_globals;
     HostFunctions functions;
+    StepForces step_forces;
     Config config;
     PetriConfig *shared_config; // a copy of `config` for petri_config_get; NULL until that is called
     uint64_t config_revision;   // revision of `config`
@@ -145,6 +152,9 @@ PetriValue session_export_value(const Value *v);
 // Converts a public value and stores the result in *value. The items of a mixed value are copied to the arena. Arrays
 // of numbers and the bytes of strings still refer to the host's memory. Returns false if the value is not valid.
 bool session_import_value(Arena *arena, PetriValue host_value, Value *value);
+
+// Returns the public form of a system, without `steps`. Its columns have the lifetime of phys_columns.
+PetriSystem session_system(const PhysSystem *engine, const char *name, uint32_t dimensions);
 
 // Copies the names that the host set, with their values, from `session` to the session `to`.
 void session_copy_host_globals(const PetriSession *session, PetriSession *to);

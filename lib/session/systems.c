@@ -47,14 +47,13 @@ static PetriColumn public_column(PhysColumn column) {
     return (PetriColumn){column.numbers, column.stride};
 }
 
-static PetriStatus find_system(PetriSession *session, const Request *request, const SceneView *view) {
-    PhysColumns columns = phys_columns(view->engine);
-    *(PetriSystem *)request->out = (PetriSystem){
-        .name = system_name(session, request->system, view->prefix),
-        .dimensions = view->dimensions,
-        .particle_count = view->particle_count,
-        .force_count = phys_force_count(view->engine),
-        .steps = view->steps,
+PetriSystem session_system(const PhysSystem *engine, const char *name, uint32_t dimensions) {
+    PhysColumns columns = phys_columns(engine);
+    return (PetriSystem){
+        .name = name,
+        .dimensions = dimensions,
+        .particle_count = phys_particle_count(engine),
+        .force_count = phys_force_count(engine),
         .position = public_column(columns.position),
         .velocity = public_column(columns.velocity),
         .force = public_column(columns.force),
@@ -64,6 +63,13 @@ static PetriStatus find_system(PetriSession *session, const Request *request, co
         .anchor = columns.anchor,
         .anchor_stride = columns.anchor_stride,
     };
+}
+
+static PetriStatus find_system(PetriSession *session, const Request *request, const SceneView *view) {
+    PetriSystem *system = request->out;
+    *system = session_system(view->engine, system_name(session, request->system, view->prefix), view->dimensions);
+    system->particle_count = view->particle_count;
+    system->steps = view->steps;
     return PETRI_OK;
 }
 

@@ -48,6 +48,8 @@ ffi.cdef(re.sub(r"^#.*\n", "", helpers, flags=re.M))
 ffi.cdef("""
     extern "Python" void petri_python_diagnostic(void *user_data, const PetriDiagnostic *diagnostic);
     extern "Python" bool petri_python_write(void *user_data, const char *text, size_t length);
+    extern "Python" bool petri_python_force(void *user_data, const PetriSystem *system, double clock, double delta,
+                                            double *force);
     extern "Python+C" void petri_python_called(PetriCall *call, void *user_data, const PetriValue *arguments, uint32_t count,
                                                PetriValue *out);
 """)

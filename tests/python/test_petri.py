@@ -973,6 +973,146 @@ class Archives(unittest.TestCase):
             recording.close()
 
 
+class Versions(unittest.TestCase):
+    def test_a_session_can_follow_an_earlier_specification(self):
+        # Specification 0.3 reflects a particle at a barrier in another place.
+        script = "!physics state=:a dimensions=1\n    !particle id=0 position=1\n    !barrier position=0 normal=1\n    !constant acceleration=-9\n"
+        found = {}
+        for spec in None, "0.3":
+            session = petri.Session(script, options=petri.Options(spec=spec))
+            session.step(30)
+            found[session.spec] = session.text("digest")
+        self.assertEqual((len(set(found.values())), "0.3" in found), (2, True))
+        self.assertEqual(petri.Session("!a\n").spec, petri.__version__.rsplit(".", 1)[0])
+        with self.assertRaisesRegex(ValueError, "spec='9'"):
+            petri.Session(script, options=petri.Options(spec="9"))
+
+
+class StepForces(unittest.TestCase):
+    """Forces that Python computes in each physics step."""
+
+    SPRING = ("!physics state=:a dimensions=1 resolution=1/600\n    !anchor id=:middle position=0\n"
+              "    !particle id=0 position=1 mass=2\n")
+
+    def test_equals_a_spring_of_the_engine_and_the_exact_solution(self):
+        calls = []
+
+        def spring(step):
+            calls.append((step.name, step.clock))
+            return -18 * step.position
+
+        own = petri.Session(self.SPRING, forces={"a": spring})
+        engine = petri.Session(self.SPRING + "    !distance from=:middle to=0 strength=18 fixed=0\n")
+        for frame in range(121):
+            own.step()
+            engine.step()
+            x, known = own.systems["a"].position[1, 0], engine.systems["a"].position[1, 0]
+            self.assertAlmostEqual(x, known, delta=1e-12)
+            self.assertAlmostEqual(x, numpy.cos(3 * frame / 60), delta=0.01)  # with one force per frame: 0.3
+        self.assertIn(len(calls), range(1200, 1220))
+        self.assertEqual(calls[0], ("a", 0))
+
+    def test_gravity_in_numpy_keeps_momentum_and_is_that_of_the_engine(self):
+        script = ("!physics state=:sky dimensions=2 resolution=1/240\n    for i in ..40\n"
+                  "        !particle id=i mass=1+i%3 position=30*uniform(:p;i)[..2] velocity=uniform(:v;i)[..2]-0.5\n")
+
+        def gravity(step):
+            apart = step.position[None, :, :] - step.position[:, None, :]
+            cube = (apart ** 2).sum(axis=2) ** 1.5
+            numpy.fill_diagonal(cube, 1)
+            return (step.mass[:, None, None] * step.mass[None, :, None] * apart / cube[:, :, None]).sum(axis=1)
+
+        own = petri.Session(script, forces={":sky": gravity})
+        engine = petri.Session(script + "    !gravity strength=1\n")
+        own.step(60)
+        engine.step(60)
+        numpy.testing.assert_allclose(own.systems["sky"].position, engine.systems["sky"].position, rtol=1e-9)
+        start = (engine.systems["sky"].mass[:, None] * (numpy.array(
+            [engine.evaluate(f"uniform(:v;{i})[..2]-0.5") for i in range(40)]))).sum(axis=0)
+        numpy.testing.assert_allclose(own.systems["sky"].momentum, start, atol=1e-9)
+
+    def test_frames_are_the_same_with_threads_copies_and_rewinds(self):
+        def swirl(step):
+            return 5 * step.position[:, ::-1] * (1, -1) + numpy.sin(3 * step.clock) - step.velocity
+
+        script = ("!physics state=:a dimensions=2 resolution=1/240\n    !collision strength=80\n    for i in ..300\n"
+                  "        !particle id=i radius=1 position=2*(i%20);2*(i//20) force=0;-1\n")
+        digests = set()
+        for threads in 1, 3:
+            session = petri.Session(script, forces={"a": swirl}, options=petri.Options(threads=threads))
+            session.step(5)
+            there, other = session.snapshot(), session.copy()
+            for run in session, other, session:
+                if run is session:
+                    run.rewind(there)
+                run.step(10)
+                digests.add(run.text("digest"))
+        self.assertEqual(len(digests), 1)
+
+    def test_a_step_keeps_its_arrays(self):
+        seen = []
+        session = petri.Session("!physics state=:a dimensions=3\n    for i in ..2\n        !particle id=i position=i "
+                                "velocity=1;2;3 mass=4 charge=i radius=5+i\n", forces={"a": seen.append})
+        session.step(3)
+        first, second = seen[:2]
+        self.assertTrue((first.position == [[0, 0, 0], [1, 1, 1]]).all())
+        self.assertTrue((second.position > first.position).all())
+        self.assertAlmostEqual(second.clock, first.clock + first.delta)
+        self.assertEqual(repr(first), "<petri.Step of 'a' at 0 s: 2 particles>")
+        with self.assertRaisesRegex(RuntimeError, "mass of a step"):
+            first.mass
+        numbers = []
+        petri.Session("!physics state=:a dimensions=1\n    for i in ..2\n        !particle id=i mass=4 charge=i radius=5+i\n",
+                      forces={"a": lambda step: numbers.extend((step.mass, step.charge, step.radius))}).step(2)
+        self.assertEqual([list(array) for array in numbers], [[4, 4], [0, 1], [5, 6]])
+
+    def test_errors_undo_the_frame(self):
+        wrong = [None]
+
+        def force(step):
+            if wrong[0] is not None:
+                return wrong[0](step)
+
+        session = petri.Session(self.SPRING, forces={"a": force}, options=petri.Options(keep_forces=True))
+        session.step(3)
+        before = session.text("digest")
+        for wrong[0], error in ((lambda step: 1 / 0, ZeroDivisionError), (lambda step: [1, 2, 3], ValueError),
+                                (lambda step: "x", ValueError), (lambda step: session.frame, RuntimeError),
+                                (lambda step: session.close(), RuntimeError)):
+            with self.assertRaises(error):
+                session.step(5)
+            self.assertEqual((session.frame.number, session.text("digest")), (2, before))
+        wrong[0] = lambda step: -step.position
+        session.step()
+        self.assertEqual(session.frame.number, 3)
+        first = session.systems["a"].explain(0, 0)
+        self.assertEqual((first.sum, first.contributions[0].kind), (-first.position, ""))
+        wrong[0] = lambda step: 1 / 0
+        with self.assertRaises(ZeroDivisionError):
+            session.systems["a"].explain(0)
+        with self.assertRaises(TypeError):
+            petri.Session(self.SPRING, forces={"a": 5})
+
+    def test_a_name_without_a_system_is_reported(self):
+        session = petri.Session(self.SPRING, forces={"b": lambda step: None})
+        with self.assertWarnsRegex(petri.PetriWarning, r"forces\['b'\] has no effect yet.*systems: 'a'"):
+            session.step()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            session.step(10)
+
+    def test_cannot_be_recorded(self):
+        session = petri.Session(self.SPRING, forces={"a": lambda step: None})
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                recording = session.archive(Path(folder) / "a.petri")
+            except petri.ArchiveError as error:
+                self.skipTest(str(error))
+            session.step()
+            with self.assertRaisesRegex(petri.ArchiveError, "functions of the host"):
+                recording.close()
+
+
 class Notebooks(unittest.TestCase):
     """What one uses in notebooks: parameters, copies, trajectories, films."""
 

@@ -10,6 +10,7 @@
 Session     a script and its state: step, until, integrate, evaluate, snapshot, record, film, archive
 System      particles as numpy arrays, with energies and forces: session.systems["cells"]
 State       the state of a script: session.state
+Step        a physics step, for forces that Python computes: Session(..., forces={"cells": function})
 Parameter   a parameter of a script, with its range: session.parameters["CELLS"]
 sweep       runs a script with many values of its parameters
 Archive     a recorded run, which can be replayed and verified
@@ -23,6 +24,7 @@ from .archive import Archive, ArchivedFile, ArchiveError, Keyframe, Recording
 from .errors import (Diagnostic, InterruptedStep, LimitError, MissingLibraryError, OutOfMemoryError, PetriError,
                      PetriWarning, ScriptError)
 from .films import Animation
+from .forces import Step
 from .parameters import Parameter, Parameters
 from .picture import Picture
 from .session import Frame, Options, Session, Snapshot
@@ -36,6 +38,6 @@ __version__ = _ffi.string(_lib.petri_version()).decode()
 __all__ = ["Animation", "Archive", "ArchiveError", "ArchivedFile", "Contribution", "Diagnostic", "Explanation",
            "Frame", "InterruptedStep", "Keyframe", "LimitError", "MissingLibraryError", "Options",
            "OutOfMemoryError", "Parameter", "Parameters", "PetriError", "PetriWarning", "Picture", "Recording",
-           "ScriptError", "Session", "Snapshot", "State", "System", "Systems", "Text", "Trajectory", "sweep"]
+           "ScriptError", "Session", "Snapshot", "State", "Step", "System", "Systems", "Text", "Trajectory", "sweep"]
 for _name in __all__:
     globals()[_name].__module__ = "petri"  # the public location

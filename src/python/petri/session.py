@@ -14,6 +14,7 @@ from . import films, trajectories, values
 from ._petri import ffi, lib
 from .archive import Recording, _check, _file_name, _owned
 from .errors import Diagnostic, ScriptError, finish
+from .forces import Forces
 from .functions import Functions
 from .parameters import Parameters
 from .picture import Picture
@@ -38,6 +39,7 @@ class Options:
     no_files: bool = False
     read_folders: Sequence[Union[str, os.PathLike]] = ()
     write_folders: Sequence[Union[str, os.PathLike]] = ()
+    spec: Optional[str] = None  #: version of the specification that frames follow, such as "0.3"; None: the present one
 
 
 class Frame(NamedTuple):
@@ -88,21 +90,28 @@ class Session:
     The script can call `functions` like built-in functions. Arguments are numbers, Text, str (a symbol), None or tuples
     of these. Results have the same types except str. Functions must not use the session. If a function raises an
     exception, its result is null. After the frame is completed, step raises the exception.
+
+    `forces` contains a function for each system that has a force of Python. The function is called in each physics
+    step with a petri.Step, and returns the forces on the particles, an array N×d, or None. Other forces are added to
+    them. Such functions must not use the session. If one raises an exception, step raises it, and the frame is undone.
     """
 
     def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None,
                  given: Optional[Mapping[str, Any]] = None, functions: Optional[Mapping[str, Callable]] = None,
-                 **defines: Any):
+                 forces: Optional[Mapping[str, Callable]] = None, **defines: Any):
         self._prepare(options)
-        self._made_of = {"source": source, "options": options, "functions": dict(functions or {})}
+        self._made_of = {"source": source, "options": options, "functions": dict(functions or {}),
+                         "forces": dict(forces or {})}
         for name, value in defines.items():
             text = value if isinstance(value, str) else self._printed(value)
             self._call(lib.petri_define, f"{name}={text}".encode(),
                        message=f"cannot define {name!r}: the name or the value is invalid")
             self._defined[name] = text
-        if functions:
-            self._functions = Functions(self, functions)
+        if functions or forces:
+            self._functions = Functions(self, functions or {})
             self._stop = self._functions.stop
+        if forces:
+            self._forces = Forces(self, self._functions, forces)
         self._given = dict(given or {})
         for name, value in (given or {}).items():
             self.set_global(name, value)
@@ -121,6 +130,7 @@ class Session:
         self._told: List[Diagnostic] = []
         self._painter: Any = None
         self._functions: Optional[Functions] = None
+        self._forces: Optional[Forces] = None
         self._stop: Any = ffi.NULL
         self._shown: List[None] = []  # one element per array that refers to the session's memory
         self._c = self._open(options or Options(), archive)
@@ -142,8 +152,8 @@ class Session:
         return session
 
     def archive(self, path: Union[str, os.PathLike], *, keyframe_every: int = 1000, digest_every: int = 1) -> Recording:
-        """Records all later frames in an archive, from which anyone can replay and verify them. Functions of Python
-        cannot be recorded."""
+        """Records all later frames in an archive, from which anyone can replay and verify them. Functions and
+        forces of Python cannot be recorded."""
         with self._lock:
             return Recording(self._c, path, keyframe_every, digest_every)
 
@@ -169,6 +179,9 @@ class Session:
             folders = ffi.new("const char *[]", [*texts, ffi.NULL])
             keep += [texts, folders]
             setattr(options, name, folders)
+        if wanted.spec is not None:
+            keep.append(ffi.new("char[]", wanted.spec.encode()))
+            options.spec = keep[-1]
         if archive is not None:
             options.read_file = ffi.addressof(lib, "petri_archive_read")
             options.read_user_data = archive
@@ -231,6 +244,8 @@ class Session:
             status = lib.petri_python_step(self._c, n, threading.get_ident() == _MAIN, self._stop)
         if status or self._told or self._stop and self._stop[0]:
             self._finish(status)
+        if self._forces:
+            self._forces.check()
 
     def until(self, condition: str, limit: int = 1_000_000) -> bool:
         """Computes at least one frame, up to the first in which an expression is true. Returns False if none of `limit`
@@ -273,6 +288,12 @@ class Session:
         if n < 1 or every < 1:
             raise ValueError("frames and every must be at least 1")
         return islice(self.frames(n), 0, None, every)
+
+    @property
+    def spec(self) -> str:
+        """The version of the specification by which frames are computed, such as "0.4"."""
+        with self._lock:
+            return ffi.string(lib.petri_spec(self._open_c())).decode()
 
     @property
     def frame(self) -> Frame:
@@ -363,7 +384,7 @@ class Session:
 
     def __setstate__(self, saved: dict) -> None:
         Session.__init__(self, saved["source"], options=saved["options"], given=saved["given"],
-                         functions=saved["functions"], **saved["defines"])
+                         functions=saved["functions"], forces=saved["forces"], **saved["defines"])
         with tempfile.TemporaryDirectory(prefix="petri-") as folder:
             file = os.path.join(folder, "state")
             with open(file, "wb") as stored:

@@ -399,6 +399,29 @@ static PetriValue call_nothing(PetriCall *call, void *user_data, const PetriValu
     return (PetriValue){0};
 }
 
+static bool pull_nothing(void *user_data, const PetriSystem *system, double clock, double delta, double *force) {
+    (void)user_data;
+    (void)system;
+    (void)clock;
+    (void)delta;
+    (void)force;
+    return true;
+}
+
+static void test_forces_of_the_host_end_recording(void **state) {
+    (void)state;
+    PetriSession *session = run_open_session();
+    PetriArchive *archive = petri_archive_create(session, "force.petri", NULL);
+    assert_int_equal(petri_load_text(session, "a.fl", "!counter state=:a rate=1\n", PETRI_NUL_TERMINATED), PETRI_OK);
+    assert_int_equal(petri_step(session), PETRI_OK);
+    assert_null(petri_archive_problem(archive));
+    assert_int_equal(petri_set_force_callback(session, pull_nothing, NULL), PETRI_OK);
+    assert_int_equal(petri_step(session), PETRI_OK);
+    assert_non_null(strstr(petri_archive_problem(archive), "functions of the host"));
+    petri_archive_close(&archive);
+    petri_close(&session);
+}
+
 static void test_host_functions_end_recording(void **state) {
     (void)state;
     PetriSession *session = run_open_session();
@@ -460,6 +483,7 @@ TEST_GROUP(recording_replay) {
         cmocka_unit_test(test_create_keeps_other_files),
         cmocka_unit_test(test_two_recordings_of_one_file),
         cmocka_unit_test(test_host_functions_end_recording),
+        cmocka_unit_test(test_forces_of_the_host_end_recording),
         cmocka_unit_test(test_functions_reject_missing_arguments),
     };
     return cmocka_run_group_tests(tests, record, leave_folder);

@@ -225,6 +225,7 @@ static void test_null_arguments_are_accepted(void **state) {
         petri_evaluate(session, NULL, 0, &result, sizeof result, NULL, NULL),
         petri_evaluate(session, "1", 1, NULL, 0, NULL, NULL),
         petri_history_move_particle(NULL, 0, 0, NULL, NULL),
+        petri_set_force_callback(none, NULL, NULL),
         petri_set_parameter(none, "A", "1"),
         petri_set_parameter(session, NULL, "1"),
     };
