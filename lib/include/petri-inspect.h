@@ -77,6 +77,72 @@ typedef struct PetriExplanation {
 PETRI_API PetriStatus petri_explain_force(PetriSession *session, size_t system, uint32_t particle, uint64_t step,
                                           PetriExplanation *explanation, size_t size);
 
+// Variations of a run, which show how far its results depend on the step and on rounding. Zeros mean none.
+typedef struct PetriVariation {
+    size_t size;    // sizeof(PetriVariation)
+    uint32_t parts; // number of equal parts into which each simulation step is divided; at most 1000000
+    // Distance by which particles are moved before the first step of a run, along each axis, forwards or backwards. The
+    // unit is the size of their system: the longest side of the box around all particles and anchors; if they are at
+    // one point, its largest coordinate, else 1.
+    double shift;
+    uint64_t seed; // selects the directions
+} PetriVariation;
+
+// Varies the systems from the next frame on. Nothing else depends on it: the script is evaluated once for each of its
+// frames, and in all parts of a step, `!random` has the values that it has in the whole step. petri_load,
+// petri_reset and petri_config_apply keep the variation; state files do not contain it. Returns PETRI_INVALID if a
+// number is not valid.
+PETRI_API PetriStatus petri_vary(PetriSession *session, const PetriVariation *variation);
+
+// The result of petri_trust.
+typedef enum PetriVerdict {
+    PETRI_CONVERGED,
+    PETRI_STEP_TOO_LARGE,
+    PETRI_CHAOTIC,      // the end of the run is after PetriTrust.horizon
+    PETRI_INCOMPARABLE, // particles appear or vanish at other times, so that `!random` acts on others
+    PETRI_UNSTABLE,     // a force is too strong for the length of the step, or the motion has become meaningless
+    PETRI_NO_NUMBER,    // the value is not a vector of numbers
+} PetriVerdict;
+
+// How far the value of an expression after a frame can be trusted. For a vector, the largest errors of its elements
+// count. Times are in seconds since frame 0.
+typedef struct PetriTrust {
+    size_t size; // number of bytes of the struct that are filled
+    int64_t frame;
+    double time;
+    uint32_t expression; // its number
+    const char *value;   // in printed form, in the run with the script's own step
+    double error;        // bound of the distance from the value with infinitely short steps; infinite: not known
+    double order;        // observed: the error grows as step^order. NaN: it does not grow regularly
+    double spread;       // change by rounding: if the particles start one unit in the last place away
+    int digits;          // decimal digits of the value that are larger than error and spread, at most 15; -1: no number
+    double lyapunov_time;  // in which the distance of neighbouring runs grows by a factor of e; NaN: it does not
+    double lyapunov_error; // standard error of lyapunov_time
+    double horizon;        // after this time, a single run means nothing; NaN: not before the end
+    PetriVerdict verdict;
+    const char *sentence; // the verdict for users
+} PetriTrust;
+
+typedef struct PetriTrustOptions {
+    size_t size;                    // sizeof(PetriTrustOptions)
+    const char *const *expressions; // `count` expressions for petri_evaluate
+    uint32_t count;
+    int64_t frames; // number of frames of each run; at least 1
+    int64_t every;  // report every K-th frame, and the last one; 0: only the last
+    // Called with each result, in the order of frames. The struct and its strings are valid during the call.
+    void (*report)(void *user_data, const PetriTrust *trust);
+    void *user_data; // passed to the functions
+    // Writes the value of an expression instead of petri_evaluate; NULL: petri_evaluate.
+    PetriStatus (*measure)(void *user_data, uint32_t expression, PetriWriteCallback *write, void *context);
+} PetriTrustOptions;
+
+// Finds out how many digits of a run are true: runs the loaded script from frame 0 with its own steps, with halves and
+// quarters of them, and with starting positions moved by one unit in the last place and by 1e-9 of the size of the
+// system. The session is then where it was. Diagnostics are those of the first run, and errors. Returns the status of
+// the first call that fails, or PETRI_INVALID for invalid arguments. If memory runs out, the session can be at another
+// frame; reset or rewind it.
+PETRI_API PetriStatus petri_trust(PetriSession *session, const PetriTrustOptions *options);
+
 // Sections that petri_print writes, in this order (spec cli.md 3.3).
 enum {
     PETRI_PRINT_TREE = 1,

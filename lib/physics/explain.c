@@ -286,7 +286,10 @@ static bool take_steps(const Probe *probe, const PhysTime *time, uint64_t steps)
     double last = time->last;
     result->clock = time->clock;
     for (uint64_t s = 0;; s++) {
-        result->delta = phys_step_length(time, last);
+        uint64_t part = s % phys_parts(time);
+        result->delta = part > 0 ? result->delta : phys_step_length(time, last);
+        if (phys_parts(time) > 1)
+            phys_begin_part(probe->system, part);
         if (s == steps)
             return true;
         if (!phys_step(probe->system, result->clock, result->delta, time->speed_of_light))

@@ -85,6 +85,7 @@ typedef struct Force {
     PhysForce given;
     double strength; // strength in this step, after easing
     uint64_t item;   // random forces only: number of items of the random stream that were used so far in this frame
+    uint64_t start;  // random forces only: `item` at the start of the step
     uint32_t number; // number that phys_add_force returned
 } Force;
 
@@ -381,11 +382,19 @@ static inline double phys_ramp(double ease, double clock) {
     return ease > 0 && clock < ease ? clock / ease : 1.0;
 }
 
-// Returns the length of the step at `last` of a frame.
+// Returns the number of parts into which each step is divided.
+static inline uint64_t phys_parts(const PhysTime *time) {
+    return time->parts > 1 ? time->parts : 1;
+}
+
+// Returns the length of the step at `last` of a frame, or of each of its parts.
 static inline double phys_step_length(const PhysTime *time, double last) {
     double remaining = time->now - last;
-    return time->resolution < remaining ? time->resolution : remaining;
+    return (time->resolution < remaining ? time->resolution : remaining) / (double)phys_parts(time);
 }
+
+// Begins a part of a step: random forces have the same values in all of them (step.c).
+void phys_begin_part(PhysSystem *system, uint64_t part);
 
 // Returns the forces that `group` declares for a stage.
 static inline ForceRange phys_forces(const PhysSystem *system, uint32_t group, Stage stage) {

@@ -13,6 +13,15 @@ static void ease_strengths(const PhysSystem *system, double clock) {
         forces[i].strength = forces[i].given.strength * phys_ramp(forces[i].given.ease, clock);
 }
 
+void phys_begin_part(PhysSystem *system, uint64_t part) {
+    Force *forces = system->forces.bytes;
+    for (uint32_t i = 0; i < system->force_count; i++) {
+        if (part == 0)
+            forces[i].start = forces[i].item;
+        forces[i].item = forces[i].start;
+    }
+}
+
 // Context of start_chunk, which sets the initial force on each particle in a step. This is the `force` attribute of the
 // particle, multiplied by clock / ease while the attribute is eased in. Without easing, the factor is 1, which changes
 // no bit.

@@ -165,6 +165,9 @@ typedef struct PhysTime {
     bool lockstep;         // take all steps that are due; false: only one, or two with high `performance`
     double performance;    // speed of the host; without lockstep, a value above 1.5 allows a second step per frame
     double speed_of_light; // <= 0: no limit
+    uint32_t parts;        // equal parts into which each step is divided; 0: 1. Random forces are constant in a step
+    double shift;          // distance by which particles are moved when the clock is 0, in sizes of the system
+    uint64_t shift_key;    // random stream that gives the directions
     bool keep_last_finite; // a position or velocity that is not finite after the frame is reset to its value before the
                            // frame. A result equal to that value replaces it only if the value came from an
                            // attribute. So 0 does not become -0 from frame to frame

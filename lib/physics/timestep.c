@@ -3,11 +3,12 @@
 //   remaining = t − last
 //   repeat
 //       delta = min(resolution, remaining)
-//       one step of delta at clock
+//       one step of delta at clock, or PhysTime.parts steps of delta / parts
 //       clock = clock + delta
 //       last = last + delta;  remaining = t − last
 //       more = remaining > 1e-9 * resolution
 //   until not (more and (lockstep or this is the frame's first step and performance > 1.5))
+#include "maths/random.h"
 #include "physics/divergence.h"
 #include "physics/division.h"
 
@@ -31,6 +32,36 @@ static PhysResult abort_frame(PhysSystem *system, const PhysTime *time) {
     return (PhysResult){.status = system->failed ? PHYS_NO_MEMORY : PHYS_STOPPED, .clock = time->clock};
 }
 
+// Returns the size of a system: the longest side of the box around its particles; if they are all at one point, its
+// largest coordinate, else 1.
+static double system_size(const Columns *columns) {
+    double size = 0, coordinate = 0;
+    for (size_t k = 0; k < columns->dimensions; k++) {
+        const double *position = columns->position + k * columns->stride;
+        double low = INFINITY, high = -INFINITY;
+        for (uint32_t i = 0; i < columns->count; i++) {
+            low = fmin(low, position[i]);
+            high = fmax(high, position[i]);
+        }
+        size = fmax(size, high - low);
+        coordinate = fmax(coordinate, fmax(fabs(low), fabs(high)));
+    }
+    size = size > 0 ? size : coordinate;
+    return size > 0 && isfinite(size) ? size : 1;
+}
+
+// Moves all particles but anchors by PhysTime.shift in each direction, forwards or backwards.
+static void shift_particles(PhysSystem *system, const PhysTime *time) {
+    const Columns *columns = &system->columns;
+    double distance = time->shift * system_size(columns);
+    uint64_t item = 0;
+    for (size_t k = 0; k < columns->dimensions; k++)
+        for (uint32_t i = 0; i < columns->count; i++, item++)
+            if (!columns->anchor[i])
+                columns->position[k * columns->stride + i] +=
+                    random_uniform(time->shift_key, item) < 0.5 ? -distance : distance;
+}
+
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
     system->frame++;
@@ -43,6 +74,8 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     }
     if (time->clock == 0)
         phys_watch_start(system);
+    if (time->clock == 0 && time->shift > 0)
+        shift_particles(system, time);
     if (system->options.division)
         system->options.division->begin_frame(system, time);
     if (system->failed) {
@@ -50,13 +83,16 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
         return result;
     }
     double last = time->last, remaining = time->now - last;
+    double delta = 0;
     bool more = remaining > 0;
-    while (more) {
-        double delta = phys_step_length(time, last);
+    for (uint64_t part = 0, parts = phys_parts(time); more; part = (part + 1) % parts) {
+        delta = part > 0 ? delta : phys_step_length(time, last);
         if (result.steps == PHYS_MAX_STEPS || last + delta == last || !isfinite(result.clock + delta)) {
             result.status = PHYS_DROPPED_TIME;
             break;
         }
+        if (parts > 1)
+            phys_begin_part(system, part);
         if (!run_step(system, result.clock, delta, time->speed_of_light))
             return abort_frame(system, time);
         result.clock += delta;
@@ -65,8 +101,8 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
         system->has_forces = true;
         last += delta;
         remaining = time->now - last;
-        more =
-            remaining > 1e-9 * time->resolution && (time->lockstep || (result.steps == 1 && time->performance > 1.5));
+        more = part + 1 < parts || (remaining > 1e-9 * time->resolution &&
+                                    (time->lockstep || (result.steps == parts && time->performance > 1.5)));
     }
     if (!end_frame(system, time->keep_last_finite))
         return abort_frame(system, time);

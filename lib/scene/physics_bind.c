@@ -174,6 +174,9 @@ static double simulate_system(PhysicsTree *tree, const Reader *reader, const Sys
                      .lockstep = tree->frame->lockstep,
                      .performance = tree->frame->performance,
                      .speed_of_light = settings->speed_of_light,
+                     .parts = tree->frame->parts,
+                     .shift = tree->frame->shift,
+                     .shift_key = tree->frame->shift_key,
                      .keep_last_finite = mirror_can_lend(tree)};
     PhysResult result = phys_simulate(tree->engine, &time);
     *steps = result.steps;
@@ -186,7 +189,8 @@ static double simulate_system(PhysicsTree *tree, const Reader *reader, const Sys
     else if (result.status == PHYS_STOPPED)
         tree->scene->stopped = budget_check(tree->scene->budget);
     else if (result.status == PHYS_OK)
-        physics_report_divergence(tree, reader, result.clock, fmin(time.resolution, time.now - time.last));
+        physics_report_divergence(tree, reader, result.clock,
+                                  fmin(time.resolution, time.now - time.last) / fmax(1, time.parts));
     tree->out_of_memory |= result.status == PHYS_NO_MEMORY;
     mirror_store(tree, result.status == PHYS_OK || result.status == PHYS_DROPPED_TIME);
     return result.clock;
@@ -196,10 +200,11 @@ static double simulate_system(PhysicsTree *tree, const Reader *reader, const Sys
 // known if the system follows the time of the script.
 static void check_stability(PhysicsTree *tree, const Reader *reader, const SystemAttrs *settings, double last) {
     const Symbol *time = reader->schema->slots[ROW_PHYSICS_TIME].name;
-    if (settings->time > last)
-        physics_report_instability(tree, reader, fmin(settings->resolution, settings->time - last));
-    else if (node_get(reader->node, time).len == 0)
-        physics_report_instability(tree, reader, fmin(settings->resolution, 1 / tree->frame->fps));
+    double frame = settings->time > last                   ? settings->time - last
+                   : node_get(reader->node, time).len == 0 ? 1 / tree->frame->fps
+                                                           : 0;
+    if (frame > 0)
+        physics_report_instability(tree, reader, fmin(settings->resolution, frame) / fmax(1, tree->frame->parts));
 }
 
 // Reads a tree from scratch.

@@ -20,6 +20,9 @@ typedef struct SceneFrame {
     bool lockstep;       // PhysTime.lockstep
     uint64_t generation; // changes after nodes with program lifetime have been freed
     double resolution;   // overrides the attribute `resolution` of all systems; 0: no override
+    uint32_t parts;      // PhysTime.parts, shift and shift_key of all systems
+    double shift;
+    uint64_t shift_key;
 } SceneFrame;
 
 // Returns a new scene. The arena and the schema must outlive it. Systems are also charged to the arena's budget.

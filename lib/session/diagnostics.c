@@ -131,6 +131,9 @@ static void send_diagnostic(PetriSession *session, const Diag *diag, Str rendere
 }
 
 void diagnostics_forward(PetriSession *session, const PetriDiagnostic *diagnostic) {
+    const Diagnostics *all = &session->diagnostics;
+    if (all->filter && !all->filter(all->filter_context, diagnostic))
+        return;
     session->diagnostics.counts[diagnostic->level]++;
     retain_diagnostic(&session->diagnostics, diagnostic);
     if (session->options.on_diagnostic)

@@ -17,7 +17,10 @@ typedef struct Diagnostics {
     uint32_t reported_count;
     uint32_t reported_capacity;
     HashIndex reported_index;
-    bool repeat;        // true: report diagnostics even if they were reported before
+    bool repeat; // true: report diagnostics even if they were reported before
+    // Called before a diagnostic is passed to the host; returns false to hide it. NULL: none.
+    bool (*filter)(void *context, const PetriDiagnostic *diagnostic);
+    void *filter_context;
     uint64_t counts[3]; // number of diagnostics of each level, reported since the session was opened
 } Diagnostics;
 

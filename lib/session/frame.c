@@ -113,6 +113,16 @@ double petri_resolution(const PetriSession *session) {
     return session ? session->config.resolution : 0;
 }
 
+PetriStatus petri_vary(PetriSession *session, const PetriVariation *given) {
+    enum { MAX_PARTS = 1000000 };
+    PetriVariation variation = {.size = sizeof variation};
+    if (!session || !host_struct_read(&variation, sizeof variation, given) || variation.parts > MAX_PARTS ||
+        !(variation.shift >= 0) || !isfinite(variation.shift))
+        return PETRI_INVALID;
+    session->variation = variation;
+    return PETRI_OK;
+}
+
 void petri_reset(PetriSession *session) {
     if (!session)
         return;
@@ -283,7 +293,10 @@ static PetriStatus update_systems(PetriSession *session, void *context) {
                               .performance = session->clock.wall.performance,
                               .lockstep = !session->clock.realtime,
                               .generation = session->loader.generation,
-                              .resolution = session->config.resolution};
+                              .resolution = session->config.resolution,
+                              .parts = session->variation.parts,
+                              .shift = session->variation.shift,
+                              .shift_key = session->variation.seed};
     frame->physics_steps = scene_update(session->scene, frame->tree, &scene_frame);
     frame->physics_seconds = clock_seconds() - start;
     return PETRI_OK;

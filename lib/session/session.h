@@ -16,6 +16,7 @@
 
 #include "builtin/noise.h"
 #include "petri-edit.h"
+#include "petri-inspect.h"
 #include "physics/explain.h"
 #include "ranks/ranks.h"
 #include "session/checkpoint.h"
@@ -115,6 +116,7 @@ struct PetriSession {
     HostGlobals host_globals;
     HostFunctions functions;
     StepForces step_forces;
+    PetriVariation variation; // of petri_vary
     Config config;
     PetriConfig *shared_config; // a copy of `config` for petri_config_get; NULL until that is called
     uint64_t config_revision;   // revision of `config`

@@ -77,6 +77,7 @@ struct Command {
     const char *second_operand_error; // message format for a second operand; NULL: it is reported as a second script
     bool accepts_many;                // true if the command accepts several scripts and folders
     const char *const *suffixes;      // of files in folders that are operands like scripts, then NULL; NULL: none
+    bool accepts_expressions;         // true if operands after the script are expressions (Options.expressions)
     bool accepts_two;                 // true if the command accepts a second operand (Options.second)
     bool live;             // true if the command, by default, follows the wall clock and runs until it is stopped
     bool parses_arguments; // true if `run` parses argv itself
@@ -89,7 +90,8 @@ struct Command {
     const Command *const *parts;
 };
 
-extern const Command RUN_COMMAND, VIEW_COMMAND, RENDER_COMMAND, REPL_COMMAND, SWEEP_COMMAND, TEST_COMMAND, DIFF_COMMAND;
+extern const Command RUN_COMMAND, VIEW_COMMAND, RENDER_COMMAND, REPL_COMMAND, SWEEP_COMMAND, TRUST_COMMAND,
+    TEST_COMMAND, DIFF_COMMAND;
 extern const Command CHECK_COMMAND, FMT_COMMAND, LSP_COMMAND, LINK_COMMAND, ARCHIVE_COMMAND, NEW_COMMAND, HELP_COMMAND;
 // The parts of `petri archive`.
 extern const Command VERIFY_COMMAND, INFO_COMMAND, CITE_COMMAND, UNPACK_COMMAND;

@@ -30,6 +30,9 @@ static bool read_operand(const Args *args) {
         options->scripts.suffixes = command->suffixes;
         if (!scripts_find(&options->scripts, args->value))
             texts_add(&options->unreadable, args->value);
+    } else if (options->script && command->accepts_expressions) {
+        texts_add(&options->expressions, args->value);
+        return true;
     } else if (options->script && command->accepts_two && !options->second) {
         options->second = args->value;
         return true;
@@ -112,6 +115,7 @@ void options_free(Options *options) {
             texts_free(find_field(options, spec));
     free(options->own);
     texts_free(&options->definitions);
+    texts_free(&options->expressions);
     texts_free(&options->read_folders);
     texts_free(&options->write_folders);
     texts_free(&options->unreadable);

@@ -49,6 +49,7 @@ typedef struct Options {
     void *own;                // values of the options that only this command has; NULL: none
     const char *script;       // the last operand; NULL: none
     const char *second;       // the operand after `script`, for commands that accept two; NULL: none
+    TextList expressions;     // operands after the script, for commands that accept expressions
     ScriptList scripts;       // scripts in the operands, for commands that accept several; sorted
     TextList unreadable;      // paths that could not be read
     const char *(*read)(void *host, const char *path, size_t *length);    // PetriOptions.read_file; NULL: none

@@ -264,6 +264,31 @@ static bool run_energy(Prompt *prompt, const char *wanted) {
     return print_systems(prompt, &(SystemRequest){.system = wanted}, print_energy);
 }
 
+static void print_trust(void *user_data, const PetriTrust *trust) {
+    Prompt *prompt = user_data;
+    output_format(prompt->output, "%s\n", trust->value[0] != '\0' ? trust->value : "null");
+    if (trust->digits >= 0)
+        prompt_note(prompt, "error %.2g, spread %.2g, %d digits", trust->error, trust->spread, trust->digits);
+    prompt_note(prompt, "%s", trust->sentence);
+}
+
+// Runs the script again from frame 0 to the current frame.
+static bool run_trust(Prompt *prompt, const char *expression) {
+    int64_t frame = petri_frame_number(prompt->session);
+    const PetriTrustOptions options = {.size = sizeof options,
+                                       .expressions = &expression,
+                                       .count = 1,
+                                       .frames = frame + 1,
+                                       .report = print_trust,
+                                       .user_data = prompt};
+    if (frame < 0)
+        return prompt_fail(prompt, "no frame yet; step first");
+    prompt_busy(prompt);
+    PetriStatus status = petri_trust(prompt->session, &options);
+    prompt_idle(prompt);
+    return prompt_status(prompt, status);
+}
+
 static bool run_watch(Prompt *prompt, const char *rest) {
     PetriEvaluation result;
     Expression expression;
@@ -300,6 +325,8 @@ const PromptCommand PRINT_COMMANDS[] = {
      run_particles, COMPLETE_SYSTEMS},
     {".energy", "[SYSTEM]", NULL, "print energies, momenta and the fastest particle of each system", run_energy,
      COMPLETE_SYSTEMS},
+    {".trust", "EXPR", "an expression", "say how many digits of EXPR are true, from other runs to this frame",
+     run_trust, COMPLETE_LANGUAGE},
     {".watch", "[EXPR]", NULL, "print EXPR after each step; without EXPR, list the watched expressions", run_watch,
      COMPLETE_LANGUAGE},
     {".unwatch", "[EXPR]", NULL, "stop watching EXPR, or everything", run_unwatch, COMPLETE_WATCHED},

@@ -47,6 +47,7 @@ helpers = (here / "helpers.h").read_text(encoding="utf-8")
 ffi.cdef(re.sub(r"^#.*\n", "", helpers, flags=re.M))
 ffi.cdef("""
     extern "Python" void petri_python_diagnostic(void *user_data, const PetriDiagnostic *diagnostic);
+    extern "Python" void petri_python_trust(void *user_data, const PetriTrust *trust);
     extern "Python" bool petri_python_write(void *user_data, const char *text, size_t length);
     extern "Python" bool petri_python_force(void *user_data, const PetriSystem *system, double clock, double delta,
                                             double *force);

@@ -227,12 +227,82 @@ static PetriStatus step_frame(Measure *measure, bool *ends, bool *measured) {
     return status == PETRI_OK && *measured ? add_row(measure) : status;
 }
 
+// --- runs with --trust
+
+static PetriStatus write_metric(void *context, uint32_t number, PetriWriteCallback *write, void *user_data) {
+    Measure *measure = context;
+    const Metric *metric = &measure->sweep->metrics[number * measure->sweep->trust_columns];
+    PetriEvaluation result = {0};
+    if (metric->expression)
+        return petri_evaluate(measure->session, metric->expression, PETRI_NUL_TERMINATED, &result, sizeof result, write,
+                              user_data);
+    SCOPED_TEXT cells = {0}, text = {0};
+    Cell cell = {.kind = CELL_NONE};
+    PetriStatus status = motion_add_quantity(measure->session, metric->quantity, &cells);
+    Str rest = text_str(&cells);
+    if (status == PETRI_OK && cell_next(&rest, &cell))
+        row_add_text(measure->sweep, 0, cell, &text);
+    if (text.len > 0)
+        write(user_data, text.bytes, text.len);
+    return status;
+}
+
+// Returns a value as the cell of its column.
+static Cell trust_cell(const PetriTrust *trust, TrustColumn column) {
+    const double numbers[TRUST_COLUMNS] = {
+        [TRUST_ERROR] = trust->error,
+        [TRUST_ORDER] = trust->order,
+        [TRUST_SPREAD] = trust->spread,
+        [TRUST_DIGITS] = trust->digits,
+        [TRUST_LYAPUNOV_TIME] = trust->lyapunov_time,
+        [TRUST_LYAPUNOV_ERROR] = trust->lyapunov_error,
+        [TRUST_HORIZON] = trust->horizon,
+    };
+    double value = 0;
+    if (column == TRUST_VERDICT)
+        return (Cell){CELL_TEXT, {.text = trust->sentence}};
+    if (column == TRUST_VALUE && !petri_parse_number(trust->value, &value))
+        return trust->value[0] == '\0' ? (Cell){.kind = CELL_NONE} : (Cell){CELL_TEXT, {.text = trust->value}};
+    return (Cell){CELL_NUMBER, {.number = column == TRUST_VALUE ? value : numbers[column]}};
+}
+
+// Adds the columns of a metric, and the cells around them.
+static void add_trust(void *context, const PetriTrust *trust) {
+    Measure *measure = context;
+    Text *rows = &measure->result.rows;
+    size_t columns = measure->sweep->trust_columns;
+    if (trust->expression == 0)
+        cell_add(rows, (Cell){CELL_INTEGER, {.integer = trust->frame}});
+    for (size_t column = 0; column < columns; column++)
+        cell_add(rows, trust_cell(trust, (TrustColumn)column));
+    if ((trust->expression + 1) * columns == measure->sweep->metric_count)
+        cell_add(rows,
+                 measure->unstable ? (Cell){CELL_TEXT, {.text = measure->error.bytes}} : (Cell){.kind = CELL_NONE});
+}
+
+static PetriStatus measure_trust(Measure *measure) {
+    const Sweep *sweep = measure->sweep;
+    const PetriTrustOptions options = {.size = sizeof options,
+                                       .count = (uint32_t)(sweep->metric_count / sweep->trust_columns),
+                                       .frames = sweep->options->frames,
+                                       .every = sweep->own->row_every,
+                                       .report = add_trust,
+                                       .user_data = measure,
+                                       .measure = write_metric};
+    measure->result.frames = sweep->options->frames;
+    return petri_trust(measure->session, &options);
+}
+
 // Executes a run. Returns false if it failed or is unstable.
 static bool execute_run(Measure *measure, size_t run) {
     measure->result.frames = 0;
     measure->result.rows.len = 0;
     PetriStatus status = measure_begin_run(measure, run);
     bool ends = measure->sweep->options->frames == 0, measured = false;
+    if (measure->sweep->trust_columns > 1 && status == PETRI_OK) {
+        status = measure_trust(measure);
+        ends = true;
+    }
     while (status == PETRI_OK && !ends)
         status = step_frame(measure, &ends, &measured);
     if (status != PETRI_OK)

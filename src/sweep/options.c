@@ -37,6 +37,7 @@ static const OptionSpec ROWS[] = {
     SHARED("frames", 0, "N", WHOLE(0, INT64_MAX), frames, "end each run after N frames (default: 600)")
     OWN("until", 0, "EXPR", option_text, until, "end each run after the first frame in which EXPR is true")
     OWN("every", 0, "K", WHOLE(1, INT64_MAX), row_every, "also write a row for every K-th frame (default: only the last)")
+    OWN("trust", 0, NULL, option_flag, trust, "also write how many digits of each metric can be trusted; each run takes nine times as long")
     OWN("output", 'o', "FILE", option_text, output, "write the table to FILE and resume if it is partial (default: standard output)")
     OWN("summary", 0, "FILE", option_text, summary, "write the mean, standard deviation and quartiles of each metric over the seeds to FILE")
     OWN("plot", 0, "FILE", option_text, plot, "plot each metric against each parameter in FILE (.svg, .png or .pdf)")

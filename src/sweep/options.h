@@ -11,6 +11,7 @@ typedef struct SweepOptions {
     const char *until;
     TextList metrics;   // each "NAME=EXPR" or the name of a quantity (motion.h)
     int64_t row_every;  // number of frames from one row to the next; 0: a row for the last frame only
+    bool trust;         // also write how many digits of each metric can be trusted
     const char *output; // output file
     const char *summary;
     const char *plot;

@@ -18,24 +18,42 @@ static bool is_column(const Sweep *sweep, const char *name, size_t metrics) {
     return found;
 }
 
-static bool read_metrics(Sweep *sweep) {
-    const TextList *texts = &sweep->own->metrics;
-    sweep->metrics = memory_calloc((texts->count + 1) * sizeof *sweep->metrics);
-    for (; sweep->metric_count < texts->count; sweep->metric_count++) {
-        const char *text = texts->items[sweep->metric_count];
-        Metric *metric = &sweep->metrics[sweep->metric_count];
-        size_t name = strcspn(text, "=");
-        *metric = (Metric){.name = memory_strndup(text, name),
-                           .expression = text[name] ? text + name + 1 : NULL,
-                           .quantity = motion_quantity(text)};
-        if (is_column(sweep, metric->name, sweep->metric_count)) {
-            message("--metric %s: the table already has a column with this name", metric->name);
-            sweep->metric_count++;
+// Adds the columns of a metric. Returns false after a message if the table has another column with such a name.
+static bool add_metric(Sweep *sweep, const char *text) {
+    static const char *const suffixes[TRUST_COLUMNS] = {
+        "", "_digits", "_error", "_order", "_spread", "_lyapunov_time", "_lyapunov_error", "_horizon", "_verdict"};
+    size_t name = strcspn(text, "=");
+    for (size_t column = 0; column < sweep->trust_columns; column++) {
+        SCOPED_TEXT full = {0};
+        text_add_format(&full, "%.*s%s", (int)name, text, suffixes[column]);
+        bool exists = is_column(sweep, full.bytes, sweep->metric_count);
+        sweep->metrics[sweep->metric_count++] = (Metric){.name = memory_strdup(full.bytes),
+                                                         .expression = text[name] ? text + name + 1 : NULL,
+                                                         .quantity = motion_quantity(text),
+                                                         .column = (TrustColumn)column};
+        if (exists) {
+            message("--metric %s: the table already has a column with this name", full.bytes);
             return false;
         }
     }
+    return true;
+}
+
+static bool read_metrics(Sweep *sweep) {
+    const TextList *texts = &sweep->own->metrics;
+    if (sweep->trust_columns == 0)
+        sweep->trust_columns = sweep->own->trust ? TRUST_DIGITS + 1 : 1;
+    sweep->metrics = memory_calloc((texts->count * sweep->trust_columns + 1) * sizeof *sweep->metrics);
+    for (size_t i = 0; i < texts->count; i++)
+        if (!add_metric(sweep, texts->items[i]))
+            return false;
     if (sweep->metric_count == 0 && !sweep->own->until) {
         message("nothing to measure; add --metric NAME='EXPR', such as --metric speed='hypot($(:cells;0;:velocity))'");
+        return false;
+    }
+    if (sweep->trust_columns > 1 && (sweep->own->until || sweep->options->frames < 1)) {
+        message(sweep->own->until ? "option '--trust' compares runs of the same length; use --frames instead of --until"
+                                  : "option '--trust' needs at least one frame");
         return false;
     }
     return true;

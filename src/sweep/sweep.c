@@ -32,9 +32,9 @@ static void compute_settings(Sweep *sweep, Measure *measure) {
     measure_hash_sources(measure, &hash);
     add_text(&hash, sweep->shared.bytes);
     add_text(&hash, sweep->own->until);
-    int64_t numbers[] = {sweep->options->frames, sweep->own->row_every};
+    int64_t numbers[] = {sweep->options->frames, sweep->own->row_every, (int64_t)sweep->trust_columns};
     sha256_add(&hash, (const char *)numbers, sizeof numbers);
-    for (size_t i = 0; i < sweep->metric_count; i++)
+    for (size_t i = 0; i < sweep->own->metrics.count; i++)
         add_text(&hash, sweep->own->metrics.items[i]);
     for (size_t i = 0; i < design->axis_count; i++)
         add_text(&hash, design->axes[i].name);
@@ -131,6 +131,10 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t exe
                 sweep->own->output);
         return STATUS_DONE;
     }
+    if (sweep->finish) {
+        print_cache_report(sweep);
+        return sweep->finish(sweep);
+    }
     if (!write_all(sweep))
         return worker_signal() != 0 ? STATUS_SIGNAL + worker_signal() : STATUS_FAILED;
     if (journal->path)
@@ -209,6 +213,13 @@ static int run_plan(const CommandContext *host, const Options *options) {
     return status;
 }
 
+int sweep_execute(Sweep *sweep, const Command *command) {
+    sweep->options->threads = sweep->options->threads > 0 ? sweep->options->threads : 1;
+    int status = sweep_read_options(sweep, command) ? run_sweep(sweep) : STATUS_USAGE;
+    free_sweep(sweep);
+    return status;
+}
+
 static bool sweep_needs_pictures(char *const *words) {
     return words_have_option(words, "plan") || words_have_option(words, "plot") || words_name_archive(words);
 }
@@ -220,13 +231,10 @@ static int sweep_run(const CommandContext *host, Options *options) {
         message("no script given; usage: petri sweep [options] SCRIPT.fl");
         return STATUS_USAGE;
     }
-    options->threads = options->threads > 0 ? options->threads : 1;
     SweepOptions *own = sweep_options(options);
     own->output = own->output && strcmp(own->output, "-") == 0 ? NULL : own->output;
     Sweep sweep = {.host = host, .options = options, .own = own};
-    int status = sweep_read_options(&sweep, &SWEEP_COMMAND) ? run_sweep(&sweep) : STATUS_USAGE;
-    free_sweep(&sweep);
-    return status;
+    return sweep_execute(&sweep, &SWEEP_COMMAND);
 }
 
 const Command SWEEP_COMMAND = {

@@ -36,10 +36,25 @@ typedef struct Design {
     size_t run_count;
 } Design;
 
+// What a column shows of a metric: its value, or how far it can be trusted (petri_trust).
+typedef enum TrustColumn {
+    TRUST_VALUE,
+    TRUST_DIGITS, // the columns up to this one are those of `petri sweep --trust`, the others of `petri trust`
+    TRUST_ERROR,
+    TRUST_ORDER,
+    TRUST_SPREAD,
+    TRUST_LYAPUNOV_TIME,
+    TRUST_LYAPUNOV_ERROR,
+    TRUST_HORIZON,
+    TRUST_VERDICT,
+    TRUST_COLUMNS
+} TrustColumn;
+
 typedef struct Metric {
     char *name;
     const char *expression;  // NULL: a quantity
     MotionQuantity quantity; // for metrics without an expression
+    TrustColumn column;
 } Metric;
 
 // The result of a run.
@@ -60,12 +75,14 @@ typedef enum ResultOrigin {
 
 typedef struct Sweep {
     const CommandContext *host;
-    const Options *options;
+    Options *options;
     const struct SweepOptions *own; // sweep/options.h
     Design design;
-    Metric *metrics;
-    size_t metric_count;
-    Text shared;                      // options that apply to every run, quoted for a shell
+    Metric *metrics;     // each with `trust_columns` columns that follow each other, the value first
+    size_t metric_count; // number of columns
+    size_t trust_columns;
+    int (*finish)(const struct Sweep *sweep); // prints the results and returns the status; NULL: writes the table
+    Text shared;                              // options that apply to every run, quoted for a shell
     char settings[SHA256_DIGITS + 1]; // hash of everything that the result of each run depends on, except values
     char identity[SHA256_DIGITS + 1]; // hash of everything that the table depends on
     Result *results;                  // indexed by run
@@ -87,6 +104,10 @@ bool axis_read(Axis *axis, const char *text);
 Cell axis_cell(const Axis *axis, const char *value);
 // Appends a value as an expression of the language.
 void axis_add_literal(Text *out, const char *value);
+
+// Executes the runs of a sweep whose fields up to `own` are set, and `trust_columns` and `finish` for another command
+// than `petri sweep`. Returns the exit status.
+int sweep_execute(Sweep *sweep, const Command *command);
 
 // Creates the design and reads the metrics and all other options of a sweep. Returns false after a message.
 bool sweep_read_options(Sweep *sweep, const Command *command);

@@ -5,6 +5,7 @@ import base64
 import copy
 import csv
 import gc
+import math
 import importlib.metadata
 import importlib.util
 import inspect
@@ -379,6 +380,25 @@ class Running(unittest.TestCase):
         with self.assertRaises(petri.ScriptError):
             session.evaluate("1 +")
 
+    def test_trust_contains_the_true_value(self):
+        """A spring from rest: the exact motion is a cosine."""
+        session = petri.Session("!physics state=:s dimensions=1\n    !anchor id=:wall\n    !particle id=:ball position=2.5\n"
+                                "    !distance from=:wall to=:ball fixed=2\n")
+        session.step(50)
+        before = session.text("digest")
+        for found in session.trust("$(:s;:ball)", "$(:s;:ball;:velocity)", frames=181, every=60)[2:]:
+            exact = (2 + 0.5 * math.cos(found.time)) if found.expression == "$(:s;:ball)" else -0.5 * math.sin(found.time)
+            self.assertLess(abs(found.value - exact), found.error)
+            self.assertLess(found.error, 2 * abs(found.value - exact) + 1e-3)
+            self.assertAlmostEqual(found.order, 1 if found.expression == "$(:s;:ball)" else 2, delta=0.2)
+            self.assertTrue(math.isnan(found.lyapunov_time))
+        self.assertEqual(session.text("digest"), before)
+        self.assertEqual([found.frame for found in session.trust("frame;1")], [49])
+        self.assertEqual(session.trust("'word'")[0].verdict, "not a number")
+        with self.assertRaises(petri.ScriptError):
+            session.trust("1 +")
+        self.assertEqual(session.text("digest"), before)
+
     def test_rewind_repeats_frames(self):
         session = petri.Session(DISH)
         session.step(5)
@@ -619,6 +639,10 @@ class CommandSweeps(unittest.TestCase):
     def test_quantities_are_metrics(self):
         table = petri.sweep(self.script, {"A": [3]}, {"kinetic_energy": None, "momentum": None}, frames=2)
         self.assertEqual((table["kinetic_energy"], table["momentum"]), ([5.0], [(3.0, 1.0)]))
+
+    def test_trust_adds_columns(self):
+        table = petri.sweep(self.script, {"A": [1, 2]}, {"x": "$(:d;1)"}, frames=3, trust=True)
+        self.assertEqual([digits >= 12 for digits in table["x_digits"]], [True, True])
 
     def test_output_and_summary_are_those_of_the_command(self):
         mine, theirs = self.folder / "mine.csv", self.folder / "theirs.csv"

@@ -27,7 +27,7 @@ from .films import Animation
 from .forces import Step
 from .parameters import Parameter, Parameters
 from .picture import Picture
-from .session import Frame, Options, Session, Snapshot
+from .session import Frame, Options, Session, Snapshot, Trust
 from .state import State
 from .sweeps import sweep
 from .systems import Contribution, Explanation, System, Systems
@@ -38,6 +38,7 @@ __version__ = _ffi.string(_lib.petri_version()).decode()
 __all__ = ["Animation", "Archive", "ArchiveError", "ArchivedFile", "Contribution", "Diagnostic", "Explanation",
            "Frame", "InterruptedStep", "Keyframe", "LimitError", "MissingLibraryError", "Options",
            "OutOfMemoryError", "Parameter", "Parameters", "PetriError", "PetriWarning", "Picture", "Recording",
-           "ScriptError", "Session", "Snapshot", "State", "Step", "System", "Systems", "Text", "Trajectory", "sweep"]
+           "ScriptError", "Session", "Snapshot", "State", "Step", "System", "Systems", "Text", "Trajectory", "Trust",
+           "sweep"]
 for _name in __all__:
     globals()[_name].__module__ = "petri"  # the public location

@@ -55,6 +55,32 @@ class Frame(NamedTuple):
     physics_seconds: float
 
 
+class Trust(NamedTuple):
+    """How far the value of an expression after a frame can be trusted (Session.trust). Times are in seconds."""
+
+    frame: int
+    time: float
+    expression: str
+    value: values.Value
+    error: float  # bound of the distance from the value with infinitely short steps
+    order: float  # of the error in the step, as observed; nan: the error is not regular
+    spread: float  # by rounding
+    digits: int  # decimal digits that are true; -1: the value is not a number
+    lyapunov_time: float  # nan: runs do not separate exponentially
+    lyapunov_error: float
+    horizon: float  # after this time, a single run means nothing; nan: not before the end
+    verdict: str
+
+
+@ffi.def_extern()
+def petri_python_trust(user_data: Any, trust: Any) -> None:
+    expressions, found = ffi.from_handle(user_data)
+    found.append(Trust(trust.frame, trust.time, expressions[trust.expression],
+                       values.parse(ffi.string(trust.value).decode()), trust.error, trust.order, trust.spread,
+                       trust.digits, trust.lyapunov_time, trust.lyapunov_error, trust.horizon,
+                       ffi.string(trust.sentence).decode()))
+
+
 class Snapshot:
     """The complete state of a session, for Session.rewind."""
 
@@ -308,6 +334,21 @@ class Session:
         data = text.encode()
         result = ffi.new("PetriEvaluation *")
         return values.parse(self._collect(lib.petri_evaluate, data, len(data), result, ffi.sizeof(result[0])))
+
+    def trust(self, *expressions: str, frames: int = 0, every: int = 0) -> List[Trust]:
+        """Runs the script again from frame 0, also with shorter steps and with other starting positions, and returns how
+        many digits of each expression are true: after the last frame, and after each `every`-th. `frames` is the number
+        of frames (default: those that the session has computed). The session stays where it is."""
+        texts = [ffi.new("char[]", text.encode()) for text in expressions]
+        found: List[Trust] = []
+        handle = ffi.new_handle((expressions, found))
+        pointers = ffi.new("char *[]", texts)
+        options = ffi.new("PetriTrustOptions *", {
+            "size": ffi.sizeof("PetriTrustOptions"), "expressions": pointers, "count": len(texts),
+            "frames": frames or self.frame.number + 1, "every": every, "report": lib.petri_python_trust,
+            "user_data": handle})
+        self._call(lib.petri_trust, options)
+        return found
 
     def number(self, text: str) -> float:
         """Returns the value of an expression that is a single number."""

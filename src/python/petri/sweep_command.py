@@ -90,7 +90,8 @@ def run(printer: Session, source: Union[None, str, os.PathLike], defines: Mappin
         words += ["-D", f"{name}={listed}"]
     for name, expression in metrics.items():
         words += ["--metric", name if expression is None else f"{name}={expression}"]
-    words += [f"--{name}={os.fspath(value) if isinstance(value, os.PathLike) else value}" for name, value in given.items()]
+    words += [f"--{name}" if value is True else f"--{name}={os.fspath(value) if isinstance(value, os.PathLike) else value}"
+              for name, value in given.items()]
     if "output" not in given:
         words.append("--output=-")
     with tempfile.TemporaryDirectory(prefix="petri-") as folder:

@@ -103,7 +103,7 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
           output: Union[None, str, os.PathLike] = None, summary: Union[None, str, os.PathLike] = None,
           plot: Union[None, str, os.PathLike] = None, plan: Union[None, str, os.PathLike] = None,
           cache: Union[None, str, os.PathLike] = None, verify_cache: Optional[float] = None,
-          shard: Optional[str] = None) -> Mapping[str, List[Any]]:
+          shard: Optional[str] = None, trust: bool = False) -> Mapping[str, List[Any]]:
     """Runs a script once per combination of values, several runs in parallel, and measures the results.
 
     `defines` maps names to lists of values, `metrics` maps column names to expressions, which are evaluated after the
@@ -127,13 +127,14 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
     `cache`: folder in which results are stored and found; `verify_cache`: percentage of them to compute again.
     `shard`: "I/N", the part of the runs to execute; needs `output`. The result is empty if other shards have not
     finished.
+    `trust`: if true, a column NAME_digits follows each metric: the number of its digits that are true.
     In `defines`, a str in the command's notation, such as "0..1|0.05". In `where`, a str with an expression.
     In `metrics`, None for a quantity of all systems: energy, kinetic_energy, potential_energy, momentum or
     angular_momentum. In these cases `given`, `functions` and a callable `where` raise ValueError, because the runs are
     in another process. If the command fails, PetriError has its messages.
     """
     chosen = {"sample": f"latin:{sample}" if isinstance(sample, int) else sample, "output": output, "summary": summary,
-              "plot": plot, "plan": plan, "cache": cache, "verify-cache": verify_cache, "shard": shard,
+              "plot": plot, "plan": plan, "cache": cache, "verify-cache": verify_cache, "shard": shard, "trust": trust or None,
               "where": where if isinstance(where, str) else None}
     chosen = {name: value for name, value in chosen.items() if value is not None}
     if chosen or any(isinstance(listed, str) for listed in defines.values()) or None in metrics.values():

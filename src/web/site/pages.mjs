@@ -55,6 +55,7 @@ export const GROUPS = [
         { name: 'prompt', title: 'The prompt', about: 'Step through frames, go back, measure and change values',
             parts: [['src/manual/repl.md']], made: 'prompt' },
         { name: 'sweep', title: 'Sweeps', about: 'One script with many parameter values and seeds', parts: [['src/manual/sweep.md']] },
+        { name: 'trust', title: 'Trust', about: 'How many digits of results are true', parts: [['src/manual/trust.md']] },
         { name: 'goldens', title: 'Goldens', about: 'Record what a script does, and find changes', parts: [['src/manual/goldens.md']] },
         { name: 'properties', title: 'Properties', about: 'Statements about all runs of a script', parts: [['src/manual/properties.md']] },
         { name: 'diff', title: 'Differences', about: 'Find out why two runs differ', parts: [['src/manual/diff.md']] },

@@ -496,6 +496,32 @@ static void check_failure(Stage *stage, const Row *row, long number, bool all, c
     close_stage(stage);
 }
 
+static void ignore_trust(void *user_data, const PetriTrust *trust) {
+    (void)user_data;
+    (void)trust;
+}
+
+// petri_trust may leave the session at another frame, but in a valid state.
+static void test_trust_without_memory_leaves_a_valid_session(void **state) {
+    Stage *stage = *state;
+    static const char *const expressions[] = {"frame"};
+    const PetriTrustOptions options = {
+        .size = sizeof options, .expressions = expressions, .count = 1, .frames = 4, .report = ignore_trust};
+    bool failed = true;
+    for (long number = 0; failed; number += 7) {
+        open_stage(stage, false);
+        heap_fail(number, true);
+        PetriStatus status = petri_trust(stage->player.session, &options);
+        heap_restore();
+        failed = status != PETRI_OK;
+        assert_true(!failed || status == PETRI_OUT_OF_MEMORY);
+        petri_reset(stage->player.session);
+        for (int i = 0; i < 3; i++)
+            assert_int_equal(petri_step(stage->player.session), PETRI_OK);
+        close_stage(stage);
+    }
+}
+
 // Lets a sample of an act's allocations fail. TRIES=1000000 tries all of them.
 static long max_tries(void) {
     const char *tries = getenv("TRIES");
@@ -594,6 +620,7 @@ TEST_GROUP(session_memory) {
         cmocka_unit_test_setup_teardown(test_failed_allocations_change_nothing, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_step_without_rollback_continues, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_step_with_rollback_continues, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_trust_without_memory_leaves_a_valid_session, set_up, tear_down),
         cmocka_unit_test(test_check_reports_all_or_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,99 @@
+#!/bin/sh
+# run.sh: tests of `petri trust` and `petri sweep --trust` as users run them. cases.py tests the numbers.
+# usage: tests/trust/run.sh PATH-OF-PETRI
+# shellcheck disable=SC2016 # dollars are for petri
+set -u
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1") || exit 2
+scratch
+unset NO_COLOR
+
+trust() {
+    timeout 100 "$petri" trust "$@" >out 2>err </dev/null
+    status=$?
+}
+# same_after COMMAND...: the output of the command is that of the last one.
+same_after() {
+    mv out before
+    "$@"
+    cmp before out
+}
+
+cat >spring.fl <<'END'
+let K=K or 10 -- 1..1e6 strength
+!physics state=:s dimensions=1
+    !anchor id=:wall
+    !particle id=:ball position=2.5
+    !distance from=:wall to=:ball fixed=2 strength=K
+END
+
+# --- values and verdicts
+
+trust spring.fl
+check "the energy is the default" eval 'status_is 0 && has out "energy: " && ! has out "(:s"'
+trust spring.fl '$(:s;:ball)' '2+2' energy --frames 100 --every 30 --json
+check "there is an object for each expression and frame" [ "$(grep -c '^  {"frame": [0-9]*, "expression": ' out)" -eq 15 ]
+check "a constant has all digits" [ "$(grep -c '"2+2", "value": 4, "error": 0, .*"digits": 15, .*"verdict": "converged: 15 digits"' out)" -eq 5 ]
+if command -v python3 >/dev/null; then
+    check "the output is JSON" python3 -c 'import json; json.load(open("out"))'
+fi
+check "the value is that of a run" eval '"$petri" run spring.fl --frames 100 --print state >run && grep -qF \
+    "$(sed -n "s/.*\"frame\": 99, \"expression\": \"..:s;:ball.\", \"value\": \([-0-9.e]*\).*/\1/p" out)" run'
+trust spring.fl 'null' "'text'" '1;2;3' '$(:s;:ball);1e300'
+check "values that are not numbers have no digits" [ "$(grep -c '  -  *-  *-  *-\|: not a number' out)" -ge 2 ]
+check "vectors are compared" has out "1;2;3: converged: 15 digits"
+trust spring.fl '$(:s;:ball)' -D K=1e6
+check "an unstable force is named with its line" eval 'status_is 1 && has out "unstable since frame 1 because of the force in line 5"'
+check "the diagnostic of the first run is shown once" [ "$(grep -c 'unstable-force\|is unstable: with' err)" -eq 1 ]
+sed 's/resolution=[^ ]*//; s/dimensions=1/dimensions=1 resolution=1\/480/' spring.fl >fine.fl
+trust fine.fl '$(:s;:ball)'
+check "shorter steps give a shorter error" eval 'status_is 0 && has out "0.0"'
+
+# --- several processes and the cache
+
+trust spring.fl '$(:s;:ball)' --frames 200 --cache results
+check "results are stored" has err "1 runs computed, 0 from the cache"
+check "and found again" same_after trust spring.fl '$(:s;:ball)' --frames 200 --cache results
+check "without another run" has err "0 runs computed, 1 from the cache"
+check "threads do not matter" same_after trust spring.fl '$(:s;:ball)' --frames 200 --threads 2
+trust spring.fl '$(:s;:ball)' --frames 200 --cache results -D K=11
+check "a definition is another result" has err "1 runs computed, 0 from the cache"
+
+# --- sweeps
+
+sweep() {
+    timeout 100 "$petri" sweep "$@" >out 2>err </dev/null
+    status=$?
+}
+sweep spring.fl -D 'K=1;10;1e6' --frames 100 --metric 'x=$(:s;:ball)' --metric energy --trust
+check "each metric has a column" has out "run,K,frame,x,x_digits,energy,energy_digits,error"
+check "an unstable run is marked" eval 'status_is 1 && [ "$(grep -c "1e6,.*this !distance" out)" -eq 1 ]'
+sweep spring.fl -D 'K=1;10' --frames 100 --metric 'x=$(:s;:ball)'
+cut -d, -f1-4 out >plain
+sweep spring.fl -D 'K=1;10' --frames 100 --metric 'x=$(:s;:ball)' --trust --cache results
+cut -d, -f1-4 out >trusted
+check "values are those without --trust" cmp plain trusted
+check "and also those of the cache" same_after sweep spring.fl -D 'K=1;10' --frames 100 --metric 'x=$(:s;:ball)' --trust --cache results
+sweep spring.fl -D 'K=1;10' --until 'frame > 3' --metric 'x=$(:s;:ball)' --trust
+check "runs of unknown length are rejected" eval 'status_is 2 && has err "use --frames instead of --until"'
+sweep spring.fl -D K=1 --metric x=1 --metric x_digits=2 --trust
+check "the name of a column is not used twice" eval 'status_is 2 && has err "x_digits: the table already has"'
+
+# --- errors
+
+trust
+check "a script is needed" eval 'status_is 2 && has err "no script given"'
+trust missing.fl
+check "a missing script is reported" eval 'status_is 1 && has err missing.fl'
+trust spring.fl 'nope+1'
+check "an unbound name is an error" eval 'status_is 2 && has err "unbound name" && has err nope'
+trust spring.fl '1+'
+check "a syntax error is an error" eval 'status_is 2 && has err "cannot evaluate"'
+trust - '1'
+check "standard input is rejected" eval 'status_is 2 && has err "standard input"'
+trust spring.fl --frames 0
+check "a frame is needed" status_is 2
+trust spring.fl --work 5
+check "a run that fails is reported" eval 'status_is 1 && has err "work"'
+finish
