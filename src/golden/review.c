@@ -2,8 +2,11 @@
 #include "golden/report.h"
 #include "golden/suite.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <termios.h>
+#include <unistd.h>
 
 enum { PATIENCE = 60 }; // seconds for the search of a cause
 
@@ -61,17 +64,49 @@ static bool answer(Review *review, Output *output, TestCase *test, char letter) 
     }
 }
 
-void review_ask(Review *review, Output *output, TestCase *test) {
+// Reads a key on a terminal, and shows it. Ctrl-C and Ctrl-D end the review, so that the terminal's settings return.
+static char read_key(Output *output, const struct termios *settings) {
+    struct termios raw = *settings;
+    char key = '\n';
+    raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO | ISIG);
+    raw.c_cc[VMIN] = 1;
+    raw.c_cc[VTIME] = 0;
+    tcsetattr(STDIN_FILENO, TCSADRAIN, &raw);
+    while (key == '\n' || key == '\r') { // of an answer with Enter
+        ssize_t count = read(STDIN_FILENO, &key, 1);
+        if (count == 0 || (count < 0 && errno != EINTR))
+            key = 'q';
+    }
+    tcsetattr(STDIN_FILENO, TCSADRAIN, settings);
+    key = key == '\003' || key == '\004' ? 'q' : key;
+    output_format(output, "%c\n", key >= ' ' && key <= '~' ? key : '?');
+    return key;
+}
+
+// Reads an answer: a key on a terminal, otherwise the first character of a line. Returns false at the end of the input.
+static bool read_answer(Output *output, char *letter) {
+    struct termios settings;
     char line[80] = "";
+    if (isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &settings) == 0) {
+        *letter = read_key(output, &settings);
+        return true;
+    }
+    bool good = fgets(line, sizeof line, stdin);
+    *letter = line[0];
+    return good;
+}
+
+void review_ask(Review *review, Output *output, TestCase *test) {
+    char letter;
     bool decided = review->ended;
     while (!decided) {
         output_format(output, "accept, reject, skip, cause, pictures or quit? [a/r/s/c/p/q] ");
         output_flush(output);
-        if (!fgets(line, sizeof line, stdin)) {
+        if (!read_answer(output, &letter)) {
             output_format(output, "\n");
             review->ended = decided = true;
         } else {
-            decided = answer(review, output, test, line[0]);
+            decided = answer(review, output, test, letter);
         }
     }
     review->asked++;

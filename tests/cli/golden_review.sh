@@ -34,6 +34,25 @@ review 'a\na\n'
 check "a review that accepts everything succeeds" status_is 0
 review ''
 check "a review without differences asks nothing" lacks out "[a/r"
+# On a terminal, keys answer without Enter, which is ignored.
+cp -R rev keys
+for name in a b c; do
+    printf 'import A from "mod.fl"\n!n a=A+frame+7\n' >keys/$name.fl
+done
+python3 -c '
+import os, pty, sys
+replies, seen = [b"x", b"a", b"\r\nr", b"\3"], [b""]
+def shown(file):
+    data = os.read(file, 1024)
+    seen[0] += data
+    if seen[0].endswith(b"/q] ") and replies:
+        seen[0] = b""
+        os.write(file, replies.pop(0))
+    return data
+pty.spawn(sys.argv[1:], shown, lambda file: b"")
+' "$petri" test --review keys >out 2>err </dev/null
+check "on a terminal, each key is an answer" has out "1 accepted, 1 rejected, 1 left"
+check "an unknown key gets help" has out "q: end the review"
 petri test --review --update rev
 check "--review and --update exclude each other" status_is 2
 petri test --review --format tap rev
