@@ -42,8 +42,8 @@ static void store_reason(Measure *measure, const PetriDiagnostic *diagnostic) {
 static void on_diagnostic(void *user_data, const PetriDiagnostic *diagnostic) {
     Measure *measure = user_data;
     const char *unread = unread_axis(&measure->sweep->design, diagnostic);
-    if (unread && texts_contain(&measure->expression_names, unread))
-        return; // for example a limit that only --until reads
+    if (unread && (measure->sweep->moved || texts_contain(&measure->expression_names, unread)))
+        return; // for example a limit that only --until reads, or SEED in runs that start at other places
     // A run with the script's default must not be listed with another value.
     bool false_definition = has_code(diagnostic, "false-definition");
     bool divergence = has_code(diagnostic, "divergence"), unstable = has_code(diagnostic, "unstable-force");
@@ -146,6 +146,14 @@ void measure_close(Measure *measure) {
     known_hashes_free(&measure->known);
 }
 
+static PetriStatus vary(Measure *measure, size_t run) {
+    const Sweep *sweep = measure->sweep;
+    return petri_vary(measure->session, &(PetriVariation){.size = sizeof(PetriVariation),
+                                                          .parts = sweep->parts,
+                                                          .shift = sweep->moved ? 1e-9 : 0,
+                                                          .seed = run});
+}
+
 PetriStatus measure_begin_run(Measure *measure, size_t run) {
     const Design *design = &measure->sweep->design;
     petri_config_apply(measure->session, measure->base);
@@ -160,6 +168,8 @@ PetriStatus measure_begin_run(Measure *measure, size_t run) {
         if (status == PETRI_INVALID)
             text_add_format(&measure->error, "not NAME=VALUE: '%s'", definition.bytes);
     }
+    if (status == PETRI_OK)
+        status = vary(measure, run);
     if (status != PETRI_OK)
         return status;
     status = petri_source_file(measure->session, 0) ? petri_reload(measure->session, NULL)

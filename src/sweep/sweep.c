@@ -32,7 +32,8 @@ static void compute_settings(Sweep *sweep, Measure *measure) {
     measure_hash_sources(measure, &hash);
     add_text(&hash, sweep->shared.bytes);
     add_text(&hash, sweep->own->until);
-    int64_t numbers[] = {sweep->options->frames, sweep->own->row_every, (int64_t)sweep->trust_columns};
+    int64_t numbers[] = {sweep->options->frames, sweep->own->row_every, (int64_t)sweep->trust_columns, sweep->moved,
+                         sweep->parts};
     sha256_add(&hash, (const char *)numbers, sizeof numbers);
     for (size_t i = 0; i < sweep->own->metrics.count; i++)
         add_text(&hash, sweep->own->metrics.items[i]);
@@ -132,8 +133,10 @@ static int finish_sweep(Sweep *sweep, Journal *journal, double start, size_t exe
         return STATUS_DONE;
     }
     if (sweep->finish) {
-        print_cache_report(sweep);
-        return sweep->finish(sweep);
+        int status = sweep->finish(sweep);
+        if (status != SWEEP_CONTINUE)
+            print_cache_report(sweep);
+        return status;
     }
     if (!write_all(sweep))
         return worker_signal() != 0 ? STATUS_SIGNAL + worker_signal() : STATUS_FAILED;
@@ -157,9 +160,12 @@ static int make_runs(Sweep *sweep, Journal *journal) {
     size_t before = sweep_count_runs(sweep, sweep_owns_run) - wanted;
     if (before > 0 && sweep->options->verbosity > LOG_QUIET)
         message("%zu runs are already done", before);
-    int status = worker_pool_run(sweep, journal, jobs_of(sweep));
-    if (status == STATUS_DONE)
-        status = finish_sweep(sweep, journal, start, wanted - sweep_count_runs(sweep, sweep_wants_run));
+    int status = SWEEP_CONTINUE;
+    while (status == SWEEP_CONTINUE) {
+        status = worker_pool_run(sweep, journal, jobs_of(sweep));
+        if (status == STATUS_DONE)
+            status = finish_sweep(sweep, journal, start, wanted - sweep_count_runs(sweep, sweep_wants_run));
+    }
     if (status > STATUS_SIGNAL) {
         message(!journal->path ? "stopped; to keep finished runs, use -o FILE.csv"
                                : "stopped; run the same command to resume");
@@ -173,6 +179,8 @@ static int run_sweep(Sweep *sweep) {
     if (status != STATUS_DONE)
         return status;
     sweep->results = memory_calloc(sweep->design.run_count * sizeof *sweep->results);
+    if (sweep->first_runs > 0 && sweep->first_runs < sweep->design.run_count)
+        sweep->design.run_count = sweep->first_runs;
     if (worker_pool_is_remote(sweep))
         return worker_pool_run(sweep, &journal, jobs_of(sweep));
     if (!can_write(sweep))

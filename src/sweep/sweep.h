@@ -73,6 +73,8 @@ typedef enum ResultOrigin {
     RESULT_ORIGINS
 } ResultOrigin;
 
+enum { SWEEP_CONTINUE = -2 };
+
 typedef struct Sweep {
     const CommandContext *host;
     Options *options;
@@ -81,8 +83,13 @@ typedef struct Sweep {
     Metric *metrics;     // each with `trust_columns` columns that follow each other, the value first
     size_t metric_count; // number of columns
     size_t trust_columns;
-    int (*finish)(const struct Sweep *sweep); // prints the results and returns the status; NULL: writes the table
-    Text shared;                              // options that apply to every run, quoted for a shell
+    bool moved;        // starting positions are moved by 1e-9 of the size, in each run in other directions
+    uint32_t parts;    // equal parts into which each step is divided; 0: 1
+    size_t first_runs; // number of runs before the first call of `finish`; 0: all
+    // Processes the results and returns the exit status, or SWEEP_CONTINUE after it has increased design.run_count.
+    // NULL: writes the table.
+    int (*finish)(struct Sweep *sweep);
+    Text shared;                      // options that apply to every run, quoted for a shell
     char settings[SHA256_DIGITS + 1]; // hash of everything that the result of each run depends on, except values
     char identity[SHA256_DIGITS + 1]; // hash of everything that the table depends on
     Result *results;                  // indexed by run

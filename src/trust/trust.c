@@ -7,16 +7,12 @@
 #include "cli/text_table.h"
 #include "cli/words.h"
 #include "petri-archive.h"
-#include "sweep/options.h"
 #include "sweep/sweep.h"
+#include "trust/means.h"
 
 #include <inttypes.h>
 #include <math.h>
-
-typedef struct TrustOptions {
-    SweepOptions sweep; // first, because the sweep reads them as its own
-    bool json;
-} TrustOptions;
+#include <stdlib.h>
 
 // The cells of an expression after a frame, in the order of TrustColumn.
 typedef struct Finding {
@@ -59,7 +55,10 @@ static void put_finding(const Sweep *sweep, const Finding *finding, JsonWriter *
 
 static void add_cell(TextTable *table, const char *format, double x) {
     SCOPED_TEXT text = {0};
-    text_add_format(&text, isnan(x) ? "-" : format, x);
+    if (isnan(x))
+        text_add_c(&text, "-");
+    else
+        text_add_format(&text, format, x);
     text_table_add(table, text.bytes);
 }
 
@@ -105,7 +104,7 @@ static void add_growth(const Finding *finding, Text *out) {
         text_add_format(out, "single runs mean nothing after %.3g s\n", horizon);
 }
 
-static int print_findings(const Sweep *sweep) {
+static int print_findings(Sweep *sweep) {
     SCOPED_TEXT out = {0}, verdicts = {0};
     static const char *const heads[] = {"frame", "expression", "value", "error", "order", "spread", "digits"};
     SCOPED_TEXT_TABLE table = text_table_new(sizeof heads / sizeof heads[0]);
@@ -154,6 +153,11 @@ static int trust_run(const CommandContext *host, Options *options) {
         text_add_c(&metric, expression);
         texts_add(&own->sweep.metrics, metric.bytes);
     }
+    if (own->sweep.seeds > 0 || own->within > 0) {
+        int result = means_run(host, options);
+        texts_free(&own->sweep.metrics);
+        return result;
+    }
     own->sweep.trust = true;
     Sweep sweep = {
         .host = host, .options = options, .own = &own->sweep, .trust_columns = TRUST_COLUMNS, .finish = print_findings};
@@ -168,11 +172,21 @@ static bool trust_needs_pictures(char *const *words) {
 
 typedef TrustOptions Own;
 
+static bool read_width(const Args *args, void *field) {
+    char *end = NULL;
+    double value = *(double *)field = strtod(args->value, &end);
+    bool good = end != args->value && end[*end == '%'] == '\0' && value > 0 && value <= 1000;
+    return good || option_invalid(args, "a percentage above 0 such as 1%");
+}
+
 // clang-format off
 static const OptionSpec ROWS[] = {
     DEFINE_OPTION
     SHARED("frames", 0, "N", WHOLE(1, INT64_MAX), frames, "compare runs of N frames (default: 600)")
     OWN("every", 0, "K", WHOLE(1, INT64_MAX), sweep.row_every, "also report every K-th frame (default: only the last)")
+    OWN("seeds", 0, "N", WHOLE(1, 100000), sweep.seeds, "print means over N runs, with SEED from 1 to N; with --within: at most N")
+    OWN("within", 0, "P%", read_width, within, "add runs until the 95 % interval of each mean is within P % of it")
+    OWN("jobs", 0, "N", WHOLE(1, 1024), sweep.jobs, "execute N runs in parallel (default: number of CPUs)")
     OWN("json", 0, NULL, option_flag, json, "print a list of objects with value, error, order, spread, digits, verdict")
     OWN("cache", 0, "DIR", option_text, sweep.cache, "store the results in the folder DIR, and use those that are there")
     FPS_OPTION READ_OPTIONS
@@ -195,11 +209,16 @@ const Command TRUST_COMMAND = {
         "and the number of digits that are true. EXPR is an expression as for --metric of petri sweep, or one of\n"
         "energy, kinetic_energy, potential_energy, momentum, angular_momentum (default: energy).\n"
         "\n"
+        "--seeds N prints means over N runs instead, with 95 % intervals that allow for correlation in time; --within "
+        "1%\n"
+        "executes as many runs as the means need, and the same command with --cache DIR resumes.\n"
+        "\n"
         "The last lines say whether the value has converged, which step to use instead, from when on a chaotic system\n"
         "has no predictable values, or which force is unstable. The exit status is 1 if the run is unstable or fails.",
     .examples = "  petri trust dish.fl\n"
                 "  petri trust dish.fl 'place(0)' 'mean(hypot(place(i)) for i in ..DROPS)' --every 100\n"
-                "  petri trust dish.fl energy --frames 2000 --json\n",
+                "  petri trust dish.fl energy --frames 2000 --json\n"
+                "  petri trust dish.fl kinetic_energy --frames 6000 --within 1% --cache results\n",
     .missing_operand = "no script given",
     .no_stdin = "cannot read the script from standard input: each process loads it; use a file",
     .accepts_expressions = true,

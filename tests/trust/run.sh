@@ -80,6 +80,35 @@ check "runs of unknown length are rejected" eval 'status_is 2 && has err "use --
 sweep spring.fl -D K=1 --metric x=1 --metric x_digits=2 --trust
 check "the name of a column is not used twice" eval 'status_is 2 && has err "x_digits: the table already has"'
 
+# --- means
+
+cat >dish.fl <<'END'
+let SEED=SEED or 1
+!physics state=:t dimensions=1 run=SEED
+    !anchor id=:wall
+    !particle id=:bead position=5 radius=1
+    !distance from=:wall to=:bead fixed=5
+    !random strength=20
+    !drag strength=2
+END
+trust dish.fl '$(:t;:bead)' --seeds 8 --frames 300 --json
+check "means have intervals" grep -q '"mean": [45]\.[0-9]*, "half_width": [0-9.]*, "step": [0-9.e-]*, "runs": 8,' out
+check "the number of jobs does not matter" same_after trust dish.fl '$(:t;:bead)' --seeds 8 --frames 300 --json --jobs 1
+trust dish.fl '$(:t;:bead)' --within 3% --frames 600 --cache runs
+check "runs are added until the interval is narrow" eval 'status_is 0 && grep -q "within [12][.0-9]* %" out'
+count=$(sed -n 's/^petri: \([0-9]*\) runs computed, 0 from the cache.*/\1/p' err | head -n 1)
+check "more than the first runs are needed" [ "$count" -gt 8 ]
+trust dish.fl '$(:t;:bead)' --within 3% --frames 600 --cache runs
+check "an interrupted search resumes from the cache" has err "0 runs computed, $count from the cache"
+trust dish.fl '$(:t;:bead)' --within 0.01% --seeds 10 --frames 600
+check "a limit says how many runs are needed" has out "runs would give 0.01 %"
+trust spring.fl '$(:s;:ball)' --seeds 4
+check "runs that do not differ have no interval" eval 'has out "the runs are alike" && has out "  -  "'
+trust dish.fl 1 --seeds 4 --frames 10
+check "a constant is its mean" grep -q "^1 *1 *0 *0 *4 " out
+trust dish.fl 1 --within 0
+check "a width of 0 is rejected" eval 'status_is 2 && has err "a percentage above 0"'
+
 # --- errors
 
 trust
