@@ -152,6 +152,9 @@ static void write_commands(void) {
             seed("repl", name + 1, ".step 3\n%s\n%s 2\n%s :cells\n%s SIZE 3\n.step\n%s x.out\n", name, name, name, name,
                  name);
     }
+    seed("repl", "moves",
+         ".step 3\n.move 1 position=2;3 velocity=prev($(:cells;1))\n.step 2\n.move (:cells;0) velocity=_\n.set SIZE 1\n"
+         ".back 3\n.step 4\n.goto 2\n.move 0 position=$(:cells;0)*1e200\n.step\n.reset\n");
     for (size_t i = 0; i < sizeof COMMANDS / sizeof COMMANDS[0]; i++) {
         for (const OptionSpec *option = command_options(COMMANDS[i]); option->name; option++) {
             FILE *file = open_seed("arguments", option->name);
@@ -238,7 +241,7 @@ static void write_foreign(void) {
          "aB1 \x1b[A\x1b[1;5C\x1bOP\x1b[15~\x1b[<0;12;7M\x1b[<0;12;7m\x1b[O\x1b[I\x1b[97;5u\xc3\xa9\x1b");
     seed("listen", "texts",
          "!b x=2\x1e.set SIZE 5\x1e.back 2\x1e.set SIZE\x1e.drop\x1e.reset\x1e"
-         "1+SIZE\x1elet x=\x1e.back x");
+         "1+SIZE\x1e.move 0 position=3;4\x1e.back\x1e.move :cells;1 velocity=1/0\x1elet x=\x1e.back x");
     seed("mesh", "obj",
          "%cv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 1\nvn 0 0 1\nf 1/1/1 2//1 3\nf -1 -2 1\nf 1 2 3 4\n", 2);
     seed("mesh", "stl",
