@@ -46,4 +46,22 @@ check "the file type is set, the server runs and the parser colours the script" 
 check "the queries find a node" has out "tag 1:0"
 check "the queries find an attribute" has out "attribute 1:10"
 check "vim.lsp.enable has a configuration" [ "$(tail -n 1 out)" = lsp ]
+# As installed and without a parser: Neovim finds the file type and the colours of Vim's syntax file, with and without
+# setup(). `-u NORC` starts Neovim like an empty init.lua.
+DESTDIR=$work/installed meson install -C "$(dirname "$(dirname "$petri")")" --no-rebuild --tags editors >log 2>&1 || cat log
+share=$(dirname "$(dirname "$(find installed -path '*/nvim/site')")")
+cat >colours.lua <<END
+vim.cmd('edit script.fl')
+local groups = { vim.bo.filetype, vim.bo.commentstring }
+for _, column in ipairs({ 1, 5, 15 }) do
+    table.insert(groups, vim.fn.synIDattr(vim.fn.synID(1, column, 1), 'name'))
+end
+vim.fn.writefile(groups, 'out')
+vim.cmd('qa!')
+END
+for start in 'local none' "require('petri').setup({ cmd = { '$petri', 'lsp' } })"; do
+    XDG_DATA_DIRS=$work/$share timeout 60 nvim --headless -u NORC -c "lua $start" -c 'luafile colours.lua' >err 2>&1 </dev/null
+    check "scripts have colours as installed: $start" \
+        [ "$(tr '\n' '|' <out)" = "flitter|-- %s|flitterKeyword|flitterAttribute|flitterNumber|" ]
+done
 finish
