@@ -74,7 +74,7 @@ def optional_libraries():
 
 archive = Path(sys.argv[1])
 checksum = hashlib.sha256(archive.read_bytes()).hexdigest()
-version, authors, homepage, place = fill(f"@VERSION@\n@AUTHORS@\n@HOMEPAGE@\n@RELEASES@/{archive.name}").splitlines()
+version, authors, homepage, place = fill(f"@VERSION@\n@AUTHORS@\n@HOMEPAGE@\n@RELEASES@/v@VERSION@/{archive.name}").splitlines()
 date = datetime.datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), datetime.timezone.utc)
 petri = package("petri", version, place, "MIT", "the source archive")
 petri["copyrightText"] = re.search(r"^Copyright .*", (root / "LICENSE").read_text(), re.M)[0]

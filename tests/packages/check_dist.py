@@ -17,6 +17,7 @@ folder = Path(sys.argv[1])
 archive, = folder.glob("petri-*.tar.xz")
 name = archive.name.removesuffix(".tar.xz")
 version = name.removeprefix("petri-")
+place = f"/releases/download/v{version}/{archive.name}"  # of a file of the release with the tag v1.2.3, on GitHub
 checksum = hashlib.sha256(archive.read_bytes()).hexdigest()
 faults = []
 
@@ -51,6 +52,7 @@ def check_materials(document):
     check("relations of all packages", kinds["CONTAINS"] + kinds["OPTIONAL_DEPENDENCY_OF"] == len(identifiers) - 1)
     described = next(part for part in document["packages"] if part["name"] == "petri")
     check("the version in the bill of materials", described["versionInfo"] == version)
+    check("the place in the bill of materials", described["downloadLocation"].endswith(place))
     check("checksum of the archive", described["checksums"] == [{"algorithm": "SHA256", "checksumValue": checksum}])
     names = {part["name"] for part in document["packages"]}
     check("bundled and linked software", {"xxHash", "SQLite", "@codemirror/view", "vscode-languageclient", "cairo", "sqlite3"} <= names)
@@ -93,7 +95,7 @@ def check_form(path, text):
 
 def check_conda(text):
     recipe = yaml.safe_load(text)
-    check("source of the recipe", recipe["source"]["url"].endswith(archive.name) and recipe["source"]["sha256"] == checksum)
+    check("source of the recipe", recipe["source"]["url"].endswith(place) and recipe["source"]["sha256"] == checksum)
     check("outputs of the recipe", [output["name"] for output in recipe["outputs"]] ==
           ["libpetri", "petri", "petri-mpi", "petri-python"])
     owners = {}
@@ -106,7 +108,7 @@ def check_conda(text):
 
 
 def check_formula(text):
-    check("source of the formula", f'/{archive.name}"' in text and f'sha256 "{checksum}"' in text)
+    check("source of the formula", f'{place}"' in text and f'sha256 "{checksum}"' in text)
     check("test of the formula", "  test do" in text)
     try:
         check("syntax of the formula", subprocess.run(["ruby", "-c"], input=text, text=True, capture_output=True).returncode == 0)

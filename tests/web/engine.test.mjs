@@ -27,6 +27,12 @@ test('the package has the version of the project and is small', () => {
     assert.ok(size('engine.wasm') <= 560e3 && size('engine-archives.wasm') <= 860e3);
 });
 
+test('links of the README lead somewhere in a registry', () => {
+    const links = [...readFileSync(join(folder, 'README.md'), 'utf8').matchAll(/\]\(([^)]*)\)/g)].map(([, link]) => link);
+    assert.ok(links.length > 0);
+    assert.deepEqual(links.filter(link => !/^https:\/\/[^@]*$/.test(link)), []);
+});
+
 // The linker permits missing functions (src/web/meson.build). They return -52, which callers may take for an address.
 test('every OpenGL function that the engine calls is implemented', async () => {
     const { Screen } = await import(pathToFileURL(join(folder, 'webgl.mjs')));

@@ -1,7 +1,7 @@
 class Petri < Formula
   desc "Fast, deterministic interpreter for Flitter scripts with particle physics"
   homepage "@HOMEPAGE@"
-  url "@RELEASES@/petri-@VERSION@.tar.xz"
+  url "@RELEASES@/v@VERSION@/petri-@VERSION@.tar.xz"
   sha256 "@SHA256@"
   license "MIT"
 
