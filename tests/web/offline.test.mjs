@@ -11,7 +11,7 @@ import { choose, firefoxOptions, folder, opened, openedInFirefox, options, pixel
 const withWorker = page => page.waitForFunction(() => navigator.serviceWorker.controller);
 const isReady = page => page.waitForFunction(() => document.body.dataset.ready);
 
-test('a page that was loaded once runs samples and exports offline', options, () => opened('', {
+test('a page that was loaded once runs samples, exports and shows a grid offline', options, () => opened('', {
     use: async (page, context) => {
         await withWorker(page);
         await page.waitForLoadState('networkidle'); // requests that are under way would fail
@@ -28,6 +28,8 @@ test('a page that was loaded once runs samples and exports offline', options, ()
         await page.fill('#saving-to', '3');
         const [file] = await Promise.all([page.waitForEvent('download'), page.click('#saving-go')]);
         assert.match(readFileSync(await file.path(), 'latin1'), /^GIF89a/);
+        await page.click('#grid-open');
+        await page.waitForFunction(() => document.querySelectorAll('#grid td button[data-frame="2"]').length > 0);
     },
 }));
 

@@ -9,7 +9,7 @@ import { packagesOf, writeLicences } from '../../packaging/licences.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [, , output, samples] = process.argv;
-const OPTIONS = { external: ['node:fs/promises'], bundle: true, minify: true, target: 'es2022', logLevel: 'warning' };
+const OPTIONS = { external: ['node:fs/promises', './exports.js*', './grid.js*'], bundle: true, minify: true, target: 'es2022', logLevel: 'warning' };
 const inputs = {};
 // The addresses of files that are loaded later, with their hashes, so that a page never loads those of another version (offline.js).
 const define = {};
@@ -27,8 +27,9 @@ async function bundle(entryPoints) {
     }
 }
 
-await bundle({ exports: 'exports.mjs' });
+await bundle({ exports: 'exports.mjs', cells: 'cells.mjs' });
 await bundle({ worker: 'worker.mjs' });
+await bundle({ grid: 'grid.mjs' });
 await bundle({ page: 'main.mjs', start: 'preload.mjs', 'petri-dish': 'embed.mjs' });
 writeLicences(join(output, 'third-party-licences.txt'), packagesOf({ inputs }));
 for (const name of ['index.html', 'style.css', 'icon.svg', 'manifest.webmanifest'])

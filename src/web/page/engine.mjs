@@ -69,14 +69,14 @@ export class Remote {
         return this.waiting.size > 0;
     }
 
-    // Sends a request and returns a promise for the answer. Requests wait until the engine is loaded.
-    ask(act, message = {}) {
+    // Sends a request, with objects to transfer, and returns a promise for the answer. Requests wait until the engine is loaded.
+    ask(act, message = {}, transfer = []) {
         const id = ++this.number, { worker } = this;
         if (worker.dead)
             return Promise.reject(new Error(worker.dead));
         return new Promise((resolve, reject) => {
             this.waiting.set(id, { resolve, reject });
-            const post = () => worker.postMessage({ ...message, act, id });
+            const post = () => worker.postMessage({ ...message, act, id }, transfer);
             if (act === 'open')
                 post();
             else

@@ -1,17 +1,12 @@
 // gallery.mjs: the dialog with the user's scripts and the samples, whose pictures are computed when they are shown. The picture under the
 // pointer, or with the focus, moves.
 import { Dish } from './dish.mjs';
+import { makeElement } from './element.mjs';
 
 const WIDTH = 320, HEIGHT = 240;
 const FRAME = 60; // the frame of a thumbnail
 const FRAMES = { 'dish.fl': 150, 'orbits.fl': 200, 'trails.fl': 200, 'aquarium.fl': 240, 'terrain.fl': 200, 'petri.fl': 20 };
 const LAST = ['solids.fl', 'metaballs.fl', 'bubble.fl', 'petri.fl']; // scenes, which take long without a graphics card
-
-const makeElement = (tag, properties = {}, ...children) => {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-};
 
 // Returns the first sentence of the script's first comment.
 const describe = text => (text.match(/^-- (.*)/m)?.[1] ?? '').split(/[.:](?=\s|$)/)[0];

@@ -21,6 +21,7 @@ import { Tabs } from './tabs.mjs';
 import { listenForTheme } from './theme.mjs';
 import { Transfer } from './transfer.mjs';
 
+/* global GRID_FILE -- build.mjs defines the address of grid.js. */
 const $ = id => document.getElementById(id);
 const FIRST = 'dish.fl';
 
@@ -108,6 +109,15 @@ async function restart() {
         page.dish.run();
 }
 
+let grid = null;
+async function showGrid(source) {
+    grid ??= import(GRID_FILE).then(({ Grid }) => new Grid(page, source)); // few visitors need it
+    await grid.then(one => one.show()).catch(error => {
+        grid = null;
+        say(`cannot load the grid: ${error.message}; reload the page`, true);
+    });
+}
+
 const stem = () => page.name.replace(/\.fl$/, '');
 
 function listen() {
@@ -140,6 +150,7 @@ async function begin() {
         tabs.choose($('tab-plot'));
     });
     saves = new SaveDialog(document, dish, stem);
+    $('grid-open').onclick = () => showGrid(start.source);
     new Gallery(document, page, start.source);
     plot = new Plot(document, dish);
     table = new Table(document, dish);

@@ -5,10 +5,10 @@ import { Player } from './player.mjs';
 import { passes } from './task.mjs';
 import { StateTable, Watches } from './tables.mjs';
 
-/* global EXPORTS_FILE -- build.mjs defines the address of exports.js. */
+/* global CELLS_FILE, EXPORTS_FILE -- build.mjs defines the addresses of cells.js and exports.js. */
 const STEP_TIME = 30; // ms that the frames of one picture may take
 const SEEK_STEPS = 50; // frames between checks for new requests
-let engine, player, checker, hasArchives = false, reported = [], flag = null, current = 0;
+let engine, player, checker, cells, hasArchives = false, reported = [], flag = null, current = 0;
 
 // The page sets the flag to the id of the last request to interrupt. All earlier requests are interrupted as well.
 const shouldInterrupt = () => flag !== null && Atomics.load(flag, 0) >= current;
@@ -29,6 +29,11 @@ function shown(extra = {}) {
         parameters: session.parameters, verification: player.verification, reported: take(), ...extra,
     };
 }
+
+// Loads a module that few visitors need.
+const later = file => import(file).catch(() => {
+    throw new Error(`cannot load ${file.replace(/\?.*/, '')}; reload the page`);
+});
 
 const take = () => reported.splice(0);
 
@@ -178,12 +183,15 @@ const handlers = {
         return { type: 'done' };
     },
     series: () => ({ type: 'series', series: watches.series(player.lastFrame), frame: player.frame }),
+    // Calls a method of Cells.
+    async grid({ run, ...message }) {
+        cells ??= new (await later(CELLS_FILE)).Cells({ player, images, paint });
+        return { type: 'grid', ...cells[run](message) };
+    },
     // Exports a range of frames to a file.
     async save({ id, kind, from, to }) {
         const range = { from, to, shouldInterrupt, onProgress: (done, of) => postMessage({ type: 'progress', id, done, of }) };
-        const { makeFile } = await import(EXPORTS_FILE).catch(() => {
-            throw new Error('cannot load exports.js; reload the page');
-        });
+        const { makeFile } = await later(EXPORTS_FILE);
         return { type: 'saved', blob: await makeFile(kind, { player, images, show: picture, paint, sizeOf }, range) };
     },
     pointer({ inside, x, y, buttons }) {
