@@ -200,11 +200,11 @@ test('a slider changes a parameter, and a link restores everything', options, ()
 }));
 
 test('an invalid link is reported and changes nothing', options, async () => {
-    const { packLink, readLink } = await import('../../src/web/page/link.mjs');
+    const { SPEC, packLink, readLink } = await import('../../src/web/page/link.mjs');
     const link = await packLink({ text: DISH, name: 'dish.fl', frame: 3, digest: 'f'.repeat(32), changes: [[1, 'A', '2']] });
     assert.match(link, /^#[A-Za-z0-9_-]+$/);
     assert.deepEqual(await readLink(link),
-        { text: DISH, name: 'dish.fl', frame: 3, digest: 'f'.repeat(32), hash: null, changes: [[1, 'A', '2']] });
+        { text: DISH, name: 'dish.fl', frame: 3, digest: 'f'.repeat(32), hash: null, changes: [[1, 'A', '2']], spec: SPEC });
     await assert.rejects(readLink(link.slice(0, -9)), /copied completely/);
     await assert.rejects(readLink('#!!'), /damaged/);
     await assert.rejects(readLink(`#${'A'.repeat(200000)}`), /too long/);
