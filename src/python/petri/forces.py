@@ -14,7 +14,7 @@ from .functions import Functions
 
 
 class Step:
-    """A physics step that is about to be taken, for functions in `forces` of Session.
+    """The next physics step, for functions in `forces` of Session.
 
     N particles in d dimensions, in the order of System.ids, including anchors. Arrays keep their values after the call.
     """

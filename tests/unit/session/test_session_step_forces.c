@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-// A spring to the origin, and what the callback was told.
+// A spring to the origin, and the arguments of the last call.
 typedef struct Spring {
     double stiffness;
     uint64_t calls;
