@@ -331,6 +331,17 @@ size_t document_level(const Document *document, size_t token) {
     return level > SIZE_MAX / 2 ? SIZE_MAX - level : level;
 }
 
+size_t document_block_end(const Document *document, size_t token) {
+    size_t level = document_level(document, token), end = document->tokens[token].end;
+    for (size_t i = token + 1; i < document->token_count; i++) {
+        if (document_begins(document, i) && document_level(document, i) <= level)
+            break;
+        if (document->tokens[i].kind != PETRI_TOKEN_COMMENT)
+            end = document->tokens[i].end;
+    }
+    return end;
+}
+
 size_t document_token_at(const Document *document, size_t offset) {
     size_t low = 0, high = document->token_count;
     while (low < high) {

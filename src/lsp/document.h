@@ -96,6 +96,8 @@ Str document_token(const Document *document, size_t token);
 bool document_is(const Document *document, size_t token, const char *text);
 bool document_begins(const Document *document, size_t token); // returns true if the token begins a statement
 size_t document_level(const Document *document, size_t token);
+// Returns the offset of the end of the statement that a token begins. The end includes the block of the statement.
+size_t document_block_end(const Document *document, size_t token);
 // Returns the first token that ends after the offset, or token_count.
 size_t document_token_at(const Document *document, size_t offset);
 // Returns the name at an offset, or NULL.

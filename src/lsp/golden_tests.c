@@ -14,9 +14,10 @@
 
 enum { PATIENCE = 2 }; // seconds in which the editor waits for answers
 
-// Returns true if a file with recorded output is beside the script.
-static bool has_test(const char *path) {
+bool golden_tests_exist(const char *path) {
     static const char *const suffixes[] = {".golden", ".err"};
+    if (!str_ends_with(str_from(path), STR(".fl")))
+        return false;
     for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
         SCOPED_TEXT file = {0};
         text_add_format(&file, "%.*s%s", (int)(strlen(path) - strlen(".fl")), path, suffixes[i]);
@@ -77,8 +78,7 @@ static void read_report(Document *document, const Text *output) {
 
 void golden_tests_run(Server *server, Document *document) {
     document_clear_failures(document);
-    if (server->options->no_files || !document->is_file || !str_ends_with(str_from(document->path), STR(".fl")) ||
-        !has_test(document->path))
+    if (server->options->no_files || !document->is_file || !golden_tests_exist(document->path))
         return;
     char *words[] = {"petri", "test", "--color=never", "--", document->path, NULL};
     SCOPED_TEXT output = {0}, errors = {0};

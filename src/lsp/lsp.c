@@ -138,6 +138,8 @@ static const struct {
     {"textDocument/rename", answer_rename, NULL},
     {"textDocument/documentSymbol", answer_symbols, "documentSymbolProvider"},
     {"textDocument/foldingRange", answer_folding, "foldingRangeProvider"},
+    {"textDocument/selectionRange", answer_selection, "selectionRangeProvider"},
+    {"textDocument/codeLens", answer_lenses, NULL},
     {"textDocument/semanticTokens/full", answer_tokens, NULL},
     {"textDocument/inlayHint", answer_hints, "inlayHintProvider"},
     {"textDocument/documentColor", answer_colours, "colorProvider"},
@@ -167,6 +169,7 @@ static void put_capabilities(JsonWriter *json, const Server *server) {
     JSON_PUT_ARRAY(json, "triggerCharacters", "(", ",");
     json_close(json, "}");
     json_open(json, "documentLinkProvider", "{}");
+    json_open(json, "codeLensProvider", "{}");
     json_open(json, "workspace", "{");
     json_open(json, "workspaceFolders", "{");
     json_put_bool(json, "supported", true);
@@ -186,6 +189,10 @@ static void initialize(Server *server, const Json *params, JsonWriter *result) {
     for (const Json *name = NULL; (name = json_next(encodings, name));)
         server->utf8 = server->utf8 || (json_is(name, JSON_STRING) && strcmp(name->text, "utf-8") == 0);
     add_roots(server, params);
+    const Json *commands = json_path(params, "initializationOptions.commands");
+    for (const Json *name = NULL; (name = json_next(commands, name));)
+        if (json_is(name, JSON_STRING))
+            texts_add(&server->commands, name->text);
     server->initialized = true;
     json_open(result, NULL, "{");
     put_capabilities(result, server);
@@ -285,6 +292,7 @@ static int lsp_run(const CommandContext *host, Options *options) {
         document_free(server.documents[i]);
     free(server.documents);
     texts_free(&server.roots);
+    texts_free(&server.commands);
     arena_free(&server.arena);
     text_free(&server.input);
     petri_close(&server.session);

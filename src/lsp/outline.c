@@ -11,18 +11,6 @@
 enum { AS_MODULE = 2, AS_FUNCTION = 12, AS_VARIABLE = 13, AS_OBJECT = 19 };
 enum { MAX_SYMBOLS = 1000 }; // of the workspace
 
-// Returns the offset of the end of the statement that a token begins. The end includes the block of the statement.
-static size_t block_end(const Document *document, size_t token) {
-    size_t level = document_level(document, token), end = document->tokens[token].end;
-    for (size_t i = token + 1; i < document->token_count; i++) {
-        if (document_begins(document, i) && document_level(document, i) <= level)
-            break;
-        if (document->tokens[i].kind != PETRI_TOKEN_COMMENT)
-            end = document->tokens[i].end;
-    }
-    return end;
-}
-
 // Adds a symbol, whose object stays open.
 static void open_symbol(JsonWriter *json, const RequestContext *request, Str name, int kind, size_t start, size_t end,
                         size_t at, size_t at_end) {
@@ -61,8 +49,8 @@ void answer_symbols(const RequestContext *request, JsonWriter *result, const cha
         if (document->tokens[i].kind == PETRI_TOKEN_NODE && document_begins(document, i) &&
             document_level(document, i) == 0) {
             size_t start = document->tokens[i].start, end = document->tokens[i].end;
-            open_symbol(result, request, document_token(document, i), AS_OBJECT, start, block_end(document, i), start,
-                        end);
+            open_symbol(result, request, document_token(document, i), AS_OBJECT, start, document_block_end(document, i),
+                        start, end);
             Str rest = document_slice(document, end, document->text.len);
             const char *line = memchr(rest.bytes, '\n', rest.len);
             Str attributes = str_trim((Str){rest.bytes, !line ? rest.len : (size_t)(line - rest.bytes)});
@@ -148,7 +136,7 @@ void answer_folding(const RequestContext *request, JsonWriter *result, const cha
             last = line;
         }
         if (i < document->token_count && !comment && document_begins(document, i)) {
-            document_position(document, block_end(document, i), true, &end, &character);
+            document_position(document, document_block_end(document, i), true, &end, &character);
             add_fold(result, line, end, NULL);
         }
     }

@@ -2,6 +2,7 @@
 //
 //   lsp.c              messages of the editor
 //   complete.c, navigate.c, outline.c, inlay_hints.c, format.c   answers to its requests
+//   selection.c, lenses.c   ranges to select; commands above the script
 //   hover.c            help and values of words; publish.c: diagnostics
 //   golden_tests.c     failed tests
 //   workspace.c        names in several files
@@ -27,6 +28,7 @@ typedef struct Server {
     Text input;            // received bytes of messages that have not been handled
     size_t read;           // number of bytes that the sessions have tokenised
     TextList roots;        // workspace folders of the editor
+    TextList commands;     // commands that the editor executes for code lenses
     Document **documents;
     size_t document_count;
     bool utf8; // true if positions count UTF-8 bytes, false if they count UTF-16 code units
@@ -60,6 +62,8 @@ void server_read(Server *server, Document *document);
 void diagnostics_publish(Server *server, Document *document);
 // Stores a diagnostic of the current check. For PetriOptions.on_diagnostic.
 void diagnostics_collect(void *server, const PetriDiagnostic *diagnostic);
+// Returns true if a file with recorded output is beside a script (golden_tests.c).
+bool golden_tests_exist(const char *path);
 // Runs the tests beside a script that was saved, and stores those that fail (golden_tests.c).
 void golden_tests_run(Server *server, Document *document);
 // Adds the failed tests to the diagnostics of the current check.
@@ -81,7 +85,7 @@ typedef void RequestHandler(const RequestContext *request, JsonWriter *result, c
 RequestHandler answer_completion, answer_hover, answer_signature, answer_definition, answer_references,
     answer_highlight, answer_prepare_rename, answer_rename, answer_symbols, answer_folding, answer_tokens, answer_hints,
     answer_colours, answer_presentations, answer_actions, answer_format, answer_range_format, answer_links,
-    answer_workspace_symbols;
+    answer_selection, answer_lenses, answer_workspace_symbols;
 // Adds a TextEdit that replaces a part of the document.
 void request_put_edit(JsonWriter *json, const char *name, const RequestContext *request, size_t start, size_t end,
                       Str text);

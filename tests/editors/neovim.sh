@@ -46,6 +46,26 @@ check "the file type is set, the server runs and the parser colours the script" 
 check "the queries find a node" has out "tag 1:0"
 check "the queries find an attribute" has out "attribute 1:10"
 check "vim.lsp.enable has a configuration" [ "$(tail -n 1 out)" = lsp ]
+# The code lens "run" starts a terminal, whose first lines are the output of the script.
+printf '!print a=1\nlet b=debug("from the lens")\n' >lens.fl
+cat >lens.lua <<END
+vim.opt.runtimepath:append('site')
+require('petri').setup({ cmd = { [[$petri]], 'lsp' } })
+vim.cmd('edit lens.fl')
+local titles, seen = {}, nil
+vim.wait(20000, function() return #(vim.lsp.codelens.get(0) or {}) > 0 end, 10)
+for _, lens in ipairs(vim.lsp.codelens.get(0)) do table.insert(titles, lens.command.title) end
+local run = vim.lsp.codelens.get(0)[1].command
+vim.lsp.commands[run.command](run)
+vim.wait(20000, function()
+    seen = table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), ' '):match('from the lens')
+    return seen
+end, 10)
+vim.fn.writefile({ table.concat(titles, ' '), seen or 'nothing' }, 'out')
+vim.cmd('qa!')
+END
+timeout 60 nvim --headless -u NONE -S lens.lua >err 2>&1 </dev/null
+check "a code lens runs the script in a terminal" [ "$(tr '\n' '|' <out)" = "run render|from the lens|" ]
 # As installed and without a parser: Neovim finds the file type and the colours of Vim's syntax file, with and without
 # setup(). `-u NORC` starts Neovim like an empty init.lua.
 DESTDIR=$work/installed meson install -C "$(dirname "$(dirname "$petri")")" --no-rebuild --tags editors >log 2>&1 || cat log

@@ -5,13 +5,13 @@ import subprocess
 
 
 class Client:
-    def __init__(self, petri, utf8=False, options=(), root=None):
+    def __init__(self, petri, utf8=False, options=(), root=None, commands=()):
         self.process = subprocess.Popen([petri, "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.number = 0
         self.published = {}  # last publishDiagnostics message by URI
         self.versions = {}
         encodings = ["utf-8", "utf-16"] if utf8 else ["utf-16"]
-        self.server = self.ask("initialize", {"processId": None, "rootUri": root, "capabilities": {
+        self.server = self.ask("initialize", {"processId": None, "rootUri": root, "initializationOptions": {"commands": list(commands)}, "capabilities": {
             "general": {"positionEncodings": encodings}}})
         self.notify("initialized", {})
 

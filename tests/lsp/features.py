@@ -312,6 +312,59 @@ check("top-level names and nodes are symbols", [(s["name"], s["kind"]) for s in 
       [("a", 13), ("f", 12), ("!window", 19)])
 check("comments and blocks fold", [(f["startLine"], f["endLine"], f.get("kind")) for f in client.of("foldingRange", uri)],
       [(0, 1, "comment"), (3, 4, None), (5, 7, None), (6, 7, None)])
+
+def offset_of(text, position):
+    lines = text.split("\n")
+    return sum(len(line) + 1 for line in lines[:position["line"]]) + position["character"]
+
+
+def selected(text, *marks):
+    """Returns, for each offset, the ranges that the editor selects one after the other."""
+    client.change(uri, {"text": text})
+    positions = [{"line": text[:mark].count("\n"), "character": len(text[:mark].split("\n")[-1])} for mark in marks]
+    found = []
+    for chain in client.of("selectionRange", uri, positions=positions):
+        found.append([])
+        while chain:
+            found[-1].append(tuple(offset_of(text, chain["range"][side]) for side in ("start", "end")))
+            chain = chain.get("parent")
+    return found
+
+
+text = ("let a=1\n!physics state=:s dimensions=2\n    !group\n"
+        "        !particle id=:p position=f(1, 2*(a+3), r=a);7 mass=2 -- c\n        !drag\n    !random\n")
+check("the selection grows by syntax", [text[start:end] for start, end in selected(text, text.index("a+3"))[0]], [
+    "a", "a+3", "(a+3)", "2*(a+3)", "1, 2*(a+3), r=a", "(1, 2*(a+3), r=a)", "f(1, 2*(a+3), r=a);7",
+    "position=f(1, 2*(a+3), r=a);7", "!particle id=:p position=f(1, 2*(a+3), r=a);7 mass=2",
+    "!particle id=:p position=f(1, 2*(a+3), r=a);7 mass=2 -- c\n        !drag",
+    text[text.index("!group"):text.index("\n    !random")], text[text.index("!group"):-1],
+    text[text.index("!physics"):-1], text])
+check("a named argument is selected with its value",
+      [text[start:end] for start, end in selected(text, text.index("=a)") + 1)[0]][:3], ["a", "r=a", "1, 2*(a+3), r=a"])
+for sample in (text, "", "\n\n", "f(a;(b\n!x )] y=\n  -- c\n", "func f(x)\n    x\n\n\n-- c\nlet s='''a\nb'''\n"):
+    chains = selected(sample, *range(len(sample) + 1))
+    check("selections contain the offset and grow: %r" % sample[:20], all(
+        chain[0][0] <= offset <= chain[0][1] and chain[-1] == (0, len(sample)) and
+        all(b[0] <= a[0] and a[1] <= b[1] and a != b for a, b in zip(chain, chain[1:]))
+        for offset, chain in enumerate(chains)))
+
+# Code lenses.
+check("an editor without commands gets no code lenses", client.of("codeLens", uri), [])
+able = Client(petri, commands=["petri.run", "petri.render", "petri.test", "petri.other"])
+for name, text in ("tested.fl", "!a b=1\n"), ("module.fl", "func f(x)\n    x\n"):
+    Path(name).write_text(text)
+Path("tested.golden").write_text("")
+for name, wanted in (("new.fl", ["run", "render"]), ("tested.fl", ["run", "render", "test"]), ("module.fl", [])):
+    at = Path(name).absolute().as_uri()
+    able.open(at, "!a b=1\n" if name == "new.fl" else Path(name).read_text())
+    found = [lens["command"] for lens in able.of("codeLens", at)]
+    check(f"{name} has the commands that it can have", [command["title"] for command in found], wanted)
+    check("code lenses name the script and the command", all(
+        command["arguments"] == [at] and command["command"] == "petri." + command["title"] for command in found))
+able.open("untitled:one", "!a\n")
+check("a script without a file has no code lenses", able.of("codeLens", "untitled:one"), [])
+able.end()
+
 client.change(uri, {"text": "let a=sin(1) -- c\n!n #t x=:y z='''😀\n2''' w=a\n"})
 legend = client.server["capabilities"]["semanticTokensProvider"]["legend"]["tokenTypes"]
 data = client.of("semanticTokens/full", uri)["data"]

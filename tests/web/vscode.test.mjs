@@ -126,6 +126,22 @@ test('without petri, a script runs in a terminal', options, async () => {
     assert.match(ran.stdout, /!a b=7/);
 });
 
+test('code lenses run, render and test a script that need not be the active one', options, async () => {
+    const { fileName, uri } = opened('lens.fl', '!window size=3;2\n    !canvas\n');
+    opened('active.fl', '!a b=7\n');
+    const pictures = [];
+    seen.commands['vscode.open'] = picture => pictures.push(picture.fsPath);
+    for (const [name, more] of [['run', []], ['test', []], ['render', ['-o', fileName.replace('.fl', '.png')]]]) {
+        await seen.commands[`petri.${name}`](uri.toString());
+        assert.deepEqual(seen.tasks[0].execution.args.slice(-2 - more.length), [name, fileName, ...more]);
+        const task = seen.tasks.pop();
+        seen.ended.fire({ execution: { task: { name: 'another' } }, exitCode: 0 });
+        seen.ended.fire({ execution: { task }, exitCode: name === 'render' ? 0 : 1 });
+        seen.ended.fire({ execution: { task }, exitCode: 0 });
+    }
+    assert.deepEqual(pictures, [fileName.replace('.fl', '.png')]);
+});
+
 test('without petri, the window is refused and the preview offered', options, async () => {
     opened('view.fl', '!a b=7\n');
     seen.answer = 'Show Preview';

@@ -30,14 +30,17 @@ async function installed(purpose) {
     return program;
 }
 
-// Saves the active script and runs `petri COMMAND` with it in a terminal, which stays open at the end.
-async function runTask(command, program, ...options) {
-    const document = script();
+// Returns the script of a code lens, which passes its URI as a text, or the script in the active editor.
+const scriptOf = (uri) => (typeof uri === "string" ? vscode.workspace.openTextDocument(vscode.Uri.parse(uri)) : script());
+
+// Saves a script and runs `petri COMMAND` with it in a terminal, which stays open at the end. Returns the task, or undefined
+// if there is no script or it is not a file.
+async function runTask(command, program, document, ...options) {
     if (!document)
-        return;
+        return undefined;
     if (document.uri.scheme !== "file" || (document.isDirty && !(await document.save()))) {
         vscode.window.showErrorMessage("The script is not saved as a file.");
-        return;
+        return undefined;
     }
     const file = document.fileName, env = program.env.ELECTRON_RUN_AS_NODE ? { ELECTRON_RUN_AS_NODE: "1" } : {};
     const words = [...program.args, command, file, ...options];
@@ -45,12 +48,26 @@ async function runTask(command, program, ...options) {
     const task = new vscode.Task({ type: "petri" }, vscode.TaskScope.Workspace, `${command} ${path.basename(file)}`, "petri", execution);
     task.presentationOptions = { clear: true, showReuseMessage: false };
     await vscode.tasks.executeTask(task);
+    return task;
+}
+
+// Draws a script to a PNG file beside it, and shows the file.
+async function render(program, document) {
+    const picture = document?.fileName.replace(/(\.fl)?$/, ".png");
+    const task = await runTask("render", program, document, "-o", picture);
+    const listener = task && vscode.tasks.onDidEndTaskProcess(({ execution, exitCode }) => {
+        if (execution.task.name !== task.name)
+            return;
+        listener.dispose();
+        if (exitCode === 0)
+            vscode.commands.executeCommand("vscode.open", vscode.Uri.file(picture));
+    });
 }
 
 async function view() {
     const program = await installed("The window");
     if (program)
-        await runTask("view", program, "--listen", socket);
+        await runTask("view", program, script(), "--listen", socket);
 }
 
 // Evaluates code in the view and shows the result.
@@ -74,7 +91,7 @@ function sendSelection() {
 
 async function activate(context) {
     server = new Server(context);
-    const preview = new PreviewPanel(context);
+    const preview = new PreviewPanel(context), program = () => programs.installed() ?? programs.bundled(context);
     const showPreview = () => {
         const document = script();
         if (document)
@@ -92,7 +109,9 @@ async function activate(context) {
         vscode.commands.registerCommand("petri.view", view),
         vscode.commands.registerCommand("petri.send", sendSelection),
         vscode.commands.registerCommand("petri.back", () => send(".back 60")),
-        vscode.commands.registerCommand("petri.run", () => runTask("run", programs.installed() ?? programs.bundled(context))),
+        vscode.commands.registerCommand("petri.run", async (uri) => runTask("run", program(), await scriptOf(uri))),
+        vscode.commands.registerCommand("petri.render", async (uri) => render(program(), await scriptOf(uri))),
+        vscode.commands.registerCommand("petri.test", async (uri) => runTask("test", program(), await scriptOf(uri))),
         vscode.commands.registerCommand("petri.restart", () => server.start()),
         vscode.commands.registerCommand("petri.sample", showSample),
         vscode.workspace.onDidChangeConfiguration((change) => change.affectsConfiguration("petri") && server.start()),

@@ -60,7 +60,8 @@ class Server {
             "petri",
             { command, args: [...args, "lsp", ...programs.setting("arguments")], options: { env } },
             { documentSelector: [{ language: "flitter" }], synchronize: { fileEvents: this.watcher }, errorHandler,
-                initializationFailedHandler: () => false },
+                initializationFailedHandler: () => false,
+                initializationOptions: { commands: ["petri.run", "petri.render", "petri.test"] } }, // for code lenses
         );
         const problem = await this.client.start().then(() => null, ({ message }) => message);
         if (problem || !this.client.isRunning()) {

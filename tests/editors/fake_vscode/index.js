@@ -81,6 +81,7 @@ class Diagnostic {
 const seen = {
     settings: { path: "petri", arguments: [] }, commands: {}, messages: [], statuses: [], diagnostics: {}, panels: [], tasks: [], shown: [],
     origin: "https://files.test", changed: new Event(), saved: new Event(), configured: new Event(), opened: new Event(),
+    ended: new Event(),
 };
 
 const said = (...words) => {
@@ -104,13 +105,13 @@ module.exports = orAnything({
             Object.assign(this, { name, execution });
         }
     },
-    tasks: orAnything({ executeTask: async (task) => seen.tasks.push(task) }),
+    tasks: orAnything({ executeTask: async (task) => seen.tasks.push(task), onDidEndTaskProcess: seen.ended.on }),
     commands: orAnything({
         registerCommand: (name, act) => {
             seen.commands[name] = act;
             return none;
         },
-        executeCommand: (name) => seen.commands[name](),
+        executeCommand: (name, ...words) => seen.commands[name](...words),
     }),
     languages: orAnything({
         createLanguageStatusItem: () => {
@@ -124,7 +125,7 @@ module.exports = orAnything({
     workspace: orAnything({
         getConfiguration: () => orAnything({ get: (name) => seen.settings[name] }),
         textDocuments: [],
-        openTextDocument: async ({ language, content }) => ({
+        openTextDocument: async ({ url, language, content }) => url ? module.exports.workspace.textDocuments.find(({ uri }) => uri.url === url) : ({
             fileName: "Untitled-1", uri: Uri.parse("untitled:Untitled-1"), languageId: language, version: 1, isDirty: true, text: content,
             getText: () => content,
         }),

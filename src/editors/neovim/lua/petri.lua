@@ -2,7 +2,30 @@
 -- colours by tree-sitter if the parser is installed.
 local M = {}
 
-M.config = { name = 'petri', cmd = { 'petri', 'lsp' }, filetypes = { 'flitter' }, root_markers = { '.git' } }
+-- The commands of code lenses, which `vim.lsp.codelens.run()` executes: each runs petri in a terminal below.
+local lenses = { 'petri.run', 'petri.render', 'petri.test' }
+
+M.config = {
+    name = 'petri', cmd = { 'petri', 'lsp' }, filetypes = { 'flitter' }, root_markers = { '.git' },
+    init_options = { commands = lenses },
+    on_attach = function(_, buffer)
+        vim.api.nvim_create_autocmd({ 'BufEnter', 'InsertLeave', 'BufWritePost' },
+            { buffer = buffer, callback = vim.lsp.codelens.refresh })
+        vim.schedule(vim.lsp.codelens.refresh)
+    end,
+}
+
+for _, name in ipairs(lenses) do
+    vim.lsp.commands[name] = function(command)
+        local file = vim.uri_to_fname(command.arguments[1])
+        local words = { M.config.cmd[1], name:match('[^.]*$'), file }
+        if name == 'petri.render' then
+            vim.list_extend(words, { '-o', (file:gsub('%.fl$', '.png')) })
+        end
+        vim.cmd('botright new')
+        vim.fn.termopen(words)
+    end
+end
 
 local clients = {} -- by root folder, for Neovim 0.7
 
