@@ -323,7 +323,8 @@ void phys_link_groups(PhysSystem *system);
 // Sets only Group.populated, from `parent` and `count`.
 void phys_link_populated(Group *groups, uint32_t group_count);
 
-// step.c: starts a step of `delta` at `clock`: sets the strengths of all forces and the initial forces on all particles.
+// step.c: starts a step of `delta` at `clock`: sets the strengths of all forces and the initial forces on all
+// particles.
 void phys_start_step(PhysSystem *system, double clock, double delta);
 // Takes one step of `delta` at `clock`. Returns false if the step was aborted half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);

@@ -46,10 +46,10 @@ static void free_division(PhysSystem *system) {
 void phys_free(PhysSystem *system) {
     if (!system)
         return;
-    Buffer *buffers[] = {&system->groups,     &system->particles,  &system->rows,           &system->force_records,
-                         &system->vectors,    &system->indices,    &system->forces,         &system->column_data,
-                         &system->last_rows,  &system->not_finite, &system->from_attribute, &system->own_force_rows,
-                         &system->force_rows, &system->start_rows, &system->terms,          &system->chain,
+    Buffer *buffers[] = {&system->groups,      &system->particles,  &system->rows,           &system->force_records,
+                         &system->vectors,     &system->indices,    &system->forces,         &system->column_data,
+                         &system->last_rows,   &system->not_finite, &system->from_attribute, &system->own_force_rows,
+                         &system->force_rows,  &system->start_rows, &system->terms,          &system->chain,
                          &system->host_vectors};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);

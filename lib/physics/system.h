@@ -88,7 +88,7 @@ void phys_threads_free(PhysThreads *threads);
 // Divides the work of systems among processes (division.h).
 typedef struct PhysDivision PhysDivision;
 
-// A step that is about to be taken. Vectors have n (= dimensions) doubles for each particle, by handle.
+// A step that is about to begin. Vectors have n (= dimensions) doubles for each particle, by handle.
 typedef struct PhysStepStart {
     uint32_t dimensions;
     uint32_t particle_count;

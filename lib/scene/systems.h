@@ -88,7 +88,7 @@ struct Scene {
     PhysOptions physics;
     SceneAddForces *add_forces; // NULL: none
     void *forces_host;          // passed to add_forces
-    uint32_t *bodies; // by slot: mark of its particle (physics_slots.c)
+    uint32_t *bodies;           // by slot: mark of its particle (physics_slots.c)
     uint32_t body_capacity;
     uint32_t body_base;                 // base of the marks of the tree read last (physics_slots.c)
     uint32_t body_count;                // number of particles in that tree

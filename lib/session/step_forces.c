@@ -2,7 +2,7 @@
 #include "session/session.h"
 #include "value/format.h"
 
-// A step of a system, and what the host says about it.
+// A step of a system.
 typedef struct Step {
     StateSlot prefix;
     const PhysSystem *engine;

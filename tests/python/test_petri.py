@@ -1073,6 +1073,13 @@ class StepForces(unittest.TestCase):
                 digests.add(run.text("digest"))
         self.assertEqual(len(digests), 1)
 
+    def test_trust_calls_the_force_with_shorter_steps(self):
+        session = petri.Session(self.SPRING, forces={"a": lambda step: -18 * step.position})
+        [found] = session.trust("$(:a;0)", frames=101)
+        self.assertLess(abs(found.value - numpy.cos(3 * found.time)), found.error)
+        self.assertLess(found.error, 0.02)
+        self.assertAlmostEqual(found.order, 1, delta=0.2)
+
     def test_a_step_keeps_its_arrays(self):
         seen = []
         session = petri.Session("!physics state=:a dimensions=3\n    for i in ..2\n        !particle id=i position=i "
