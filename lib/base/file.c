@@ -121,16 +121,16 @@ const char *text_read_file(Text *text, const char *path, size_t limit) {
     return text_read_regular(text, file_open_at(AT_FDCWD, path, O_RDONLY | O_NONBLOCK, 0), limit);
 }
 
-typedef struct Reading {
+typedef struct FileReading {
     Text text;
     int file;
     size_t expected;
     size_t limit;
     const char *problem; // NULL: success
-} Reading;
+} FileReading;
 
 static void read_all(void *context) {
-    Reading *reading = context;
+    FileReading *reading = context;
     text_reserve(&reading->text, reading->expected);
     reading->problem = read_limited(&reading->text, reading->file, reading->limit);
 }
@@ -164,11 +164,11 @@ static bool read_file(Arena *arena, const FileAccess *file_access, const char *p
             close(file);
         return false;
     }
-    Reading reading = {.text = text_new(arena),
-                       .file = file,
-                       .expected = info.st_size > 0 ? (size_t)info.st_size + 1 : 4096,
-                       .limit = limit,
-                       .problem = check_file(&info, regular, limit)};
+    FileReading reading = {.text = text_new(arena),
+                           .file = file,
+                           .expected = info.st_size > 0 ? (size_t)info.st_size + 1 : 4096,
+                           .limit = limit,
+                           .problem = check_file(&info, regular, limit)};
     ArenaOutcome outcome = ARENA_OK;
     if (version)
         *version = (Str){0};

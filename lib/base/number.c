@@ -109,7 +109,7 @@ static Digits split_digits(uint64_t digits) {
     return (Digits){(char)('0' + first), {high | ZEROS, low | ZEROS}, count};
 }
 
-static void write_word(char *at, uint64_t word) {
+static void write_number_word(char *at, uint64_t word) {
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
     word = __builtin_bswap64(word);
 #endif
@@ -118,8 +118,8 @@ static void write_word(char *at, uint64_t word) {
 
 static void write_all(char *at, const Digits *digits) {
     *at = digits->first;
-    write_word(at + 1, digits->words[0]);
-    write_word(at + 9, digits->words[1]);
+    write_number_word(at + 1, digits->words[0]);
+    write_number_word(at + 9, digits->words[1]);
 }
 
 static char *write_scientific(char *at, const Digits *digits, int exponent) {
@@ -146,7 +146,7 @@ static char *write_fixed(char *at, const Digits *digits, int whole) {
     if (whole < 8) { // the usual case; reading the bytes again would wait for the processor to write them
         uint64_t first = (unsigned char)digits->first | digits->words[0] << 8;
         uint64_t mask = ((uint64_t)1 << 8 * whole) - 1;
-        write_word(at, (first & mask) | (uint64_t)'.' << 8 * whole | (first & ~mask) << 8);
+        write_number_word(at, (first & mask) | (uint64_t)'.' << 8 * whole | (first & ~mask) << 8);
     } else {
         memmove(at, at + 1, (size_t)whole);
         at[whole] = '.';

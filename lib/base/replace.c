@@ -20,7 +20,7 @@
 // Temporary names consist of a prefix, 16 hexadecimal digits and a suffix.
 #define PREFIX ".petri-"
 #define SUFFIX ".tmp"
-enum { PREFIX_LENGTH = sizeof PREFIX - 1, DIGITS = 16, MAX_TRIES = 100, MAX_SCANNED_ENTRIES = 4096 };
+enum { PREFIX_LENGTH = sizeof PREFIX - 1, NAME_DIGITS = 16, MAX_TRIES = 100, MAX_SCANNED_ENTRIES = 4096 };
 
 // Writes a random temporary name. Avoids snprintf, because this function may be called from a signal handler.
 static bool make_name(char name[NAME_MAX + 1]) {
@@ -28,16 +28,17 @@ static bool make_name(char name[NAME_MAX + 1]) {
     if (!os_random(&number, sizeof number))
         return false;
     memcpy(name, PREFIX, PREFIX_LENGTH);
-    for (int i = 0; i < DIGITS; i++, number >>= 4)
+    for (int i = 0; i < NAME_DIGITS; i++, number >>= 4)
         name[PREFIX_LENGTH + i] = "0123456789abcdef"[number & 15];
-    memcpy(name + PREFIX_LENGTH + DIGITS, SUFFIX, sizeof SUFFIX);
+    memcpy(name + PREFIX_LENGTH + NAME_DIGITS, SUFFIX, sizeof SUFFIX);
     return true;
 }
 
 static bool is_temporary_name(const char *name) {
-    return strlen(name) == PREFIX_LENGTH + DIGITS + sizeof SUFFIX - 1 && memcmp(name, PREFIX, PREFIX_LENGTH) == 0 &&
-           strspn(name + PREFIX_LENGTH, "0123456789abcdef") == DIGITS &&
-           strcmp(name + PREFIX_LENGTH + DIGITS, SUFFIX) == 0;
+    return strlen(name) == PREFIX_LENGTH + NAME_DIGITS + sizeof SUFFIX - 1 &&
+           memcmp(name, PREFIX, PREFIX_LENGTH) == 0 &&
+           strspn(name + PREFIX_LENGTH, "0123456789abcdef") == NAME_DIGITS &&
+           strcmp(name + PREFIX_LENGTH + NAME_DIGITS, SUFFIX) == 0;
 }
 
 // Removes temporary files of killed processes, which are recognised because no process holds a lock on them.

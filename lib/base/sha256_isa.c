@@ -9,7 +9,7 @@ enum { STEPS = 16 };
 #include <immintrin.h>
 
 // Rounds work on a, b, e and f in one register, and on c, d, g and h in another; f and h are in the lowest lanes.
-static void compress(__m128i *abef, __m128i *cdgh, const unsigned char *block) {
+static void compress_fast(__m128i *abef, __m128i *cdgh, const unsigned char *block) {
     const __m128i big_endian = _mm_set_epi64x(0x0c0d0e0f08090a0b, 0x0405060700010203);
     __m128i words[4], first = *abef, second = *cdgh;
     for (int i = 0; i < 4; i++)
@@ -33,7 +33,7 @@ void sha256_blocks_fast(uint32_t state[8], const unsigned char *blocks, size_t c
     __m128i badc = _mm_shuffle_epi32(_mm_loadu_si128(low), 0xb1), hgfe = _mm_shuffle_epi32(_mm_loadu_si128(high), 0x1b);
     __m128i abef = _mm_alignr_epi8(badc, hgfe, 8), cdgh = _mm_blend_epi16(hgfe, badc, 0xf0);
     for (; count > 0; count--, blocks += SHA256_BLOCK)
-        compress(&abef, &cdgh, blocks);
+        compress_fast(&abef, &cdgh, blocks);
     __m128i feba = _mm_shuffle_epi32(abef, 0x1b), dchg = _mm_shuffle_epi32(cdgh, 0xb1);
     _mm_storeu_si128(low, _mm_blend_epi16(feba, dchg, 0xf0));
     _mm_storeu_si128(high, _mm_alignr_epi8(dchg, feba, 8));
@@ -42,7 +42,7 @@ void sha256_blocks_fast(uint32_t state[8], const unsigned char *blocks, size_t c
 #else
 #include <arm_neon.h>
 
-static void compress(uint32x4_t *abcd, uint32x4_t *efgh, const unsigned char *block) {
+static void compress_fast(uint32x4_t *abcd, uint32x4_t *efgh, const unsigned char *block) {
     uint32x4_t words[4], first = *abcd, second = *efgh;
     for (int i = 0; i < 4; i++)
         words[i] = vreinterpretq_u32_u8(vrev32q_u8(vld1q_u8(block + 16 * i)));
@@ -61,7 +61,7 @@ static void compress(uint32x4_t *abcd, uint32x4_t *efgh, const unsigned char *bl
 void sha256_blocks_fast(uint32_t state[8], const unsigned char *blocks, size_t count) {
     uint32x4_t abcd = vld1q_u32(state), efgh = vld1q_u32(state + 4);
     for (; count > 0; count--, blocks += SHA256_BLOCK)
-        compress(&abcd, &efgh, blocks);
+        compress_fast(&abcd, &efgh, blocks);
     vst1q_u32(state, abcd);
     vst1q_u32(state + 4, efgh);
 }

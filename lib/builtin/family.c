@@ -100,15 +100,15 @@ Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f
     return result ? value_numbers_view(result, len) : value_number(single);
 }
 
-static bool is_digit(char c) {
+static bool is_ascii_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
 size_t builtin_scan_digits(Str text) {
     size_t at = 0;
     while (at < text.len &&
-           (is_digit(text.bytes[at]) || (text.bytes[at] == '_' && at > 0 && text.bytes[at - 1] != '_' &&
-                                         at + 1 < text.len && is_digit(text.bytes[at + 1]))))
+           (is_ascii_digit(text.bytes[at]) || (text.bytes[at] == '_' && at > 0 && text.bytes[at - 1] != '_' &&
+                                               at + 1 < text.len && is_ascii_digit(text.bytes[at + 1]))))
         at++;
     return at;
 }

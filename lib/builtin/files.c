@@ -14,10 +14,10 @@
 
 enum {
     MAX_NAME_LENGTH = 4096,
-    MAX_FILE_SIZE = 1 << 30, // bytes
-    MAX_ENTRIES = 16384,     // limited, because a script can generate any number of file names
+    MAX_FILE_SIZE = 1 << 30,   // bytes
+    MAX_CACHE_ENTRIES = 16384, // limited, because a script can generate any number of file names
 };
-static const size_t MAX_BYTES = (size_t)2 << 30; // limit of the total size of all entries, in bytes
+static const size_t MAX_CACHED_BYTES = (size_t)2 << 30; // limit of the total size of all entries, in bytes
 
 // File attributes that are compared to detect whether a file has changed.
 typedef struct Stamp {
@@ -118,8 +118,8 @@ static const char *describe_error(int error) {
 
 // Reads up to `size` bytes, which is the size in the file's stamp. If the file has grown since then, the next
 // file_cache_get reads it again.
-static bool read_bytes(const BuiltinContext *context, const char *path, char *bytes, size_t size, size_t *len,
-                       const char **problem) {
+static bool read_file_bytes(const BuiltinContext *context, const char *path, char *bytes, size_t size, size_t *len,
+                            const char **problem) {
     Str host_bytes;
     if (context->file_access && context->file_access->read_file) {
         *problem = file_access_read(context->file_access, path, &host_bytes) ? NULL : describe_error(errno);
@@ -171,7 +171,7 @@ static const void *load_entry(const BuiltinContext *context, FileEntry *entry, c
     }
     size_t size = (size_t)entry->stamp.size, len;
     char *bytes = arena_alloc(&entry->arena, size);
-    bool read = read_bytes(context, path, bytes, size, &len, problem);
+    bool read = read_file_bytes(context, path, bytes, size, &len, problem);
     file_access_report(context->file_access, path, read ? (Str){bytes, len} : (Str){0});
     if (!read)
         return NULL;
@@ -192,7 +192,7 @@ static bool entry_matches(const void *owner, uint32_t entry, const void *key) {
 }
 
 static FileEntry *entry_add(FileCache *cache, const EntryKey *key, uint64_t hash) {
-    if (cache->count == MAX_ENTRIES)
+    if (cache->count == MAX_CACHE_ENTRIES)
         file_cache_clear(cache);
     cache->entries =
         arena_grow_array(&cache->arena, cache->entries, cache->count, &cache->capacity, sizeof *cache->entries);
@@ -212,13 +212,13 @@ static FileEntry *entry_get(FileCache *cache, Str path, FileParse *parse) {
     return found != HASH_INDEX_NONE ? cache->entries[found] : entry_add(cache, &key, hash);
 }
 
-// Makes room for the file of the entry `kept`, which is about to be read. If the cache would exceed MAX_BYTES, frees
-// the contents of all other entries. They are read again when needed.
+// Makes room for the file of the entry `kept`, which is about to be read. If the cache would exceed MAX_CACHED_BYTES,
+// frees the contents of all other entries. They are read again when needed.
 static void evict_entries(FileCache *cache, const FileEntry *kept) {
     size_t used = 0;
     for (uint32_t i = 0; i < cache->count; i++)
         used += cache->entries[i]->arena.used;
-    if (used + (size_t)kept->stamp.size <= MAX_BYTES)
+    if (used + (size_t)kept->stamp.size <= MAX_CACHED_BYTES)
         return;
     for (uint32_t i = 0; i < cache->count; i++)
         if (cache->entries[i] != kept && cache->entries[i]->parsed) {

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_DIMS = 4 };
+enum { MAX_NOISE_DIMS = 4 };
 
 // --- permutations (B10.3)
 
@@ -75,19 +75,19 @@ static const uint8_t *permutation_get(NoiseCache *cache, uint64_t key, uint8_t l
 // --- the functions
 
 // The coordinates of a call. Noise is computed at each combination of one element per axis.
-typedef struct Grid {
-    const double *axes[MAX_DIMS];
-    uint32_t lens[MAX_DIMS];
+typedef struct NoiseGrid {
+    const double *axes[MAX_NOISE_DIMS];
+    uint32_t lens[MAX_NOISE_DIMS];
     int dims;
     uint32_t len; // number of combinations
-} Grid;
+} NoiseGrid;
 
 typedef enum GridOutcome { GRID_OK, GRID_BAD, GRID_TOO_LONG } GridOutcome;
 
 // Reads one to four numeric vectors, which are the axes. If there is only one, the second coordinate is 0 (B10.2).
-static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
+static GridOutcome grid_read(NoiseGrid *grid, const Value *args, uint32_t count) {
     static const double zero[1] = {0};
-    if (count < 1 || count > MAX_DIMS)
+    if (count < 1 || count > MAX_NOISE_DIMS)
         return GRID_BAD;
     uint64_t len = 1;
     for (uint32_t i = 0; i < count; i++) {
@@ -108,15 +108,15 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
 
 // For each combination j of the coordinates, sets result[j] to the noise. If `add` is true, instead adds noise*weight
 // to result[j]. The last coordinate varies fastest.
-static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutation, double *result, bool add,
+static void grid_noise(Arena *arena, const NoiseGrid *grid, const uint8_t *permutation, double *result, bool add,
                        double weight) {
     enum { CHARGE_INTERVAL = 1024 };
     const unsigned work = grid->dims == 2 ? 4 : grid->dims == 3 ? 10 : 30; // work units per point
     double (*const noise)(const uint8_t *, const double *) = grid->dims == 2   ? noise_point_2
                                                              : grid->dims == 3 ? noise_point_3
                                                                                : noise_point_4;
-    uint32_t at[MAX_DIMS] = {0};
-    double c[MAX_DIMS];
+    uint32_t at[MAX_NOISE_DIMS] = {0};
+    double c[MAX_NOISE_DIMS];
     for (int i = 0; i < grid->dims; i++)
         c[i] = grid->axes[i][0];
     for (uint32_t j = 0; j < grid->len; j++) {
@@ -137,7 +137,7 @@ static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutatio
 
 // Multiplies every coordinate by 2. If `own` is true, the arrays belong to the grid and are changed. Otherwise the grid
 // gets new arrays.
-static void grid_double(Arena *arena, Grid *grid, bool own) {
+static void grid_double(Arena *arena, NoiseGrid *grid, bool own) {
     for (int i = 0; i < grid->dims; i++) {
         double *axis = own ? (double *)grid->axes[i] : arena_alloc_array(arena, grid->lens[i], sizeof *axis);
         for (uint32_t k = 0; k < grid->lens[i]; k++)
@@ -153,7 +153,7 @@ Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) 
         return value_number(
             noise_point_2(permutation_get(context->noise, value_seed_hash(context->arena, args[0]), local), c));
     }
-    Grid grid;
+    NoiseGrid grid;
     GridOutcome outcome = grid_read(&grid, args + 1, count - 1);
     if (outcome != GRID_OK)
         return outcome == GRID_TOO_LONG ? builtin_too_long(context, "noise") : VALUE_NULL;
@@ -186,7 +186,7 @@ enum { MAX_OCTAVES = 1024 };
 
 // Sums octaves of noise (B10.11): r = noise(c), then r = r + noise(c*2^o)*k^o for o = 1, 2, ... Divides the sum by the
 // total weight.
-static void sum_octaves(BuiltinContext *context, Grid *grid, uint64_t seed, uint32_t octaves, double k,
+static void sum_octaves(BuiltinContext *context, NoiseGrid *grid, uint64_t seed, uint32_t octaves, double k,
                         double *result) {
     uint8_t local[256];
     double weight = 1, total = 0;
@@ -208,7 +208,7 @@ Value builtin_octnoise(BuiltinContext *context, const Value *args, uint32_t coun
     if (!value_is_number(args[1]) || !value_is_number(args[2]))
         return VALUE_NULL;
     double octaves = trunc(args[1].as.number);
-    Grid grid;
+    NoiseGrid grid;
     GridOutcome outcome = grid_read(&grid, args + 3, count - 3);
     if (!(octaves > 0) || outcome == GRID_BAD)
         return VALUE_NULL;

@@ -12,20 +12,21 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { MAX_DIMS = 4, MAX_EXTRA = 3 };
+enum { MAX_POINT_DIMS = 4, MAX_EXTRA = 3 };
 
 typedef struct NoisePoint {
     const uint8_t *permutation;
-    uint64_t base[MAX_DIMS]; // base corner of the cell, in two's complement; only sums and the low eight bits are used
-    double frac[MAX_DIMS];   // fx, fy, … of B10.4
-    double d0[MAX_DIMS];     // offset of the point from the base corner, in the coordinates of c
-    double sum;              // sum of frac
+    uint64_t
+        base[MAX_POINT_DIMS]; // base corner of the cell, in two's complement; only sums and the low eight bits are used
+    double frac[MAX_POINT_DIMS]; // fx, fy, … of B10.4
+    double d0[MAX_POINT_DIMS];   // offset of the point from the base corner, in the coordinates of c
+    double sum;                  // sum of frac
 } NoisePoint;
 
 // Finds the cell that contains the point c, and the point's position in the cell (B10.4). Returns false if a coordinate
 // is too large or NaN.
 static inline bool point_locate(NoisePoint *point, const double *c, int dims) {
-    double t = c[0], whole[MAX_DIMS];
+    double t = c[0], whole[MAX_POINT_DIMS];
     for (int i = 1; i < dims; i++)
         t = t + c[i];
     t = t * NOISE_S[dims];
@@ -58,7 +59,7 @@ static inline const double *gradient(const NoisePoint *point, const NoiseVertex 
 // Adds the contribution of a vertex (B10.5): A^4 * (g·d) if A > 0, else nothing. Here d = ((d0 - a) - m*Q) - b for each
 // coordinate, where a, b and m are v->early, v->late and v->units. A = 2 - d·d, and g is the gradient.
 static inline double add_vertex(const NoisePoint *point, double value, const NoiseVertex *v, int dims) {
-    double d[MAX_DIMS], reach = 2, units = v->units * NOISE_Q[dims];
+    double d[MAX_POINT_DIMS], reach = 2, units = v->units * NOISE_Q[dims];
     for (int i = 0; i < dims; i++) {
         d[i] = ((point->d0[i] - v->early[i]) - units) - v->late[i];
         reach = reach - d[i] * d[i];
@@ -97,7 +98,7 @@ static int lowest_gap(unsigned mask) {
 // Returns the vertex with offset `set` in the coordinates of the mask and `clear` in the others.
 static NoiseVertex vertex_of_mask(unsigned mask, int set, int clear, int units) {
     NoiseVertex v = {.units = (uint8_t)units};
-    for (int i = 0; i < MAX_DIMS; i++)
+    for (int i = 0; i < MAX_POINT_DIMS; i++)
         v.early[i] = (int8_t)(mask >> i & 1 ? set : clear);
     return v;
 }

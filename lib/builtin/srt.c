@@ -61,7 +61,7 @@ static bool read_time(Str text, double *time) {
     return true;
 }
 
-static uint32_t count_lines(Str text) {
+static uint32_t count_text_lines(Str text) {
     if (text.len == 0)
         return 0;
     uint32_t lines = 1;
@@ -74,7 +74,7 @@ static uint32_t count_lines(Str text) {
 typedef enum LineKind { LINE_EMPTY, LINE_NUMBER, LINE_TIMES, LINE_DAMAGED, LINE_TEXT } LineKind;
 
 // Classifies a line, and sets the times of a LINE_TIMES. After the times, there can be a position (X1:40 X2:600 ...).
-static LineKind read_line(Str line, Subtitle *subtitle) {
+static LineKind read_subtitle_line(Str line, Subtitle *subtitle) {
     Str times = str_trim(line), start, end;
     if (times.len == 0)
         return LINE_EMPTY;
@@ -103,7 +103,7 @@ static void set_text(Subtitle *subtitle, const char *begin, const char *end) {
         used++;
     text.len = used;
     subtitle->text = text;
-    subtitle->line_count = count_lines(text);
+    subtitle->line_count = count_text_lines(text);
 }
 
 // Finds the subtitles of a file. A subtitle begins with a line of times, before which there can be a line with a
@@ -117,7 +117,7 @@ static uint32_t find_subtitles(Str all, Subtitle *subtitles, uint32_t *bad) {
     for (Str rest = all, line; rest.len > 0;) {
         split_part(&rest, STR("\n"), &line);
         lines++;
-        LineKind kind = read_line(line, &next);
+        LineKind kind = read_subtitle_line(line, &next);
         if (kind == LINE_DAMAGED || (kind == LINE_TEXT && count == 0)) {
             *bad = lines;
             return 0;

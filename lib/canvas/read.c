@@ -92,7 +92,7 @@ static Str join_tags(Arena *arena, const Node *node) {
     return text_str(&out);
 }
 
-enum { NODE_WORK = 8, STOPS_A_UNIT = 16 };
+enum { CANVAS_NODE_WORK = 8, STOPS_A_UNIT = 16 };
 
 // Translates a node and its children. Returns NULL if the node is left out. The recursion is limited by
 // NODE_MAX_HEIGHT.
@@ -100,7 +100,7 @@ static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node,
     Reader reader = {schema, arena, node, kind, 1};
     schema->current_node = node;
     uint64_t count = node_child_count(node);
-    arena_charge(arena, NODE_WORK + node->attr_count + count / 4);
+    arena_charge(arena, CANVAS_NODE_WORK + node->attr_count + count / 4);
     if (kind == KIND_GRADIENT) // drawing libraries insert each stop into a sorted list, which takes quadratic time
         arena_charge(arena, count * count / STOPS_A_UNIT);
     DrawNode *out = arena_alloc(arena, sizeof *out);

@@ -3,7 +3,7 @@
 #include "session/text_sink.h"
 #include "syntax/parse.h"
 
-static void print_code(TextSink *out, PetriSession *session, unsigned what) {
+static void dump_code(TextSink *out, PetriSession *session, unsigned what) {
     const Unit *unit = session->config.program;
     if (what == PETRI_DUMP_CODE) {
         program_print(&out->text, &session->symbols, unit->program);
@@ -18,5 +18,5 @@ static void print_code(TextSink *out, PetriSession *session, unsigned what) {
 PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWriteCallback *write, void *host) {
     if (!session || !write || !session->config.program)
         return PETRI_INVALID;
-    return text_sink_run(session, print_code, what, write, host);
+    return text_sink_run(session, dump_code, what, write, host);
 }

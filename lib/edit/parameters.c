@@ -49,13 +49,13 @@ static void describe_parameter(PetriSession *session, const Parameter *parameter
     };
 }
 
-typedef struct Request {
+typedef struct ParameterRequest {
     size_t number;
     PetriParameter *out;
-} Request;
+} ParameterRequest;
 
 static PetriStatus find_parameter(PetriSession *session, void *context) {
-    Request *request = context;
+    ParameterRequest *request = context;
     const Program *program = session->config.program->program;
     size_t number = request->number;
     ModuleList modules = {.count = 0};
@@ -79,7 +79,7 @@ static PetriStatus find_parameter(PetriSession *session, void *context) {
 
 bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter, size_t size) {
     PetriParameter found;
-    Request request = {number, &found};
+    ParameterRequest request = {number, &found};
     return session && parameter && session->config.program &&
            session_run(session, find_parameter, &request, "the query") == PETRI_OK &&
            host_struct_write(parameter, size, &found, sizeof found);

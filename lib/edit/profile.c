@@ -5,17 +5,17 @@
 
 #include <stdlib.h>
 
-typedef struct Row {
+typedef struct ProfileRow {
     double seconds;
     double times;         // number of evaluations
     const Source *source; // source file of the line; NULL: the row is not for a line and has the label `what`
     uint32_t line;
     const char *what;
-} Row;
+} ProfileRow;
 
 // Orders rows by time, longest first, then by line.
 static int compare_rows(const void *left, const void *right) {
-    const Row *a = left, *b = right;
+    const ProfileRow *a = left, *b = right;
     if (a->seconds != b->seconds)
         return a->seconds < b->seconds ? 1 : -1;
     return a->line < b->line ? -1 : a->line > b->line;
@@ -28,21 +28,21 @@ static uint32_t line_count(const Profile *profile) {
     return count;
 }
 
-static uint32_t add_lines(Row *rows, const Profile *profile) {
+static uint32_t add_lines(ProfileRow *rows, const Profile *profile) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < profile->file_count; i++)
         for (uint32_t k = 0; k < profile->files[i].source->line_count; k++) {
             const ProfileLine *line = &profile->files[i].lines[k];
             if (line->hits)
-                rows[count++] = (Row){.seconds = (double)line->nanoseconds * 1e-9,
-                                      .times = (double)line->hits,
-                                      .source = profile->files[i].source,
-                                      .line = k + 1};
+                rows[count++] = (ProfileRow){.seconds = (double)line->nanoseconds * 1e-9,
+                                             .times = (double)line->hits,
+                                             .source = profile->files[i].source,
+                                             .line = k + 1};
         }
     return count;
 }
 
-static void add_row(Text *out, const Row *row, double total, double frames) {
+static void add_row(Text *out, const ProfileRow *row, double total, double frames) {
     double percent = total > 0 ? 100 * row->seconds / total : 0;
     text_add_format(out, "%6.1f %% %10.4f ", percent, 1e3 * row->seconds / frames);
     if (!row->source) {
@@ -54,22 +54,22 @@ static void add_row(Text *out, const Row *row, double total, double frames) {
                     STR_ARGS(text));
 }
 
-typedef struct Request {
+typedef struct ProfileRequest {
     double output_seconds;
     PetriWriteCallback *write;
     void *host;
-} Request;
+} ProfileRequest;
 
 static PetriStatus print_profile(PetriSession *session, void *context) {
-    const Request *request = context;
+    const ProfileRequest *request = context;
     const Profile *profile = session->vm.profile;
     const SessionFrame *frame = &session->frame;
     arena_reset(&session->text_arena);
     Text out = text_new(&session->text_arena);
-    Row *rows = arena_alloc_array(&session->text_arena, line_count(profile) + 2, sizeof *rows);
+    ProfileRow *rows = arena_alloc_array(&session->text_arena, line_count(profile) + 2, sizeof *rows);
     uint32_t count = add_lines(rows, profile);
-    rows[count++] = (Row){.seconds = frame->profiled_physics, .what = "physics"};
-    rows[count++] = (Row){.seconds = request->output_seconds, .what = "output"};
+    rows[count++] = (ProfileRow){.seconds = frame->profiled_physics, .what = "physics"};
+    rows[count++] = (ProfileRow){.seconds = request->output_seconds, .what = "output"};
     qsort(rows, count, sizeof *rows, compare_rows);
     double total = 0, frames = frame->profiled_frames ? (double)frame->profiled_frames : 1;
     for (uint32_t i = 0; i < count; i++)
@@ -84,6 +84,6 @@ static PetriStatus print_profile(PetriSession *session, void *context) {
 PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWriteCallback *write, void *host) {
     if (!session || !write || !session->vm.profile)
         return PETRI_INVALID;
-    Request request = {output_seconds, write, host};
+    ProfileRequest request = {output_seconds, write, host};
     return session_protect(session, NULL, print_profile, &request);
 }

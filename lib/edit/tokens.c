@@ -6,15 +6,15 @@
 
 #include <string.h>
 
-typedef struct Reading {
+typedef struct TokenReading {
     Str text;
     PetriTokenCallback *token_callback; // NULL: report bindings instead
     PetriBindingCallback *binding_callback;
     void *user_data;
-} Reading;
+} TokenReading;
 
 static void send_token(void *context, TokenKind kind, Span span) {
-    const Reading *reading = context;
+    const TokenReading *reading = context;
     // The source ends in a newline even if the text does not; the last dedent is after it.
     size_t len = reading->text.len;
     PetriToken token = {sizeof token, (PetriTokenKind)kind, span.start < len ? span.start : len,
@@ -23,7 +23,7 @@ static void send_token(void *context, TokenKind kind, Span span) {
 }
 
 static void send_binding(void *context, const BindingInfo *note) {
-    const Reading *reading = context;
+    const TokenReading *reading = context;
     PetriBinding name = {.size = sizeof name,
                          .kind = (PetriNameKind)note->kind,
                          .start = note->span.start,
@@ -39,7 +39,7 @@ static void send_binding(void *context, const BindingInfo *note) {
 }
 
 static PetriStatus read_text(PetriSession *session, void *context) {
-    Reading *reading = context;
+    TokenReading *reading = context;
     Arena *arena = &session->prompt.arena;
     const Source *source = source_new(arena, STR("text"), STR("text"), reading->text);
     if (reading->token_callback)
@@ -50,7 +50,7 @@ static PetriStatus read_text(PetriSession *session, void *context) {
     return PETRI_OK;
 }
 
-static PetriStatus read_protected(PetriSession *session, Reading reading) {
+static PetriStatus read_protected(PetriSession *session, TokenReading reading) {
     arena_reset(&session->prompt.arena);
     PetriStatus status = session_run(session, read_text, &reading, "the input");
     arena_reset(&session->prompt.arena);
@@ -62,7 +62,7 @@ PetriStatus petri_tokenise(PetriSession *session, const char *text, size_t lengt
     if (!session || !text || !callback)
         return PETRI_INVALID;
     return read_protected(
-        session, (Reading){{text, length == PETRI_NUL_TERMINATED ? strlen(text) : length}, callback, NULL, host});
+        session, (TokenReading){{text, length == PETRI_NUL_TERMINATED ? strlen(text) : length}, callback, NULL, host});
 }
 
 PetriStatus petri_bindings(PetriSession *session, const char *text, size_t length, PetriBindingCallback *callback,
@@ -70,5 +70,5 @@ PetriStatus petri_bindings(PetriSession *session, const char *text, size_t lengt
     if (!session || !text || !callback)
         return PETRI_INVALID;
     return read_protected(
-        session, (Reading){{text, length == PETRI_NUL_TERMINATED ? strlen(text) : length}, NULL, callback, host});
+        session, (TokenReading){{text, length == PETRI_NUL_TERMINATED ? strlen(text) : length}, NULL, callback, host});
 }

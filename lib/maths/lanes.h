@@ -8,11 +8,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#if defined(__AVX2__) || defined(__FMA__)
-#include <immintrin.h>
-#endif
 #if defined(__SSE2__)
-#include <emmintrin.h>
+#include <immintrin.h>
 #elif defined(__aarch64__)
 #include <arm_neon.h>
 #endif
@@ -56,11 +53,14 @@ typedef unsigned Lanes;
 #define LANES_BOTH(a, b) ((a) & (b))
 #endif
 
-// 1 if the instruction set has a fused multiply-add, else 0. Final results do not depend on it.
+// 1 if the instruction set has a fused multiply-add, else 0. Final results do not depend on it. petri.c defines it
+// where one file has code for several instruction sets.
+#ifndef HAS_FMA
 #if defined(__FMA__) || defined(__aarch64__)
 #define HAS_FMA 1
 #else
 #define HAS_FMA 0
+#endif
 #endif
 
 KERNEL Bits bits_of(Real a) {
@@ -160,9 +160,9 @@ KERNEL Real real_two_sum_error(Real a, Real b, Real s) {
 KERNEL Real real_gather_table(const double *table, Bits index) {
 #if LANES == 1
     return table[index];
-#elif LANES == 4 && defined(__AVX2__)
+#elif LANES == 4
     return _mm256_i64gather_pd(table, (__m256i)index, 8);
-#elif LANES == 8 && defined(__AVX512F__)
+#elif LANES == 8
     return _mm512_i64gather_pd((__m512i)index, table, 8);
 #else
     Real r;
@@ -182,7 +182,7 @@ KERNEL void real_store(double *to, Real a) {
     memcpy(to, &a, sizeof a);
 }
 
-#if defined(__AVX2__)
+#if LANES >= 4
 typedef double Quad __attribute__((vector_size(32)));
 
 // Transposes a 4 x 4 matrix.
@@ -202,11 +202,11 @@ KERNEL void real_load_rows(const double *const *rows, Real *columns) {
 #if LANES == 1
     for (int m = 0; m < 4; m++)
         columns[m] = rows[0][m];
-#elif LANES == 4 && defined(__AVX2__)
+#elif LANES == 4
     for (int lane = 0; lane < LANES; lane++)
         columns[lane] = real_load(rows[lane]);
     quads_transpose(columns);
-#elif LANES == 8 && defined(__AVX512F__)
+#elif LANES == 8
     Real pairs[4];
     for (int lane = 0; lane < 4; lane++) {
         __m512d lower = _mm512_castpd256_pd512(_mm256_loadu_pd(rows[lane]));

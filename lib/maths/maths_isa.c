@@ -4,8 +4,6 @@
 // Each function tries its fast path first. If the rounding is uncertain (about one in a thousand arguments), or if the
 // argument is special, it calls the exact_ function.
 #include "maths/fast.h"
-
-#define LANES 1
 #include "maths/fast_arc.h"
 #include "maths/fast_exp.h"
 #include "maths/fast_log.h"

@@ -15,7 +15,7 @@
 enum { PAIRS_A_UNIT = 4, BODIES_A_UNIT = 4 };
 
 // The force whose energy is computed. At most one of the potentials is set; none: the force has no potential.
-typedef struct Source {
+typedef struct EnergySource {
     const PhysSystem *system;
     Force force;
     ForceRow row;
@@ -26,9 +26,9 @@ typedef struct Source {
     uint32_t group;     // group of the force
     uint32_t group_end; // the groups inside it are numbered group + 1 to group_end - 1
     double energy;
-} Source;
+} EnergySource;
 
-static void choose_potential(Source *source) {
+static void choose_potential(EnergySource *source) {
 #define ENTRY(KIND, name, ...) [PHYS_##KIND] = potential_##name,
     PairPotential *const pairs[PHYS_FORCE_KINDS] = {PHYS_FORCES(ENTRY, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)};
 #define LINK(KIND, name) ENTRY(KIND, name, )
@@ -55,14 +55,14 @@ static PairEnd end_of(const ParticleRecord *record) {
 }
 
 // Returns the potential at distance `length`, without a maximum distance.
-static double energy_at(const Source *source, const PairEnd *a, const PairEnd *b, double length) {
+static double energy_at(const EnergySource *source, const PairEnd *a, const PairEnd *b, double length) {
     const PairGeometry geometry = lone_geometry(length, a, b);
     Pairs pairs = lone_pair(&geometry, a, b);
     pairs.term = &source->term;
     return pair_where(source->row.reach, source->row.need, &pairs) ? source->pair(&pairs) : 0;
 }
 
-static void add_pair(Source *source, const Body *from, const Body *to) {
+static void add_pair_energy(EnergySource *source, const Body *from, const Body *to) {
     double length = phys_distance(from->position, to->position, source->system->dimensions, 1);
     double bound = source->term.bound;
     if (!(length > 0 && length < bound) || (from->record->anchor && to->record->anchor))
@@ -82,7 +82,7 @@ static int by_group_and_position(const void *a, const void *b) {
 
 // Fills `bodies` with the particles in the groups of the force, sorted by group and by the first component of their
 // positions, and sets the ranges of the groups. Returns a distance beyond which the force does not act.
-static double collect_bodies(const Source *source, Body *bodies, Group *groups) {
+static double collect_bodies(const EnergySource *source, Body *bodies, Group *groups) {
     const PhysSystem *system = source->system;
     uint32_t count = 0;
     double radius = 0;
@@ -105,7 +105,8 @@ static double collect_bodies(const Source *source, Body *bodies, Group *groups) 
 }
 
 // Adds the pairs of a body of `group` and a body of `other`, which encloses it or is the same.
-static PhysStatus add_groups(Source *source, const Body *bodies, const Group *group, const Group *other, double range) {
+static PhysStatus add_groups(EnergySource *source, const Body *bodies, const Group *group, const Group *other,
+                             double range) {
     size_t first = other->first, end = first + other->count;
     for (size_t i = group->first; i < (size_t)group->first + group->count; i++) {
         if (group == other)
@@ -115,14 +116,14 @@ static PhysStatus add_groups(Source *source, const Body *bodies, const Group *gr
                 first += step;
         size_t j = first;
         for (; j < end && bodies[j].position[0] - bodies[i].position[0] <= range; j++)
-            add_pair(source, &bodies[i], &bodies[j]);
+            add_pair_energy(source, &bodies[i], &bodies[j]);
         if (!phys_charge(source->system, 1 + (j - first) / PAIRS_A_UNIT))
             return PHYS_STOPPED;
     }
     return PHYS_OK;
 }
 
-static PhysStatus add_pairs(Source *source) {
+static PhysStatus add_pair_energies(EnergySource *source) {
     const PhysSystem *system = source->system;
     Group *groups = heap_calloc(system->group_count, sizeof *groups);
     Body *bodies = heap_calloc((size_t)system->particle_count + 1, sizeof *bodies);
@@ -137,7 +138,7 @@ static PhysStatus add_pairs(Source *source) {
     return status;
 }
 
-static PhysStatus add_link(Source *source) {
+static PhysStatus add_link(EnergySource *source) {
     const PhysSystem *system = source->system;
     const PhysForce *link = &source->force.given;
     uint32_t count = system->particle_count;
@@ -152,7 +153,7 @@ static PhysStatus add_link(Source *source) {
 
 // --- forces on single particles
 
-static double single_energy(const Source *source, uint32_t particle) {
+static double single_energy(const EnergySource *source, uint32_t particle) {
     const ParticleRecord *record = phys_record(source->system, particle);
     ForceNeed need = source->row.need;
     size_t n = source->system->dimensions;
@@ -174,7 +175,7 @@ static double single_energy(const Source *source, uint32_t particle) {
     return source->single(&(Singles){NULL, &columns, &source->force, n, &block});
 }
 
-static PhysStatus add_singles(Source *source) {
+static PhysStatus add_singles(EnergySource *source) {
     const PhysSystem *system = source->system;
     if (!phys_charge(system, 1 + system->particle_count / BODIES_A_UNIT))
         return PHYS_STOPPED;
@@ -189,7 +190,7 @@ static PhysStatus add_singles(Source *source) {
 }
 
 PhysStatus phys_potential_energy(const PhysSystem *system, uint32_t number, double clock, double *energy) {
-    Source source = {.system = system};
+    EnergySource source = {.system = system};
     Force *force = &source.force;
     *energy = NAN;
     if (!phys_get_force(system, number, &force->given))
@@ -200,7 +201,10 @@ PhysStatus phys_potential_energy(const PhysSystem *system, uint32_t number, doub
     source.row = phys_force_row(force->given.kind);
     source.group = phys_force_record(system, number)->group;
     source.group_end = phys_group_end(system, source.group);
-    PhysStatus (*add)(Source *) = source.pair ? add_pairs : source.link ? add_link : source.single ? add_singles : NULL;
+    PhysStatus (*add)(EnergySource *) = source.pair     ? add_pair_energies
+                                        : source.link   ? add_link
+                                        : source.single ? add_singles
+                                                        : NULL;
     PhysStatus status = add ? add(&source) : PHYS_OK;
     *energy = add && status == PHYS_OK ? source.energy : NAN;
     return status;

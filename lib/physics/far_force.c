@@ -158,7 +158,7 @@ static void batch_chunk(void *context, int chunk, int chunks) {
 }
 
 // Evaluates a batch. Returns the number of evaluations.
-static uint64_t run_batch(Batch *batch, int chunks) {
+static uint64_t run_far_batch(Batch *batch, int chunks) {
     FarScratch *scratch = batch->pass->forest->scratch.bytes;
     uint64_t evaluations = 0;
     if ((size_t)chunks > batch->count)
@@ -178,7 +178,7 @@ static bool run_alone(PhysSystem *system, const FarPass *pass, size_t count, int
     Batch batch = {.pass = pass, .targets = pass->forest->targets.bytes, .step = 1};
     for (size_t next = FIRST_BATCH; batch.first < count; batch.first += batch.count) {
         batch.count = count - batch.first < next ? count - batch.first : next;
-        uint64_t evaluations = run_batch(&batch, chunks);
+        uint64_t evaluations = run_far_batch(&batch, chunks);
         if (!phys_charge(system, evaluations / EVALUATIONS_A_UNIT + 1) || !phys_may_continue(system))
             return false;
         next = (size_t)(BATCH_EVALUATIONS / (evaluations / batch.count + 1)) + 1;
@@ -229,7 +229,7 @@ static bool run_divided(PhysSystem *system, const FarPass *pass, size_t count, i
     place_results(pass, count, processes, starts, places);
     size_t self = (size_t)processes.self;
     Batch batch = {pass, forest->targets.bytes, places, self, (count + step - 1 - self) / step, step};
-    results[starts[self + 1] - 1] = batch.count ? (double)run_batch(&batch, chunks) : 0;
+    results[starts[self + 1] - 1] = batch.count ? (double)run_far_batch(&batch, chunks) : 0;
     division->gather(system, results, starts);
     double evaluations = 0;
     for (size_t r = 0; r < step; r++)

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS, KEY_BITS = 63, PASSES = 6, MAX_INSERTION = 24 };
+enum { DIGIT_BITS = 11, KEY_DIGITS = 1 << DIGIT_BITS, KEY_BITS = 63, PASSES = 6, MAX_INSERTION = 24 };
 _Static_assert(PASSES *DIGIT_BITS >= KEY_BITS, "the passes must cover a key");
 
 static uint64_t key_part(const FarKey *key, bool low) {
@@ -23,27 +23,27 @@ static void insertion_sort(FarKey *keys, size_t count, bool low) {
 // Moves the keys from `from` to `to`, sorted by one digit. `start` holds the number of keys of each digit.
 static void scatter_keys(const FarKey *from, FarKey *to, size_t count, bool low, int shift, uint32_t *start) {
     uint32_t next = 0;
-    for (size_t digit = 0; digit < DIGITS; digit++) {
+    for (size_t digit = 0; digit < KEY_DIGITS; digit++) {
         uint32_t number = start[digit];
         start[digit] = next;
         next += number;
     }
     for (size_t i = 0; i < count; i++)
-        to[start[key_part(&from[i], low) >> shift & (DIGITS - 1)]++] = from[i];
+        to[start[key_part(&from[i], low) >> shift & (KEY_DIGITS - 1)]++] = from[i];
 }
 
 // Sorts by one part of the keys, digit by digit from the least significant one. Skips digits that are equal in all
 // keys.
 static void radix_sort(FarKey *keys, FarKey *spare, size_t count, bool low) {
-    uint32_t start[PASSES][DIGITS];
+    uint32_t start[PASSES][KEY_DIGITS];
     memset(start, 0, sizeof start);
     for (size_t i = 0; i < count; i++)
         for (int pass = 0; pass < PASSES; pass++)
-            start[pass][key_part(&keys[i], low) >> pass * DIGIT_BITS & (DIGITS - 1)]++;
+            start[pass][key_part(&keys[i], low) >> pass * DIGIT_BITS & (KEY_DIGITS - 1)]++;
     FarKey *from = keys, *to = spare;
     for (int pass = 0; pass < PASSES; pass++) {
         int shift = pass * DIGIT_BITS;
-        if (start[pass][key_part(&from[0], low) >> shift & (DIGITS - 1)] == count)
+        if (start[pass][key_part(&from[0], low) >> shift & (KEY_DIGITS - 1)] == count)
             continue;
         scatter_keys(from, to, count, low, shift, start[pass]);
         FarKey *swap = from;

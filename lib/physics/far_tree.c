@@ -5,7 +5,7 @@
 #include <assert.h>
 #include <string.h>
 
-enum { HALF_LEVELS = FAR_LEVELS / 2, MIN_EXPONENT = -400, MIN_FOR_THREADS = 20000 };
+enum { HALF_LEVELS = FAR_LEVELS / 2, MIN_EXPONENT = -400, MIN_TREE_FOR_THREADS = 20000 };
 
 // --- members
 
@@ -168,7 +168,7 @@ static void fill_chunk(void *context, int chunk, int chunks) {
 static void sort_members(const PhysSystem *system, FarForest *forest, const FarTree *tree) {
     MemberTask task = {system, forest, tree};
     FarKey *keys = (FarKey *)forest->keys.bytes + tree->first;
-    int chunks = phys_chunk_count(system, tree->count, MIN_FOR_THREADS);
+    int chunks = phys_chunk_count(system, tree->count, MIN_TREE_FOR_THREADS);
     phys_parallel(system, chunks, key_chunk, &task);
     phys_far_sort(keys, (FarKey *)forest->keys.bytes + system->columns.count, tree->count);
     phys_parallel(system, chunks, fill_chunk, &task);

@@ -13,11 +13,11 @@
 #include <float.h>
 #include <string.h>
 
-enum { SAMPLES = 256 }; // number of particles from which the grid is chosen
+enum { GRID_SAMPLES = 256 }; // number of particles from which the grid is chosen
 
 // Positions and radii of some particles: of[k] is component k of the positions, and the last element is the radii.
 typedef struct Samples {
-    double of[PHYS_VECTOR_DIMENSIONS + 1][SAMPLES];
+    double of[PHYS_VECTOR_DIMENSIONS + 1][GRID_SAMPLES];
     size_t count;
 } Samples;
 
@@ -51,7 +51,7 @@ static void sort_doubles(double *values, size_t count) {
 // Takes samples of the particles and sorts each component. The grid is chosen from the samples, so that it covers most
 // particles but not the outliers.
 static void sample_particles(const PairPass *pass, const NeighbourList *list, Samples *samples) {
-    uint64_t every = list->total / SAMPLES + 1, i = 0;
+    uint64_t every = list->total / GRID_SAMPLES + 1, i = 0;
     samples->count = 0;
     for (uint32_t r = 0; r < list->ranges.count; r++) {
         const ColumnRange *range = &list->ranges.at[r];
@@ -83,7 +83,7 @@ static int chunk_count_of(const Sorting *sorting) {
 }
 
 // Returns the column of particle `number`, counted through all ranges of the pass.
-static inline size_t column_of(const NeighbourList *list, uint32_t number) {
+static inline size_t listed_column(const NeighbourList *list, uint32_t number) {
     const ColumnRange *range = list->ranges.at;
     while (number >= range->count)
         number -= range++->count;
@@ -157,7 +157,7 @@ static void survey_chunk(void *context, int chunk, int chunks) {
     }
     survey = no_survey();
     for (uint32_t i = first; i < end; i++) {
-        size_t column = column_of(list, i);
+        size_t column = listed_column(list, i);
         bool lost = phys_is_idle(pass, list, column), large = !lost && pass->radius[column] > sorting->large;
         list->cell[i] = lost ? PHYS_CELL_IDLE : large ? PHYS_CELL_LARGE : 0;
         survey.large_count += large;
@@ -173,6 +173,7 @@ static Survey survey_all(Sorting *sorting) {
     int chunks = chunk_count_of(sorting);
     sorting->surveys = parts;
     phys_parallel(sorting->system, chunks, survey_chunk, sorting);
+    sorting->surveys = NULL;
     for (int s = 0; s < chunks; s++) {
         all.regular += parts[s].regular;
         all.large_count += parts[s].large_count;
@@ -233,7 +234,7 @@ static void find_cells_chunk(void *context, int chunk, int chunks) {
     uint32_t end = chunk_start(list, chunk + 1, chunks);
     for (uint32_t i = chunk_start(list, chunk, chunks); i < end; i++)
         if (list->cell[i] < PHYS_CELL_LARGE)
-            list->cell[i] = phys_cell_of(sorting->grid, pass->position + column_of(list, i), pass->stride);
+            list->cell[i] = phys_cell_of(sorting->grid, pass->position + listed_column(list, i), pass->stride);
 }
 
 // Replaces the cell of each particle in list->cell by its sorted index, with a counting sort. During the sort,
@@ -260,7 +261,7 @@ static void store_chunk(void *context, int chunk, int chunks) {
     NeighbourList *list = sorting->list;
     uint32_t end = chunk_start(list, chunk + 1, chunks);
     for (uint32_t i = chunk_start(list, chunk, chunks); i < end; i++)
-        store_at_index(sorting->pass, list, list->cell[i], i, column_of(list, i));
+        store_at_index(sorting->pass, list, list->cell[i], i, listed_column(list, i));
 }
 
 // Sorts the particles by cell. The sort is stable: within a cell, particles are in the order of the pass.

@@ -4,7 +4,7 @@
 
 enum {
     FIRST_ENTRIES = 12,                                   // initial capacity, in entries per particle
-    MAX_ENTRIES = 160,                                    // maximum capacity, in entries per particle
+    MAX_LIST_ENTRIES = 160,                               // maximum capacity, in entries per particle
     ENTRIES_SPARE = PHYS_MAX_NEIGHBOURS * PHYS_MAX_LANES, // added to both: entries of a block with the longest lists
 };
 
@@ -33,7 +33,7 @@ static void search_chunk(void *context, int chunk, int chunks) {
 // pay off.
 static bool search_all(PhysSystem *system, SearchJob *job, NeighbourList *list, uint64_t max_entries) {
     uint64_t first = (uint64_t)FIRST_ENTRIES * list->total + ENTRIES_SPARE;
-    uint64_t limit = (uint64_t)MAX_ENTRIES * list->total + ENTRIES_SPARE;
+    uint64_t limit = (uint64_t)MAX_LIST_ENTRIES * list->total + ENTRIES_SPARE;
     max_entries = max_entries < limit ? max_entries : limit;
     uint64_t capacity = list->entries.capacity / sizeof(uint32_t);
     job->capacity = capacity > first ? capacity : first;

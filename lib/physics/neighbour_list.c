@@ -126,7 +126,7 @@ static int chunk_count_for(const PhysSystem *system, const NeighbourList *list) 
 }
 
 // Runs `task` for all chunks. Returns false if a particle has moved by half the skin.
-static bool run_chunks(const PhysSystem *system, ListPass *work, PhysTask *task) {
+static bool run_list_chunks(const PhysSystem *system, ListPass *work, PhysTask *task) {
     bool held = true;
     memset(work->valid, true, sizeof work->valid);
     phys_parallel(system, chunk_count_for(system, work->list), task, work);
@@ -160,7 +160,7 @@ static bool refresh_list(const PhysSystem *system, ListPass *work) {
         return refresh_remote(system, work) && before == LIST_AHEAD;
     }
     list->view.same_radii = list->radius_version == system->radius_version;
-    return run_chunks(system, work, refresh_chunk) && still_idle(work->pass, list);
+    return run_list_chunks(system, work, refresh_chunk) && still_idle(work->pass, list);
 }
 
 // Takes the whole step if it consists of only this pass and the motion. Returns false if the step consists of more, or
@@ -177,7 +177,7 @@ static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
     move->done = true;
     if (!phys_integrate_begin(system, 0, move->delta, move->speed_of_light, &integrator))
         return true; // the budget is exceeded, so the step is aborted
-    list->state = run_chunks(system, work, step_chunk) ? LIST_AHEAD : LIST_SPENT;
+    list->state = run_list_chunks(system, work, step_chunk) ? LIST_AHEAD : LIST_SPENT;
     list->next_motion_version = system->motion_version + 1; // the value of motion_version after the step
     phys_integrate_end(&integrator);
     return true;

@@ -1,6 +1,5 @@
 // pair_rows.c: forces between one particle and a range of particles, and between the two particles of a link
 // (`!distance`, spec physics.md 4.1). Computes one pair at a time, for any number of dimensions and forces.
-#define LANES 1
 #include "physics/pair_formulas.h"
 #include "physics/pair_wavefront.h"
 

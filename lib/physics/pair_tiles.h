@@ -222,13 +222,16 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
         tile_row(pass, shape, i, row_end - i < LANES ? row_end - i : LANES, column, column_end, triangle);
 }
 
-// The kernels. Lead and rest are constants in each, and DIMENSIONS is a constant of the file that defines them.
-#define PAIR_KERNEL(name, lead, rest)                                                                                  \
-    static void kernel_##name##rest(const PairPass *pass, bool triangle, size_t row, size_t row_end, size_t column,    \
-                                    size_t column_end) {                                                               \
-        tile_rows(pass, (PairShape){DIMENSIONS, lead, rest, false}, row, row_end, column, column_end, triangle);       \
+// The kernels. Lead and rest are constants in each, and the file that defines them defines DIMENSIONS.
+#define PAIR_KERNEL_OF(n, name, lead, rest)                                                                            \
+    static void kernel_##n##d_##name##rest(const PairPass *pass, bool triangle, size_t row, size_t row_end,            \
+                                           size_t column, size_t column_end) {                                         \
+        tile_rows(pass, (PairShape){n, lead, rest, false}, row, row_end, column, column_end, triangle);                \
     }
-#define PAIR_ENTRY(name, lead, rest) [lead][rest] = kernel_##name##rest,
+#define PAIR_ENTRY_OF(n, name, lead, rest) [lead][rest] = kernel_##n##d_##name##rest,
+#define PAIR_IN(OF, n, name, lead, rest) OF(n, name, lead, rest) // n: the value of DIMENSIONS
+#define PAIR_KERNEL(name, lead, rest) PAIR_IN(PAIR_KERNEL_OF, DIMENSIONS, name, lead, rest)
+#define PAIR_ENTRY(name, lead, rest) PAIR_IN(PAIR_ENTRY_OF, DIMENSIONS, name, lead, rest)
 
 // Every force whose range can be unlimited has kernels in which it is the lead.
 #define LEAD_CONTACT(MAKE, KIND)

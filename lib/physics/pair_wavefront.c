@@ -21,24 +21,25 @@ enum {
     BLOCKS_PER_COLUMN = 24,    // number of blocks in a column, unless limited by MIN_BLOCK
     MAX_BLOCKS = BLOCKS_PER_COLUMN + 1,
     BLOCK_ALIGN = 8, // the number of rows in a block is a multiple of this, which is a multiple of every LANES
-    LINE_BYTES = 64, // size of a cache line
+    WAVEFRONT_LINE_BYTES = 64, // size of a cache line
 };
 
 // The state of a row of blocks.
-typedef struct Row {
-    _Alignas(LINE_BYTES) atomic_bool claimed; // some thread computes the row or has computed it
-    atomic_size_t done;                       // blocks 0 to done - 1 of the row are done
-} Row;
+typedef struct WavefrontRow {
+    _Alignas(WAVEFRONT_LINE_BYTES) atomic_bool claimed; // some thread computes the row or has computed it
+    atomic_size_t done;                                 // blocks 0 to done - 1 of the row are done
+} WavefrontRow;
 
 typedef struct Wavefront {
     // contiguous, because every thread reads these fields first
-    _Alignas(LINE_BYTES) PairBlocks blocks;
+    _Alignas(WAVEFRONT_LINE_BYTES) PairBlocks blocks;
     PairRegion pairs;
     PairPass pass;
     PhysThreads *threads;
-    const PairMotion *motion;                 // NULL: none
-    _Alignas(LINE_BYTES) atomic_size_t moved; // the particles of rows 0 to moved - 1 have moved or are being moved
-    Row rows[MAX_BLOCKS];
+    const PairMotion *motion; // NULL: none
+    _Alignas(WAVEFRONT_LINE_BYTES)
+        atomic_size_t moved; // the particles of rows 0 to moved - 1 have moved or are being moved
+    WavefrontRow rows[MAX_BLOCKS];
 } Wavefront;
 
 static size_t min_size(size_t a, size_t b) {
@@ -60,12 +61,12 @@ void phys_pair_block(const PairBlocks *blocks, size_t row, size_t column) {
     pairs->kernel(pairs->pass, pairs->triangle && row == column, first, end, other, other_end);
 }
 
-static bool claim_row(Row *row) {
+static bool claim_row(WavefrontRow *row) {
     return !atomic_load_explicit(&row->claimed, memory_order_relaxed) &&
            !atomic_exchange_explicit(&row->claimed, true, memory_order_relaxed);
 }
 
-static bool is_done_to(const Row *row, size_t column) {
+static bool is_done_to(const WavefrontRow *row, size_t column) {
     return atomic_load_explicit(&row->done, memory_order_acquire) >= column;
 }
 
@@ -86,7 +87,7 @@ static bool move_next_row(Wavefront *wavefront) {
 }
 
 // Waits until blocks 0 to column - 1 of a row are done. During the wait, moves particles of complete rows.
-static void wait_for_row(Wavefront *wavefront, const Row *row, size_t column, bool caller) {
+static void wait_for_row(Wavefront *wavefront, const WavefrontRow *row, size_t column, bool caller) {
     PhysSpinWait wait = {0};
     while (!is_done_to(row, column))
         if (!move_next_row(wavefront))
@@ -107,7 +108,7 @@ static void compute_row(Wavefront *wavefront, size_t row, bool caller) {
 // Computes every `chunks`-th row of blocks, starting at `chunk`, and earlier rows that no thread has claimed.
 static void run_rows(void *context, int chunk, int chunks) {
     Wavefront *wavefront = context;
-    for (size_t byte = 0; byte < offsetof(Wavefront, moved); byte += LINE_BYTES)
+    for (size_t byte = 0; byte < offsetof(Wavefront, moved); byte += WAVEFRONT_LINE_BYTES)
         __builtin_prefetch((const char *)wavefront + byte);
     size_t rows = wavefront->blocks.rows;
     for (size_t row = (size_t)chunk; row < rows + (size_t)chunks; row += (size_t)chunks) {

@@ -90,7 +90,7 @@ static void fill_motion_chunk(void *context, int chunk, int chunks) {
         fill_motion(system, i);
 }
 
-static void fill_chunk(void *context, int chunk, int chunks) {
+static void fill_row_chunk(void *context, int chunk, int chunks) {
     PhysSystem *system = context;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, end = phys_chunk_begin(columns->count, chunk + 1, chunks);
@@ -223,7 +223,7 @@ bool phys_keep_start(PhysSystem *system) {
     return true;
 }
 
-static int chunk_count_for(const PhysSystem *system, uint32_t particles) {
+static int row_chunk_count_for(const PhysSystem *system, uint32_t particles) {
     enum { MIN_FOR_THREADS = 10000 };
     return phys_chunk_count(system, particles, MIN_FOR_THREADS);
 }
@@ -231,7 +231,7 @@ static int chunk_count_for(const PhysSystem *system, uint32_t particles) {
 bool phys_fill_columns(PhysSystem *system) {
     if (!phys_reserve_columns(system, 0))
         return false;
-    phys_parallel(system, chunk_count_for(system, system->particle_count), fill_chunk, system);
+    phys_parallel(system, row_chunk_count_for(system, system->particle_count), fill_row_chunk, system);
     phys_note_change(system, COLUMNS_FILLED);
     system->radius_version++;
     system->motion_version++;
@@ -239,14 +239,14 @@ bool phys_fill_columns(PhysSystem *system) {
 }
 
 void phys_fill_motion(PhysSystem *system) {
-    phys_parallel(system, chunk_count_for(system, system->particle_count), fill_motion_chunk, system);
+    phys_parallel(system, row_chunk_count_for(system, system->particle_count), fill_motion_chunk, system);
     system->motion_version++;
 }
 
 void phys_write_column_rows(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep,
                             const PhysSystem *home) {
     RowWriter writer = {.system = system, .columns = columns, .order = order, .keep_last_finite = keep, .home = home};
-    phys_parallel(system, chunk_count_for(system, columns->count), write_chunk, &writer);
+    phys_parallel(system, row_chunk_count_for(system, columns->count), write_chunk, &writer);
     for (int w = 0; w < PHYS_MAX_CHUNKS; w++)
         system->any_not_finite |= writer.any_not_finite[w];
     if (system->options.keep_forces && system->has_forces)

@@ -13,7 +13,8 @@
 enum { ITEMS_A_UNIT = 8 }; // particles or springs
 
 // Stores a force that is unstable, and suggests values. `largest` is an upper bound of λ·δ².
-static bool store(PhysInstability *found, const PhysSystem *system, uint32_t number, double largest, double delta) {
+static bool store_instability(PhysInstability *found, const PhysSystem *system, uint32_t number, double largest,
+                              double delta) {
     double strength = phys_force_record(system, number)->given.strength;
     *found = (PhysInstability){number, strength * SUGGESTED / largest, delta * sqrt(SUGGESTED / largest)};
     return true;
@@ -34,7 +35,7 @@ typedef struct Bodies {
     double largest;
 } Bodies;
 
-static void add_body(Bodies *bodies, const ParticleRecord *record) {
+static void add_network_body(Bodies *bodies, const ParticleRecord *record) {
     double mass = record->mass;
     bodies->smallest = fmin(bodies->smallest, record->radius);
     bodies->largest = fmax(bodies->largest, record->radius);
@@ -49,7 +50,7 @@ static void add_body(Bodies *bodies, const ParticleRecord *record) {
 }
 
 // Fills `bodies`, unless it already holds these particles. Returns false if the system must stop.
-static bool collect_bodies(const PhysSystem *system, uint32_t group, bool all, Bodies *bodies) {
+static bool collect_network_bodies(const PhysSystem *system, uint32_t group, bool all, Bodies *bodies) {
     if (bodies->group == group && bodies->all == all)
         return true;
     uint32_t end = phys_group_end(system, group);
@@ -57,7 +58,7 @@ static bool collect_bodies(const PhysSystem *system, uint32_t group, bool all, B
     for (uint32_t i = 0; i < system->particle_count; i++) {
         const ParticleRecord *record = phys_record(system, i);
         if (record->group >= group && record->group < end && (all || record->radius > 0))
-            add_body(bodies, record);
+            add_network_body(bodies, record);
     }
     return phys_charge(system, 1 + (system->particle_count + end - group) / ITEMS_A_UNIT);
 }
@@ -69,7 +70,7 @@ static bool is_barrier_unstable(const PhysSystem *system, uint32_t number, const
     double square = barrier->strength * delta * delta;
     bool soft = (barrier->has_minimum && barrier->minimum > 0) || barrier->has_maximum;
     return soft && bodies->movers > 0 && square > LIMIT * bodies->heaviest &&
-           store(found, system, number, square / bodies->lightest, delta);
+           store_instability(found, system, number, square / bodies->lightest, delta);
 }
 
 // Checks a force between all pairs. Two free particles are thrown apart once and meet no more, so that their energy
@@ -83,7 +84,7 @@ static bool are_pairs_unstable(const PhysSystem *system, uint32_t number, const 
     double softest = square * (adhesion ? bodies->smallest : 1), stiffest = square * (adhesion ? bodies->largest : 1);
     double mass = bodies->fixed ? bodies->heaviest : 1 / (1 / bodies->heaviest + 1 / bodies->second);
     return bodies->movers > 0 && bodies->movers + 2 * bodies->fixed > 2 && softest > LIMIT * mass &&
-           store(found, system, number, n * (n + 1) * stiffest * 2 / bodies->lightest, delta);
+           store_instability(found, system, number, n * (n + 1) * stiffest * 2 / bodies->lightest, delta);
 }
 
 static bool is_group_force_unstable(const PhysSystem *system, uint32_t number, double delta, Bodies *bodies,
@@ -93,7 +94,7 @@ static bool is_group_force_unstable(const PhysSystem *system, uint32_t number, d
     bool barrier = force->kind == PHYS_BARRIER, adhesion = force->kind == PHYS_ADHESION;
     if ((!barrier && !adhesion && force->kind != PHYS_COLLISION) || (!adhesion && force->power != 1) ||
         !(force->strength > 0) || (!barrier && force->max_distance > 0) ||
-        !collect_bodies(system, record->group, barrier, bodies))
+        !collect_network_bodies(system, record->group, barrier, bodies))
         return false;
     return barrier ? is_barrier_unstable(system, number, bodies, delta, found)
                    : are_pairs_unstable(system, number, bodies, delta, found);
@@ -231,10 +232,10 @@ static bool are_springs_unstable(Network *network, double delta, PhysInstability
         const PhysForce *spring = spring_at(system, f);
         if (spring &&
             spring->strength * (inverse_mass(system, spring->from) + inverse_mass(system, spring->to)) > limit)
-            return store(found, system, f, bound, delta);
+            return store_instability(found, system, f, bound, delta);
     }
     return two_sided > 1 && bound > LIMIT && largest_eigenvalue(network) > limit &&
-           store(found, system, strongest_spring(network), bound, delta);
+           store_instability(found, system, strongest_spring(network), bound, delta);
 }
 
 static bool find_springs(const PhysSystem *system, double delta, PhysInstability *found) {

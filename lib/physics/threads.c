@@ -22,11 +22,11 @@ _Static_assert(PHYS_MAX_CHUNKS < 1 << COUNT_BITS, "the number of claimed chunks 
 
 enum {
     TUNERS = 3,
-    MIN_TUNER_BITS = 13,  // the tuners are for jobs below 2^14 units, below 2^15 units, and above
-    LINE_BYTES = 64,      // size of a cache line
-    POLLS_PER_CHECK = 64, // polls between two readings of the clock
-    SPIN_NS = 50000,      // time for which a thread polls for work before it sleeps; about as long as waking takes
-    YIELD_NS = 50000      // time for which a thread polls for other threads before it yields the processor
+    MIN_TUNER_BITS = 13,   // the tuners are for jobs below 2^14 units, below 2^15 units, and above
+    CACHE_LINE_BYTES = 64, // size of a cache line
+    POLLS_PER_CHECK = 64,  // polls between two readings of the clock
+    SPIN_NS = 50000,       // time for which a thread polls for work before it sleeps; about as long as waking takes
+    YIELD_NS = 50000       // time for which a thread polls for other threads before it yields the processor
 };
 
 struct PhysThreads {
@@ -44,12 +44,12 @@ struct PhysThreads {
     uint64_t waited;          // nanoseconds that the caller has waited in the current job
     bool helped;              // a helper took part in the last job
     // the job; its fields are in one cache line, because other threads read them first
-    _Alignas(LINE_BYTES) atomic_uint_fast64_t ticket;
+    _Alignas(CACHE_LINE_BYTES) atomic_uint_fast64_t ticket;
     PhysTask *work;
     void *context;
-    _Alignas(LINE_BYTES) atomic_uint done; // number of chunks that helpers have finished, in all jobs so far
+    _Alignas(CACHE_LINE_BYTES) atomic_uint done; // number of chunks that helpers have finished, in all jobs so far
     // sleeping
-    _Alignas(LINE_BYTES) atomic_int sleeping;
+    _Alignas(CACHE_LINE_BYTES) atomic_int sleeping;
     atomic_uint wakeups;          // number of broadcasts of `wake`
     atomic_uint answered_wakeups; // value of `wakeups` to which a thread last responded
     bool stop;
@@ -140,10 +140,10 @@ static void *worker_main(void *argument) {
 }
 
 PhysThreads *phys_threads_new(int count) {
-    unsigned char *block = heap_alloc(sizeof(PhysThreads) + LINE_BYTES);
+    unsigned char *block = heap_alloc(sizeof(PhysThreads) + CACHE_LINE_BYTES);
     if (!block)
         return NULL;
-    PhysThreads *threads = (PhysThreads *)(block + LINE_BYTES - (uintptr_t)block % LINE_BYTES);
+    PhysThreads *threads = (PhysThreads *)(block + CACHE_LINE_BYTES - (uintptr_t)block % CACHE_LINE_BYTES);
     *threads = (PhysThreads){.block = block, .process = getpid(), .wanted = count <= 0 ? os_processor_count() : count};
     if (threads->wanted > PHYS_MAX_THREADS)
         threads->wanted = PHYS_MAX_THREADS;

@@ -136,7 +136,7 @@ static void warn_negation(Compiler *compiler, Span span, Str name) {
                           str_format(compiler->arena, "write 'not %.*s' to negate a value", STR_ARGS(name)));
 }
 
-static const Node *constant_node(const Expr *expr) {
+static const Node *is_constant_node(const Expr *expr) {
     bool node = expr->kind == EXPR_CONST && expr->as.value.kind == VALUE_MIXED && expr->as.value.len == 1 &&
                 expr->as.value.as.items[0].type == ITEM_NODE;
     return node ? expr->as.value.as.items[0].as.node : NULL;
@@ -147,7 +147,7 @@ void lint_branches(Compiler *compiler, const Expr *expr) {
     if (!lint_enabled(compiler))
         return;
     for (uint32_t i = 0; i + 1 < expr->count; i += 2) {
-        const Node *node = constant_node(expr->children[i]);
+        const Node *node = is_constant_node(expr->children[i]);
         if (node) {
             warn_negation(compiler, expr->children[i]->origin.span, node->kind->name);
             return;

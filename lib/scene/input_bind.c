@@ -201,18 +201,19 @@ static void write_number(const Writer *writer, Value prefix, double first, doubl
 }
 
 // Like write_number, but with symbols. NULL: none.
-static void write_word(const Writer *writer, Value prefix, const Symbol *first, const Symbol *second, Value value) {
+static void write_input_word(const Writer *writer, Value prefix, const Symbol *first, const Symbol *second,
+                             Value value) {
     write_number(writer, prefix, first ? first->number : NAN, second ? second->number : NAN, value);
 }
 
 static void write_pointer(const Writer *writer, const Input *input, Value prefix) {
     const InputState *input_state = &input->state;
     Value position = input_state->inside ? value_numbers_view(input_state->position, 2) : VALUE_NULL;
-    write_word(writer, prefix, NULL, NULL, position);
+    write_input_word(writer, prefix, NULL, NULL, position);
     for (int i = 0; i < INPUT_BUTTONS; i++) {
         const InputSwitch *button = &input_state->buttons[i];
         if (i < USUAL_BUTTONS || !isnan(button->pushed)) {
-            write_word(writer, prefix, input->button_words[i], NULL, value_number(button->frame_down));
+            write_input_word(writer, prefix, input->button_words[i], NULL, value_number(button->frame_down));
             write_number(writer, prefix, button_numbers[i], NAN, value_number(button->frame_down));
         }
     }
@@ -223,12 +224,12 @@ static Value beat_value(double beat) {
 }
 
 static void write_key(const Writer *writer, const Input *input, Value prefix, const InputSwitch *key) {
-    write_word(writer, prefix, NULL, NULL, value_number(key->frame_down));
-    write_word(writer, prefix, input->pushed, NULL, value_number(key->frame_down));
-    write_word(writer, prefix, input->released, NULL, value_number(!key->frame_down));
-    write_word(writer, prefix, input->toggled, NULL, value_number(key->toggled));
-    write_word(writer, prefix, input->pushed, input->beat, beat_value(key->pushed));
-    write_word(writer, prefix, input->released, input->beat, beat_value(key->released));
+    write_input_word(writer, prefix, NULL, NULL, value_number(key->frame_down));
+    write_input_word(writer, prefix, input->pushed, NULL, value_number(key->frame_down));
+    write_input_word(writer, prefix, input->released, NULL, value_number(!key->frame_down));
+    write_input_word(writer, prefix, input->toggled, NULL, value_number(key->toggled));
+    write_input_word(writer, prefix, input->pushed, input->beat, beat_value(key->pushed));
+    write_input_word(writer, prefix, input->released, input->beat, beat_value(key->released));
 }
 
 void input_write(Input *input, State *state, Arena *arena, double beat, InputUndo *undo) {

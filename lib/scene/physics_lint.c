@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-static bool has_attr(const Reader *reader, const Node *node, AttrRow row) {
+static bool has_physics_attr(const Reader *reader, const Node *node, AttrRow row) {
     return node_mentions(node, reader->schema->slots[row].name);
 }
 
@@ -21,7 +21,7 @@ static bool group_has(PhysicsTree *tree, const Reader *reader, const Node *group
         bool body = kind == KIND_PARTICLE || kind == KIND_ANCHOR;
         *count += body;
         const Reader inner = {reader->schema, reader->arena, child, kind, reader->dimensions};
-        if (body ? has_attr(reader, child, rows[kind == KIND_ANCHOR]) || !reader_knows_attrs(&inner)
+        if (body ? has_physics_attr(reader, child, rows[kind == KIND_ANCHOR]) || !reader_knows_attrs(&inner)
                  : kind == KIND_GROUP && group_has(tree, reader, child, rows, count))
             return true;
     }
@@ -49,16 +49,20 @@ static void lint_need(PhysicsTree *tree, const Reader *reader, const Node *group
 static void lint_bounds(const Reader *reader, const PhysForce *force) {
     if (force->has_minimum || force->has_maximum || !reader_knows_attrs(reader))
         return;
-    if (force->kind == PHYS_DISTANCE && !has_attr(reader, reader->node, ROW_DISTANCE_FIXED) &&
-        !has_attr(reader, reader->node, ROW_DISTANCE_MINIMUM) && !has_attr(reader, reader->node, ROW_DISTANCE_MIN) &&
-        !has_attr(reader, reader->node, ROW_DISTANCE_MAXIMUM) && !has_attr(reader, reader->node, ROW_DISTANCE_MAX))
+    if (force->kind == PHYS_DISTANCE && !has_physics_attr(reader, reader->node, ROW_DISTANCE_FIXED) &&
+        !has_physics_attr(reader, reader->node, ROW_DISTANCE_MINIMUM) &&
+        !has_physics_attr(reader, reader->node, ROW_DISTANCE_MIN) &&
+        !has_physics_attr(reader, reader->node, ROW_DISTANCE_MAXIMUM) &&
+        !has_physics_attr(reader, reader->node, ROW_DISTANCE_MAX))
         reader_report(reader, "no-bounds", "",
                       STR("without 'fixed', 'min' or 'max', the force is always 0; for a spring of length 10, write "
                           "fixed=10"));
-    if (force->kind == PHYS_BARRIER && has_attr(reader, reader->node, ROW_BARRIER_STRENGTH) &&
-        !has_attr(reader, reader->node, ROW_BARRIER_FIXED) && !has_attr(reader, reader->node, ROW_BARRIER_MINIMUM) &&
-        !has_attr(reader, reader->node, ROW_BARRIER_MIN) && !has_attr(reader, reader->node, ROW_BARRIER_MAXIMUM) &&
-        !has_attr(reader, reader->node, ROW_BARRIER_MAX))
+    if (force->kind == PHYS_BARRIER && has_physics_attr(reader, reader->node, ROW_BARRIER_STRENGTH) &&
+        !has_physics_attr(reader, reader->node, ROW_BARRIER_FIXED) &&
+        !has_physics_attr(reader, reader->node, ROW_BARRIER_MINIMUM) &&
+        !has_physics_attr(reader, reader->node, ROW_BARRIER_MIN) &&
+        !has_physics_attr(reader, reader->node, ROW_BARRIER_MAXIMUM) &&
+        !has_physics_attr(reader, reader->node, ROW_BARRIER_MAX))
         reader_report_attr(
             reader, "no-bounds", ATTR_STRENGTH,
             STR("without 'min' or 'max', a barrier is only a wall, and its strength has no effect; to push "

@@ -48,7 +48,7 @@ static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *at
 }
 
 // Reads a word, which the script gives as a symbol or as a string.
-static bool read_word(const Reader *reader, Value v, AttrType type, int *word) {
+static bool read_drawing_word(const Reader *reader, Value v, AttrType type, int *word) {
     bool text = v.len == 1 && v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING;
     if (!text && !value_is_number(v))
         return false;
@@ -73,7 +73,7 @@ static bool read_function(const Reader *reader, Value v, const SchemaRow *row, A
 
 static bool read_weight(const Reader *reader, Value v, const SchemaRow *row, AttrValue *attr) {
     int weight = 0;
-    if (!read_word(reader, v, row->type, &weight))
+    if (!read_drawing_word(reader, v, row->type, &weight))
         return read_finite_numbers(v, &schema_types[row->type], 1, attr);
     attr->as.numbers[0] = weight;
     return true;
@@ -124,7 +124,7 @@ static bool read_drawing_attr(const Reader *reader, const SchemaRow *row, Value 
     case SHAPE_WEIGHT:
         return read_weight(reader, v, row, attr);
     case SHAPE_WORD:
-        return read_word(reader, v, row->type, &attr->as.word);
+        return read_drawing_word(reader, v, row->type, &attr->as.word);
     case SHAPE_FUNCTION:
         return read_function(reader, v, row, attr);
     default:

@@ -35,14 +35,14 @@ static const Parameter *find_in_modules(const ModuleList *list, const Symbol *na
 }
 
 // Returns true for a number that is not a symbol.
-static bool is_plain_number(const PetriSession *session, Item item) {
+static bool is_plain_constant(const PetriSession *session, Item item) {
     return item.type == ITEM_NUMBER && !symbol_of_number(&session->symbols, item.as.number);
 }
 
 static bool all_numbers(const PetriSession *session, Value v) {
     bool all = v.kind != VALUE_STREAM && v.len > 0;
     for (uint32_t i = 0; all && i < v.len; i++)
-        all = is_plain_number(session, value_at(&v, i));
+        all = is_plain_constant(session, value_at(&v, i));
     return all;
 }
 
@@ -85,7 +85,7 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
     if (!parameter->is_static || !all_numbers(check->session, parameter->value) || all_numbers(check->session, v))
         return true;
     uint32_t at = 0;
-    while (is_plain_number(check->session, value_at(&v, at)))
+    while (is_plain_constant(check->session, value_at(&v, at)))
         at++;
     Str wrong = format_text(arena, &check->session->symbols, value_element(v, at));
     bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));

@@ -17,7 +17,7 @@ static void clear_retained(Diagnostics *diagnostics) {
 }
 
 // Copies a string to *end and advances *end past the copy. Returns the copy. If `text` is NULL, returns NULL.
-static const char *add_text(char **end, const char *text) {
+static const char *add_report_text(char **end, const char *text) {
     size_t size = text ? strlen(text) + 1 : 0;
     const char *copy = text ? memcpy(*end, text, size) : NULL;
     *end += size;
@@ -36,11 +36,11 @@ PetriDiagnostic *diagnostics_copy(const PetriDiagnostic *diagnostic) {
         return NULL;
     char *end = (char *)(copy + 1);
     *copy = *diagnostic;
-    copy->file = add_text(&end, diagnostic->file);
-    copy->text = add_text(&end, diagnostic->text);
-    copy->code = add_text(&end, diagnostic->code);
-    copy->rendered = add_text(&end, diagnostic->rendered);
-    copy->hint = add_text(&end, diagnostic->hint);
+    copy->file = add_report_text(&end, diagnostic->file);
+    copy->text = add_report_text(&end, diagnostic->text);
+    copy->code = add_report_text(&end, diagnostic->code);
+    copy->rendered = add_report_text(&end, diagnostic->rendered);
+    copy->hint = add_report_text(&end, diagnostic->hint);
     return copy;
 }
 

@@ -10,8 +10,8 @@ static const bool is_shape[KIND_COUNT] = {
 };
 
 enum {
-    MAX_SHAPES = 64,    // shapes that are remembered until a node fills them
-    MAX_NODES = 1 << 14 // nodes that are visited in a window; the rest is not checked
+    MAX_SHAPES = 64,            // shapes that are remembered until a node fills them
+    MAX_DRAWING_NODES = 1 << 14 // nodes that are visited in a window; the rest is not checked
 };
 
 // A canvas that is being checked.
@@ -27,7 +27,7 @@ typedef struct Drawing {
     bool has_colours; // colours can come from an attribute, an image, a filter or another node
 } Drawing;
 
-static bool mentions(const Drawing *drawing, const Node *node, NodeKind kind, AttrName name) {
+static bool mentions_state(const Drawing *drawing, const Node *node, NodeKind kind, AttrName name) {
     const SchemaRow *row = schema_row(kind, name);
     return row && node_mentions(node, drawing->schema->slots[row - schema_rows].name);
 }
@@ -36,14 +36,14 @@ static void check_nodes(Drawing *drawing, const Node *parent, NodeKind parent_ki
 
 static void check_node(Drawing *drawing, const Node *node, NodeKind kind, bool in_path, int depth) {
     PlaceKind place = schema_kinds[kind].place;
-    bool painted = mentions(drawing, node, kind, ATTR_FILL) || mentions(drawing, node, kind, ATTR_STROKE);
+    bool painted = mentions_state(drawing, node, kind, ATTR_FILL) || mentions_state(drawing, node, kind, ATTR_STROKE);
     bool uses_path = kind == KIND_FILL || kind == KIND_STROKE || kind == KIND_CLIP || kind == KIND_MASK;
     if (uses_path)
         drawing->shape_count = 0;
     drawing->draws = drawing->draws || painted || kind == KIND_FILL || kind == KIND_STROKE || kind == KIND_TEXT;
     drawing->has_colours = drawing->has_colours || place == PLACE_SOURCE || place == PLACE_FILTER ||
-                           kind == KIND_IMAGE || mentions(drawing, node, kind, ATTR_COLOR) ||
-                           mentions(drawing, node, kind, ATTR_COMPOSITE);
+                           kind == KIND_IMAGE || mentions_state(drawing, node, kind, ATTR_COLOR) ||
+                           mentions_state(drawing, node, kind, ATTR_COMPOSITE);
     if (is_shape[kind] && !painted && !in_path && drawing->shape_count < MAX_SHAPES) {
         drawing->kinds[drawing->shape_count] = kind;
         drawing->shapes[drawing->shape_count++] = node;
@@ -123,6 +123,6 @@ static void lint_pictures(Drawing *drawing, const Node *parent, bool can_be_blac
 
 void session_lint_drawings(Schema *schema, Arena *arena, const Node *window, const Source *script) {
     Drawing *drawing = arena_alloc(arena, sizeof *drawing);
-    *drawing = (Drawing){schema, arena, .left = MAX_NODES};
+    *drawing = (Drawing){schema, arena, .left = MAX_DRAWING_NODES};
     lint_pictures(drawing, window, shows_only_canvases(schema, window), script, 0);
 }

@@ -6,25 +6,25 @@
 #include "value/tree_memo.h"
 
 enum {
-    MAX_DEPTH = 100, // deeper nodes are not drawn
-    READ_WORK = 500, // units of work of the attempt to read a file
+    MAX_DRAWN_DEPTH = 100, // deeper nodes are not drawn
+    READ_WORK = 500,       // units of work of the attempt to read a file
 };
 
-typedef struct Search {
+typedef struct DrawnSearch {
     RecorderKnowsFile *knows;
     void *user_data;
     const Symbol *filename;
     const Symbol *physics;
     Arena arena;
     TreeMemo depths; // smallest depth at which a node was visited, because frames can share nodes
-} Search;
+} DrawnSearch;
 
 typedef struct FileRequest {
     Str name;
     Arena arena;
 } FileRequest;
 
-static PetriStatus read_file(PetriSession *session, void *context) {
+static PetriStatus read_requested_file(PetriSession *session, void *context) {
     enum { MAX_BYTES = 256 << 20 };
     FileRequest *request = context;
     Str bytes, path = path_join(&request->arena, session->reach.directory, request->name);
@@ -37,11 +37,11 @@ static PetriStatus read_file(PetriSession *session, void *context) {
 static void read_drawn_file(PetriSession *session, Str name) {
     FileRequest request = {.name = name};
     session_arena(session, &request.arena, "file", SIZE_MAX);
-    session_protect(session, &request.arena, read_file, &request);
+    session_protect(session, &request.arena, read_requested_file, &request);
     arena_free(&request.arena);
 }
 
-static void read_file_of(PetriSession *session, Search *search, const Node *node) {
+static void read_file_of(PetriSession *session, DrawnSearch *search, const Node *node) {
     Value value = node_get(node, search->filename);
     if (value.kind != VALUE_MIXED || value.len != 1 || value.as.items[0].type != ITEM_STRING)
         return;
@@ -54,7 +54,7 @@ static void read_file_of(PetriSession *session, Search *search, const Node *node
 }
 
 // A batch has the same file name in all its nodes (value/node_batch.h).
-static void visit(PetriSession *session, Search *search, const Node *node, uint64_t depth) {
+static void visit(PetriSession *session, DrawnSearch *search, const Node *node, uint64_t depth) {
     uint64_t before;
     if (node->kind == search->physics)
         return;                          // has many nodes, and no files
@@ -63,12 +63,12 @@ static void visit(PetriSession *session, Search *search, const Node *node, uint6
         return;
     tree_memo_store(&search->depths, node, NULL, depth);
     read_file_of(session, search, node);
-    for (uint32_t i = 0; depth < MAX_DEPTH && i < node->child_count; i++)
+    for (uint32_t i = 0; depth < MAX_DRAWN_DEPTH && i < node->child_count; i++)
         visit(session, search, node->children[i], depth + 1);
 }
 
 static PetriStatus visit_tree(PetriSession *session, void *context) {
-    Search *search = context;
+    DrawnSearch *search = context;
     Value tree = session->frame.tree;
     search->filename = symbol_intern(&session->symbols, STR("filename"));
     search->physics = symbol_intern(&session->symbols, STR("physics"));
@@ -79,7 +79,7 @@ static PetriStatus visit_tree(PetriSession *session, void *context) {
 }
 
 PetriStatus recorder_read_drawn_files(PetriSession *session, RecorderKnowsFile *knows, void *user_data) {
-    Search search = {.knows = knows, .user_data = user_data};
+    DrawnSearch search = {.knows = knows, .user_data = user_data};
     session_arena(session, &search.arena, "files", SIZE_MAX);
     PetriStatus status = session_protect(session, &search.arena, visit_tree, &search);
     arena_free(&search.arena);

@@ -69,10 +69,10 @@ enum {
 // Seconds of computing after which a frame becomes a keyframe, so that going back takes about as long in a slow world.
 static const double MAX_SECONDS = 1;
 
-typedef struct Keyframe {
+typedef struct HistoryKeyframe {
     int64_t frame;
     PetriSnapshot *snapshot;
-} Keyframe;
+} HistoryKeyframe;
 
 // A series of frames with the same configuration: from frame start + 1 to the `start` of the next epoch.
 typedef struct Epoch {
@@ -89,7 +89,7 @@ typedef struct FrameTime {
 struct PetriHistory {
     PetriSession *session;
     size_t max_bytes;
-    Keyframe keyframes[MAX_KEYFRAMES + 1]; // sorted; the first one is at frame `first`
+    HistoryKeyframe keyframes[MAX_KEYFRAMES + 1]; // sorted; the first one is at frame `first`
     size_t keyframe_count;
     size_t bytes; // size of all keyframes
     Epoch epochs[EPOCH_CAPACITY];
@@ -132,7 +132,7 @@ static void drop_all(PetriHistory *history) {
 // Returns the cost of dropping a keyframe: the number of frames from the previous keyframe to the next one, divided by
 // the age of the previous keyframe plus a constant.
 static double keyframe_cost(const PetriHistory *history, size_t at) {
-    const Keyframe *before = &history->keyframes[at - 1], *after = &history->keyframes[at + 1];
+    const HistoryKeyframe *before = &history->keyframes[at - 1], *after = &history->keyframes[at + 1];
     return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * INTERVAL);
 }
 
@@ -146,7 +146,7 @@ static void drop_cheapest(PetriHistory *history) {
 
 // Takes over the snapshot of the current frame.
 static void add_keyframe(PetriHistory *history, PetriSnapshot *snapshot) {
-    history->keyframes[history->keyframe_count++] = (Keyframe){history->session->clock.number, snapshot};
+    history->keyframes[history->keyframe_count++] = (HistoryKeyframe){history->session->clock.number, snapshot};
     history->bytes += petri_snapshot_bytes(snapshot);
     history->seconds = 0;
     while (history->keyframe_count > 2 &&
@@ -311,7 +311,7 @@ static PetriStatus replay_step(PetriHistory *history) {
 }
 
 // Adds the current frame to the timeline.
-static PetriStatus record_frame(PetriHistory *history) {
+static PetriStatus record_history_frame(PetriHistory *history) {
     const SessionFrame *computed = &history->session->frame;
     int64_t frame = history->session->clock.number;
     record_time(history);
@@ -344,16 +344,16 @@ PetriStatus petri_history_step(PetriHistory *history) {
     if (status == PETRI_INTERRUPTED || session->clock.number == before)
         return status;
     PetriStatus recorded = session->config_revision == config
-                               ? record_frame(history)
+                               ? record_history_frame(history)
                                : petri_history_start(history, "an imported file has changed");
     return end_frame(history, status == PETRI_OK ? recorded : status);
 }
 
 // Returns the last keyframe that is before `frame`, or NULL. If `frame` is the first of the timeline, returns it.
-static const Keyframe *keyframe_before(const PetriHistory *history, int64_t frame) {
+static const HistoryKeyframe *keyframe_before(const PetriHistory *history, int64_t frame) {
     if (frame == history->first)
         return history->keyframes;
-    const Keyframe *found = NULL;
+    const HistoryKeyframe *found = NULL;
     for (size_t i = 0; i < history->keyframe_count && history->keyframes[i].frame < frame; i++)
         found = &history->keyframes[i];
     return found;
@@ -361,7 +361,7 @@ static const Keyframe *keyframe_before(const PetriHistory *history, int64_t fram
 
 PetriStatus petri_history_rewind(PetriHistory *history, int64_t frame) {
     PetriStatus status = ensure_started(history);
-    const Keyframe *from = status == PETRI_OK ? keyframe_before(history, frame) : NULL;
+    const HistoryKeyframe *from = status == PETRI_OK ? keyframe_before(history, frame) : NULL;
     if (status == PETRI_OK)
         status = from ? rewind_to(history, from->snapshot) : PETRI_INVALID;
     if (status == PETRI_OK)
@@ -374,7 +374,7 @@ PetriStatus petri_history_rewind(PetriHistory *history, int64_t frame) {
 static PetriStatus replay_frames(PetriHistory *history, int64_t frame) {
     PetriSession *session = history->session;
     int64_t now = session->clock.number;
-    const Keyframe *from = keyframe_before(history, frame);
+    const HistoryKeyframe *from = keyframe_before(history, frame);
     if (!from)
         return PETRI_INVALID;
     PetriStatus status = PETRI_OK;

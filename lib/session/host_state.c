@@ -20,7 +20,7 @@ typedef struct StateRequest {
     StateSlot slot;
 } StateRequest;
 
-static PetriStatus find_entry(PetriSession *session, void *context) {
+static PetriStatus find_state_entry(PetriSession *session, void *context) {
     StateRequest *request = context;
     if (!request->key.numbers)
         arena_reset(&session->key_arena);
@@ -35,9 +35,9 @@ PetriValue petri_state_get(PetriSession *session, PetriValue key) {
     if (!session || (session->rollback_pending && !session_rollback(session)))
         return (PetriValue){0};
     if (key.numbers)
-        find_entry(session, &request);
+        find_state_entry(session, &request);
     else if (session->call_depth == 0)
-        session_protect(session, NULL, find_entry, &request);
+        session_protect(session, NULL, find_state_entry, &request);
     Value buffer;
     return request.slot == STATE_NO_SLOT ? (PetriValue){0}
                                          : session_export_value(state_slot_at(session->state, request.slot, &buffer));

@@ -4,18 +4,18 @@
 
 #include <math.h>
 
-static void add_numbers(ImageSink *sink, const char *name, const double *numbers, uint32_t count) {
+static void add_image_numbers(ImageSink *sink, const char *name, const double *numbers, uint32_t count) {
     sink->line(sink, name, value_numbers_view(numbers, count), VALUE_NULL);
 }
 
-static void add_string(ImageSink *sink, const char *name, Str text) {
+static void add_image_string(ImageSink *sink, const char *name, Str text) {
     String string = {text};
     Item item = {.type = ITEM_STRING, .as.string = &string};
     sink->line(sink, name, (Value){.kind = VALUE_MIXED, .len = 1, .as.items = &item}, VALUE_NULL);
 }
 
 static void add_rates(ImageSink *sink, const char *name, const ClockRates *rates) {
-    add_numbers(sink, name, (double[]){rates->fps, rates->tempo, rates->quantum}, 3);
+    add_image_numbers(sink, name, (double[]){rates->fps, rates->tempo, rates->quantum}, 3);
 }
 
 static void add_configuration(const PetriSession *session, ImageSink *sink) {
@@ -24,39 +24,40 @@ static void add_configuration(const PetriSession *session, ImageSink *sink) {
     Str script = config->program->source->name;
     size_t folder = path_directory(script).len;
     double run_time = session->options.run_time;
-    add_numbers(sink, "run_time", &run_time, !isnan(run_time));
-    add_numbers(sink, "realtime", (double[]){session->frame_realtime}, 1);
-    add_string(sink, "script", (Str){script.bytes + folder, script.len - folder});
-    add_numbers(sink, "host_names", (double[]){config->program->program->param_count}, 1);
+    add_image_numbers(sink, "run_time", &run_time, !isnan(run_time));
+    add_image_numbers(sink, "realtime", (double[]){session->frame_realtime}, 1);
+    add_image_string(sink, "script", (Str){script.bytes + folder, script.len - folder});
+    add_image_numbers(sink, "host_names", (double[]){config->program->program->param_count}, 1);
     for (uint32_t i = 0; i < config->define_count; i++)
-        add_string(sink, "define", str_from(config->defines[i].text));
+        add_image_string(sink, "define", str_from(config->defines[i].text));
     for (uint32_t i = 0; i < config->prompts->count; i++)
-        add_string(sink, "prompt", str_from(config->prompts->statements[i].text));
+        add_image_string(sink, "prompt", str_from(config->prompts->statements[i].text));
     add_rates(sink, "rates", &session->clock.rates);
     add_rates(sink, "pragma_rates", &config->pragma_rates);
-    add_numbers(sink, "base", (double[]){(double)base->number, base->time, base->beat}, 3);
-    add_numbers(sink, "resolution", &config->resolution, 1);
+    add_image_numbers(sink, "base", (double[]){(double)base->number, base->time, base->beat}, 3);
+    add_image_numbers(sink, "resolution", &config->resolution, 1);
 }
 
 static void add_clock(const Clock *clock, ImageSink *sink) {
-    add_numbers(sink, "clock", (double[]){clock->time, clock->beat, clock->wall.performance, clock->wall.slow_frame},
-                4);
+    add_image_numbers(sink, "clock",
+                      (double[]){clock->time, clock->beat, clock->wall.performance, clock->wall.slow_frame}, 4);
 }
 
 static void add_host_names(const HostGlobals *globals, ImageSink *sink) {
     for (uint32_t i = 0; i < globals->count; i++) {
-        add_string(sink, "global", globals->names[i]->name);
+        add_image_string(sink, "global", globals->names[i]->name);
         sink->line(sink, "value", globals->items[i]->value, VALUE_NULL);
     }
 }
 
 static void add_switch(ImageSink *sink, int number, const InputSwitch *item) {
     if (item->down || item->frame_down || item->toggled || item->pushes)
-        add_numbers(sink, "switch", (double[]){number, item->down, item->frame_down, item->toggled, item->pushes}, 5);
+        add_image_numbers(sink, "switch", (double[]){number, item->down, item->frame_down, item->toggled, item->pushes},
+                          5);
     if (!isnan(item->pushed))
-        add_numbers(sink, "pushed", (double[]){number, item->pushed}, 2);
+        add_image_numbers(sink, "pushed", (double[]){number, item->pushed}, 2);
     if (!isnan(item->released))
-        add_numbers(sink, "released", (double[]){number, item->released}, 2);
+        add_image_numbers(sink, "released", (double[]){number, item->released}, 2);
 }
 
 static void add_input(const Input *input, ImageSink *sink) {
@@ -66,14 +67,14 @@ static void add_input(const Input *input, ImageSink *sink) {
     const InputState *state = &input->state;
     if (!state->has_reports)
         return;
-    add_numbers(sink, "pointer", (double[]){state->inside, state->position[0], state->position[1]}, 3);
+    add_image_numbers(sink, "pointer", (double[]){state->inside, state->position[0], state->position[1]}, 3);
     for (int i = 0; i < INPUT_KEYS; i++)
         add_switch(sink, i, &state->keys[i]);
     for (int i = 0; i < INPUT_BUTTONS; i++)
         add_switch(sink, INPUT_KEYS + i, &state->buttons[i]);
 }
 
-static void add_entries(State *state, ImageSink *sink) {
+static void add_image_entries(State *state, ImageSink *sink) {
     double buffer[STATE_KEY_BUFFER];
     uint32_t cursor = 0, count = sink->all_slots ? state_slot_count(state) : 0;
     for (StateSlot i = 0; i < count; i++)
@@ -98,7 +99,7 @@ void image_write(PetriSession *session, unsigned parts, ImageSink *sink) {
     if (parts & IMAGE_INPUT)
         add_input(scene_input(session->scene), sink);
     if (parts & IMAGE_ENTRIES)
-        add_entries(session->state, sink);
+        add_image_entries(session->state, sink);
     if (parts & IMAGE_SYSTEMS)
         add_systems(session->scene, sink);
 }

@@ -24,7 +24,7 @@ typedef struct TextWriter {
     const PetriSession *session;
 } TextWriter;
 
-static void add_key(TextWriter *writer, Value key) {
+static void add_image_key(TextWriter *writer, Value key) {
     text_add_c(&writer->text, "$(");
     format_value(&writer->text, &writer->session->symbols, key);
     text_add_char(&writer->text, ')');
@@ -46,7 +46,7 @@ static void add_line(ImageSink *sink, const char *name, Value first, Value rest)
 }
 
 static void add_entry(ImageSink *sink, Value key, Value value) {
-    add_key((TextWriter *)sink, key);
+    add_image_key((TextWriter *)sink, key);
     end_line((TextWriter *)sink, value);
 }
 
@@ -55,11 +55,11 @@ static void add_system(ImageSink *sink, const SceneSystem *system) {
     const State *state = writer->session->state;
     double buffer[STATE_KEY_BUFFER];
     text_add_format(&writer->text, "system %u ", system->occurrence);
-    add_key(writer, state_slot_key_in(state, system->prefix, buffer));
+    add_image_key(writer, state_slot_key_in(state, system->prefix, buffer));
     text_add_char(&writer->text, '\n');
     for (uint32_t i = 0; i < system->slot_count; i += 2) {
         text_add_c(&writer->text, "particle ");
-        add_key(writer, state_slot_key_in(state, system->slots[i], buffer));
+        add_image_key(writer, state_slot_key_in(state, system->slots[i], buffer));
         text_add_char(&writer->text, '\n');
     }
 }
@@ -267,7 +267,7 @@ static bool hash_matches(Str *text) {
     return same;
 }
 
-static bool read_body(StateReader *reader, int64_t *frame) {
+static bool read_state_body(StateReader *reader, int64_t *frame) {
     TextLine line;
     if (!text_reader_line(&reader->in, &line) || !str_equal(line.name, STR("frame")) || !line.has_number ||
         line.has_key || line.has_value || line.number < -1 || line.number > MAX_FRAMES)
@@ -306,7 +306,7 @@ const char *image_read_state(PetriSession *session, Incoming *incoming, Str text
     size_t header = text.len - reader.in.rest.len;
     bool good = utf8_find_error(text) == text.len && hash_matches(&text) && text.len >= header;
     reader.in.rest = good ? (Str){text.bytes + header, text.len - header} : (Str){"", 0};
-    good = good && read_body(&reader, frame);
+    good = good && read_state_body(&reader, frame);
     if (state_clear_exhausted(incoming->state)) // running out of memory must not be reported as a corrupt file
         arena_exhausted(&incoming->arena);
     return good ? NULL : "file is truncated or corrupt";

@@ -26,7 +26,7 @@ static bool add_include(Unit *unit, Str path) {
     return true;
 }
 
-static const Ast *parse_source(PetriSession *session, Unit *unit, Arena *arena, const Source *source) {
+static const Ast *parse_loaded_source(PetriSession *session, Unit *unit, Arena *arena, const Source *source) {
     unit->parse_sink = diag_sink_new(unit_arena(session, unit), MAX_ERRORS);
     const Ast *ast = parse_program(arena, &session->symbols, source, &unit->parse_sink);
     report_and_free(session, &unit->parse_sink);
@@ -50,7 +50,7 @@ static const Parsed *find_parsed(const Unit *unit, Str name, Str path, Str versi
 
 static const Ast *cache_parsed(PetriSession *session, Unit *cache, const Source *source, Str version) {
     uint64_t before = session->budget.work;
-    const Ast *ast = parse_source(session, cache, &cache->arena, source);
+    const Ast *ast = parse_loaded_source(session, cache, &cache->arena, source);
     if (!ast)
         return NULL;
     Parsed *parsed = arena_alloc(&cache->arena, sizeof *parsed);
@@ -77,7 +77,7 @@ static bool read_include(PetriSession *session, Unit *unit, Str path, Str canoni
         return false;
     *source = source_new(arena, path, canonical, text);
     *ast = unit->parse_cache ? cache_parsed(session, unit->parse_cache, *source, version)
-                             : parse_source(session, unit, &unit->scratch, *source);
+                             : parse_loaded_source(session, unit, &unit->scratch, *source);
     return true;
 }
 
@@ -200,7 +200,7 @@ static void compile_unit(PetriSession *session, Unit *unit, const Ast *ast, bool
 
 static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
     unit->source = source_new(&unit->arena, name, unit->path, text);
-    compile_unit(session, unit, parse_source(session, unit, &unit->scratch, unit->source), module);
+    compile_unit(session, unit, parse_loaded_source(session, unit, &unit->scratch, unit->source), module);
 }
 
 Unit *unit_parse(PetriSession *session, Str text) {
@@ -208,7 +208,7 @@ Unit *unit_parse(PetriSession *session, Str text) {
     Unit *unit = session->loader.pending = unit_new(session);
     unit->path = name;
     unit->source = source_new(&unit->arena, name, name, text);
-    unit->ast = parse_source(session, unit, &unit->arena, unit->source);
+    unit->ast = parse_loaded_source(session, unit, &unit->arena, unit->source);
     return unit;
 }
 
@@ -235,7 +235,7 @@ static void make_parse_cache(PetriSession *session, Unit *owner, const Unit *uni
     Arena *arena = unit_arena(session, cache);
     cache->source = source_new(arena, unit->source->name, unit->path, unit->source->text);
     uint64_t before = session->budget.work;
-    cache->ast = parse_source(session, cache, arena, cache->source);
+    cache->ast = parse_loaded_source(session, cache, arena, cache->source);
     cache->work = session->budget.work - before;
 }
 

@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_LINES = 10000 };
+enum { MAX_PROMPT_LINES = 10000 };
 
 // The execution of one statement. Results that are needed after a call was aborted are stored here, because the abort
 // (longjmp) loses local variables.
@@ -79,7 +79,7 @@ PetriCompleteness petri_prompt_check(PetriSession *session, const char *text, si
 }
 
 // Compiles and runs a statement with the visible names.
-static PetriStatus run_program(PetriSession *session, void *context) {
+static PetriStatus run_prompt_program(PetriSession *session, void *context) {
     Job *job = context;
     session_set_globals(session, &session->static_vm);
     job->program = unit_compile(session, job->unit, job->ast, false, session->config.prompts->names);
@@ -98,13 +98,13 @@ static PetriStatus run_program(PetriSession *session, void *context) {
 static PetriStatus run_statement(PetriSession *session, Job *job, uint32_t max_lines) {
     DiagSink log = session->frame.log;
     session->frame.log = diag_sink_new(&session->prompt.arena, max_lines);
-    PetriStatus status = session_protect(session, NULL, run_program, job);
+    PetriStatus status = session_protect(session, NULL, run_prompt_program, job);
     job->log = session->frame.log;
     session->frame.log = log;
     return session_report_abort(session, status, "the input");
 }
 
-static PetriStatus parse_text(PetriSession *session, void *context) {
+static PetriStatus parse_prompt_text(PetriSession *session, void *context) {
     Job *job = context;
     job->unit = unit_parse(session, job->text);
     return PETRI_OK;
@@ -118,7 +118,7 @@ static PetriStatus begin_job(PetriSession *session, const char *text, size_t len
     if (petri_clear_interrupt(session))
         return PETRI_INTERRUPTED;
     session->loader.pending = NULL;
-    PetriStatus status = session_run(session, parse_text, job, "the input");
+    PetriStatus status = session_run(session, parse_prompt_text, job, "the input");
     if (status != PETRI_OK) {
         unit_free(session->loader.pending);
         return status;
@@ -136,7 +136,7 @@ static bool all_nodes(Value v) {
     return all;
 }
 
-static void write_value(PetriSession *session, TextSink *out, Value v) {
+static void write_prompt_value(PetriSession *session, TextSink *out, Value v) {
     if (!all_nodes(v)) {
         format_value(&out->text, &session->symbols, v);
         text_add_char(&out->text, '\n');
@@ -226,7 +226,7 @@ static PetriStatus finish_statement(PetriSession *session, void *context) {
         prepare_statement(session, job);
     write_log(session, job);
     if (!job->binds)
-        write_value(session, &job->out, job->value);
+        write_prompt_value(session, &job->out, job->value);
     return PETRI_OK;
 }
 
@@ -253,7 +253,7 @@ static PetriStatus prompt_statement(PetriSession *session, Job *job, PetriPrompt
     arena_reset(&session->prompt.arena);
     job->arena = persists ? &session->frame.arena : &session->prompt.arena;
     job->list = NULL;
-    PetriStatus status = run_statement(session, job, MAX_LINES);
+    PetriStatus status = run_statement(session, job, MAX_PROMPT_LINES);
     if (status == PETRI_OK)
         status = session_run(session, finish_statement, job, "the input");
     else if (status != PETRI_OUT_OF_MEMORY)
@@ -359,7 +359,7 @@ static bool is_expression(PetriSession *session, const Unit *unit) {
     return false;
 }
 
-static PetriStatus write_line(PetriSession *session, void *context) {
+static PetriStatus write_prompt_line(PetriSession *session, void *context) {
     Job *job = context;
     job->out.text = text_new(&session->prompt.arena);
     format_value(&job->out.text, &session->symbols, job->value);
@@ -389,7 +389,7 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
                                        .seconds = job.seconds};
         host_struct_write(result, size, &found, sizeof found);
         if (write)
-            status = session_run(session, write_line, &job, "the input");
+            status = session_run(session, write_prompt_line, &job, "the input");
     }
     unit_free(job.unit);
     return status;

@@ -137,7 +137,7 @@ static PetriStatus apply_rates(PetriSession *session, const Setup *setup) {
 }
 
 // Loads the recorded script. `realtime` and `run_time` are constants of a script.
-static PetriStatus load_script(PetriSession *session, const Setup *setup, const char *script) {
+static PetriStatus load_recorded_script(PetriSession *session, const Setup *setup, const char *script) {
     double run_time = NAN, realtime;
     bool follows_clock = session->clock.realtime;
     if (!find_numbers(setup, "realtime", &realtime, 1))
@@ -161,7 +161,7 @@ static PetriStatus apply_configuration(PetriSession *session, const Setup *setup
     session->config.define_count = session->reported_defines = 0;
     PetriStatus status = apply_texts(session, setup, "define", petri_define);
     if (status == PETRI_OK)
-        status = load_script(session, setup, script);
+        status = load_recorded_script(session, setup, script);
     if (status == PETRI_OK)
         status = apply_texts(session, setup, "prompt", session_restore_statement);
     return status == PETRI_OK ? apply_rates(session, setup) : status;
@@ -190,13 +190,13 @@ static PetriStatus apply_globals(PetriSession *session, const Setup *setup, uint
 
 // --- keyframes
 
-typedef struct Keyframe {
+typedef struct ReplayKeyframe {
     const Setup *setup;
     Str state;
-} Keyframe;
+} ReplayKeyframe;
 
 static PetriStatus fill_keyframe(PetriSession *session, Incoming *incoming, void *context) {
-    const Keyframe *keyframe = context;
+    const ReplayKeyframe *keyframe = context;
     double numbers[4];
     int64_t frame;
     const char *reason = image_read_state(session, incoming, keyframe->state, &frame);
@@ -217,7 +217,7 @@ static PetriStatus fill_keyframe(PetriSession *session, Incoming *incoming, void
 }
 
 static PetriStatus restore_setup(PetriSession *session, const Setup *setup, Str state) {
-    Keyframe keyframe = {setup, state};
+    ReplayKeyframe keyframe = {setup, state};
     double host_names;
     if (!find_numbers(setup, "host_names", &host_names, 1) || !image_is_integer(host_names, 0, UINT32_MAX))
         return PETRI_INVALID;

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_LINES = 100000 };
+enum { MAX_LOG_LINES = 100000 };
 // Bytes that a session may hold for its own data, in addition to PetriOptions.memory_limit. The script has little
 // influence on this amount.
 #define OWN_BYTES ((size_t)64 << 20)
@@ -168,8 +168,8 @@ PetriSession *petri_open(const PetriOptions *options) {
     session_arena(session, &session->prompt.arena, "expression", options->memory_limit);
     session_arena(session, &frame->arena, "frame", options->memory_limit);
     session_arena(session, &frame->systems_arena, "systems", SIZE_MAX);
-    frame->log = diag_sink_new(&frame->arena, MAX_LINES);
-    frame->errors = diag_sink_new(&frame->arena, MAX_LINES);
+    frame->log = diag_sink_new(&frame->arena, MAX_LOG_LINES);
+    frame->errors = diag_sink_new(&frame->arena, MAX_LOG_LINES);
     session->symbols = symbol_table_new(&session->arena);
     session->clock = (Clock){.realtime = options->realtime, .number = -1};
     session->frame_realtime = options->realtime;

@@ -15,11 +15,11 @@ typedef struct StateLint {
     Arena *arena;
 } StateLint;
 
-static void report(const StateLint *lint, Origin at, const char *code, Str text, Str hint) {
+static void report_unread_key(const StateLint *lint, Origin at, const char *code, Str text, Str hint) {
     session_report(lint->session, &(Diag){DIAG_WARNING, at, text, .hint = hint, .code = code});
 }
 
-static bool is_tested(const KeyUses *keys, const Origin *at) {
+static bool is_tested_key(const KeyUses *keys, const Origin *at) {
     for (uint32_t i = 0; i < keys->tested_count; i++)
         if (keys->tested[i].source == at->source && keys->tested[i].span.start == at->span.start &&
             keys->tested[i].span.end == at->span.end)
@@ -92,7 +92,7 @@ static void lint_prefix(const StateLint *lint, const MissedLookup *place, const 
                                          format_text(lint->arena, &lint->session->symbols, view.prefix).bytes)
                             : str_format(lint->arena, "give a !physics or a !counter the attribute state=:%.*s",
                                          STR_ARGS(symbol->name));
-    report(
+    report_unread_key(
         lint, *place->at, "unknown-state",
         str_format(lint->arena, "nothing sets the state :%.*s, so this lookup is always null", STR_ARGS(symbol->name)),
         hint);
@@ -124,17 +124,17 @@ static void lint_id(const StateLint *lint, const MissedLookup *place, const Scen
         if (!starts_with(place->keys[i], view->prefix))
             return;
     Value key = place->keys[0], id = value_slice(lint->arena, key, view->prefix.len, key.len - view->prefix.len);
-    report(lint, *place->at, "unknown-id",
-           str_format(lint->arena, "no particle of %s has the id %s, so this lookup is always null",
-                      format_text(lint->arena, symbols, view->prefix).bytes,
-                      format_text(lint->arena, symbols, id).bytes),
-           id_hint(lint, view, id));
+    report_unread_key(lint, *place->at, "unknown-id",
+                      str_format(lint->arena, "no particle of %s has the id %s, so this lookup is always null",
+                                 format_text(lint->arena, symbols, view->prefix).bytes,
+                                 format_text(lint->arena, symbols, id).bytes),
+                      id_hint(lint, view, id));
 }
 
 static void lint_lookup(const StateLint *lint, const MissedLookup *place) {
     const Symbol *symbol = first_symbol(lint, place->keys[0]);
     SceneView view;
-    if (!symbol || is_tested(lint->keys, place->at) || !all_missing(lint, place))
+    if (!symbol || is_tested_key(lint->keys, place->at) || !all_missing(lint, place))
         return;
     for (size_t i = 0; scene_view(lint->session->scene, lint->session->state, i, &view); i++)
         if (starts_with(place->keys[0], view.prefix)) {
@@ -151,10 +151,10 @@ static void lint_loose_key(const StateLint *lint, const LooseKey *key) {
     for (size_t i = 0; scene_view(lint->session->scene, lint->session->state, i, &view); i++)
         if (view.prefix.len == 1 && value_at(&view.prefix, 0).type == ITEM_NUMBER &&
             value_at(&view.prefix, 0).as.number == key->symbol) {
-            report(lint, key->origin, "loose-key",
-                   STR("without parentheses, only the part before the semicolon is a key of the state"),
-                   str_format(lint->arena, "write $(%.*s)", (int)(key->origin.span.end - key->origin.span.start - 1),
-                              text + 1));
+            report_unread_key(lint, key->origin, "loose-key",
+                              STR("without parentheses, only the part before the semicolon is a key of the state"),
+                              str_format(lint->arena, "write $(%.*s)",
+                                         (int)(key->origin.span.end - key->origin.span.start - 1), text + 1));
             return;
         }
 }

@@ -7,21 +7,21 @@
 #include "value/format.h"
 
 // A query about a system, whose result `find` stores in *out.
-typedef struct Request {
-    PetriStatus (*find)(PetriSession *session, const struct Request *request, const SceneView *view);
+typedef struct SystemRequest {
+    PetriStatus (*find)(PetriSession *session, const struct SystemRequest *request, const SceneView *view);
     size_t system;
     uint32_t number; // number of a particle or force
     void *out;
-} Request;
+} SystemRequest;
 
 static PetriStatus find_in_view(PetriSession *session, void *context) {
-    const Request *request = context;
+    const SystemRequest *request = context;
     SceneView view;
     bool found = scene_view(session->scene, session->state, request->system, &view);
     return found ? request->find(session, request, &view) : PETRI_INVALID;
 }
 
-static bool run_request(PetriSession *session, Request request) {
+static bool run_request(PetriSession *session, SystemRequest request) {
     arena_reset(&session->view_arena);
     return session_run(session, find_in_view, &request, "the query") == PETRI_OK;
 }
@@ -65,7 +65,7 @@ PetriSystem session_system(const PhysSystem *engine, const char *name, uint32_t 
     };
 }
 
-static PetriStatus find_system(PetriSession *session, const Request *request, const SceneView *view) {
+static PetriStatus find_shown_system(PetriSession *session, const SystemRequest *request, const SceneView *view) {
     PetriSystem *system = request->out;
     *system = session_system(view->engine, system_name(session, request->system, view->prefix), view->dimensions);
     system->particle_count = view->particle_count;
@@ -91,11 +91,11 @@ size_t petri_system_count(PetriSession *session) {
 
 bool petri_system(PetriSession *session, size_t number, PetriSystem *system, size_t size) {
     PetriSystem found;
-    return session && system && run_request(session, (Request){find_system, number, 0, &found}) &&
+    return session && system && run_request(session, (SystemRequest){find_shown_system, number, 0, &found}) &&
            host_struct_write(system, size, &found, sizeof found);
 }
 
-static PetriStatus find_rank_stats(PetriSession *session, const Request *request, const SceneView *view) {
+static PetriStatus find_rank_stats(PetriSession *session, const SystemRequest *request, const SceneView *view) {
     (void)session;
     *(PetriRankStats *)request->out = ranks_stats(view->engine);
     return PETRI_OK;
@@ -103,11 +103,11 @@ static PetriStatus find_rank_stats(PetriSession *session, const Request *request
 
 bool petri_rank_stats(PetriSession *session, size_t number, PetriRankStats *stats, size_t size) {
     PetriRankStats found;
-    return session && stats && run_request(session, (Request){find_rank_stats, number, 0, &found}) &&
+    return session && stats && run_request(session, (SystemRequest){find_rank_stats, number, 0, &found}) &&
            host_struct_write(stats, size, &found, sizeof found);
 }
 
-static PetriStatus find_id(PetriSession *session, const Request *request, const SceneView *view) {
+static PetriStatus find_id(PetriSession *session, const SystemRequest *request, const SceneView *view) {
     Arena *arena = &session->view_arena;
     if (request->number >= view->particle_count)
         return PETRI_INVALID;
@@ -126,10 +126,10 @@ static PetriStatus find_id(PetriSession *session, const Request *request, const 
 
 PetriValue petri_particle_id(PetriSession *session, size_t system, uint32_t particle) {
     PetriValue id = {0};
-    return session && run_request(session, (Request){find_id, system, particle, &id}) ? id : (PetriValue){0};
+    return session && run_request(session, (SystemRequest){find_id, system, particle, &id}) ? id : (PetriValue){0};
 }
 
-static PetriStatus find_ids(PetriSession *session, const Request *request, const SceneView *view) {
+static PetriStatus find_ids(PetriSession *session, const SystemRequest *request, const SceneView *view) {
     const double *ids;
     if (!scene_view_ids(session->state, view, &ids))
         arena_exhausted(&session->view_arena);
@@ -140,17 +140,17 @@ static PetriStatus find_ids(PetriSession *session, const Request *request, const
 PetriColumn petri_particle_ids(PetriSession *session, size_t system) {
     PetriColumn ids = {NULL, 1};
     if (session)
-        run_request(session, (Request){find_ids, system, 0, &ids});
+        run_request(session, (SystemRequest){find_ids, system, 0, &ids});
     return ids;
 }
 
-typedef struct Search {
+typedef struct SystemSearch {
     PetriValue id;
     uint32_t found;
-} Search;
+} SystemSearch;
 
-static PetriStatus find_by_id(PetriSession *session, const Request *request, const SceneView *view) {
-    Search *search = request->out;
+static PetriStatus find_by_id(PetriSession *session, const SystemRequest *request, const SceneView *view) {
+    SystemSearch *search = request->out;
     Value id;
     arena_reset(&session->key_arena);
     bool found = session_import_value(&session->key_arena, search->id, &id) &&
@@ -159,8 +159,8 @@ static PetriStatus find_by_id(PetriSession *session, const Request *request, con
 }
 
 bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, uint32_t *particle) {
-    Search search = {id, 0};
-    Request request = {find_by_id, system, 0, &search};
+    SystemSearch search = {id, 0};
+    SystemRequest request = {find_by_id, system, 0, &search};
     if (!session || !particle || session_protect(session, NULL, find_in_view, &request) != PETRI_OK)
         return false;
     *particle = search.found;
@@ -178,7 +178,7 @@ static void locate_force(PetriSession *session, const SceneView *view, uint32_t 
     force->column = position.column;
 }
 
-static PetriStatus find_force(PetriSession *session, const Request *request, const SceneView *view) {
+static PetriStatus find_force(PetriSession *session, const SystemRequest *request, const SceneView *view) {
     PhysForce force;
     if (!phys_get_force(view->engine, request->number, &force))
         return PETRI_INVALID;
@@ -204,7 +204,7 @@ static PetriStatus find_force(PetriSession *session, const Request *request, con
 
 bool petri_system_force(PetriSession *session, size_t number, uint32_t index, PetriForce *out, size_t size) {
     PetriForce found;
-    return session && out && run_request(session, (Request){find_force, number, index, &found}) &&
+    return session && out && run_request(session, (SystemRequest){find_force, number, index, &found}) &&
            host_struct_write(out, size, &found, sizeof found);
 }
 
@@ -218,7 +218,7 @@ static void check_physics(PetriSession *session, PhysStatus status) {
 }
 
 // Explains a step, whose number is *request->out. The result is in session->explanation.
-static PetriStatus explain_force(PetriSession *session, const Request *request, const SceneView *view) {
+static PetriStatus explain_force(PetriSession *session, const SystemRequest *request, const SceneView *view) {
     uint64_t step = *(const uint64_t *)request->out;
     if (request->number >= view->particle_count || step >= phys_explained_steps(view->engine))
         return PETRI_INVALID;
@@ -226,7 +226,7 @@ static PetriStatus explain_force(PetriSession *session, const Request *request, 
     return PETRI_OK;
 }
 
-static PetriStatus find_energy(PetriSession *session, const Request *request, const SceneView *view) {
+static PetriStatus find_energy(PetriSession *session, const SystemRequest *request, const SceneView *view) {
     if (request->number >= phys_force_count(view->engine))
         return PETRI_INVALID;
     check_physics(session, phys_potential_energy(view->engine, request->number, view->clock, request->out));
@@ -238,7 +238,7 @@ PetriStatus petri_potential_energy(PetriSession *session, size_t system, uint32_
         return PETRI_INVALID;
     *energy = NAN;
     arena_reset(&session->view_arena);
-    Request request = {find_energy, system, force, energy};
+    SystemRequest request = {find_energy, system, force, energy};
     return session_run(session, find_in_view, &request, "the potential energy");
 }
 
@@ -249,7 +249,7 @@ PetriStatus petri_explain_force(PetriSession *session, size_t system, uint32_t p
     const PhysExplanation *found = &session->explanation;
     phys_explanation_free(&session->explanation);
     arena_reset(&session->view_arena);
-    Request request = {explain_force, system, particle, &step};
+    SystemRequest request = {explain_force, system, particle, &step};
     PetriStatus status = session_run(session, find_in_view, &request, "the explanation");
     if (status != PETRI_OK) {
         phys_explanation_free(&session->explanation);

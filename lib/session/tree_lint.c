@@ -69,7 +69,7 @@ static PetriStatus read_windows(PetriSession *session, void *context) {
 }
 
 // Adds a pair of kinds. Returns true if it is new. If there are too many pairs, all count as known.
-static bool add_pair(SeenNodes *seen, const Symbol *parent, const Symbol *child) {
+static bool add_repeated_pair(SeenNodes *seen, const Symbol *parent, const Symbol *child) {
     enum { CAPACITY = sizeof seen->pairs / sizeof *seen->pairs };
     for (uint32_t i = 0; i < seen->count; i++)
         if (seen->pairs[i][1] == child && seen->pairs[i][0] == parent)
@@ -89,7 +89,7 @@ static bool add_pairs(SeenNodes *seen, const Node *parent, const Symbol *kind, i
     for (uint32_t i = 0; i < parent->child_count && depth < MAX_DEPTH && *left != 0; i++) {
         const Node *child = parent->children[i];
         --*left;
-        found |= child->kind != last && add_pair(seen, kind, child->kind);
+        found |= child->kind != last && add_repeated_pair(seen, kind, child->kind);
         last = child->kind;
         found |= child->child_count > 0 && add_pairs(seen, child, child->kind, depth + 1, left);
     }

@@ -57,7 +57,7 @@ static const Node *node_of(const PetriNode *node) {
     return (const Node *)node;
 }
 
-static PetriStatus expand_batches(PetriSession *session, void *context) {
+static PetriStatus expand_value_batches(PetriSession *session, void *context) {
     (void)context;
     session->frame.tree = value_expand_batches(&session->frame.systems_arena, session->frame.tree);
     return PETRI_OK;
@@ -68,7 +68,7 @@ PetriValue petri_tree(const PetriSession *session) {
     if (!session)
         return (PetriValue){0};
     if (value_has_batches(session->frame.tree) &&
-        session_protect((PetriSession *)session, NULL, expand_batches, NULL) != PETRI_OK)
+        session_protect((PetriSession *)session, NULL, expand_value_batches, NULL) != PETRI_OK)
         return (PetriValue){0};
     return session_export_value(&session->frame.tree);
 }

@@ -29,7 +29,7 @@ typedef struct WordHash {
 } WordHash;
 
 static DigestUpdate *fastest_update(void) {
-#ifdef PETRI_X86
+#ifdef DIGEST_AVX2
     if (cpu_detected.level >= CPU_AVX2)
         return digest_update_avx2;
 #endif

@@ -59,7 +59,7 @@ static void report_binding(Walker *walker, NameKind kind, const Symbol *name, ui
     walker->callback(walker->user_data, &info);
 }
 
-static const ScopeEntry *find_entry(const Walker *walker, const Symbol *name) {
+static const ScopeEntry *find_scope_entry(const Walker *walker, const Symbol *name) {
     const ScopeEntry *entry = *find_chain(walker, name);
     while (entry && entry->name != name)
         entry = entry->next;
@@ -161,7 +161,7 @@ static void walk_where(Walker *walker, const Ast *ast) {
 // Reports names of named arguments as uses of the called function's parameters.
 static void walk_call(Walker *walker, const Ast *ast) {
     const Ast *callee = ast->children[0];
-    const ScopeEntry *entry = callee->kind == AST_NAME ? find_entry(walker, callee->name) : NULL;
+    const ScopeEntry *entry = callee->kind == AST_NAME ? find_scope_entry(walker, callee->name) : NULL;
     const Ast *params = entry && entry->function ? entry->function->children[0] : NULL;
     walk_ast(walker, callee);
     for (uint32_t i = 1; i < ast->count; i++) {
@@ -181,7 +181,7 @@ static void walk_ast(Walker *walker, const Ast *ast) {
     arena_charge(walker->arena, 1);
     switch (ast->kind) {
     case AST_NAME:
-        entry = find_entry(walker, ast->name);
+        entry = find_scope_entry(walker, ast->name);
         report_use(walker, ast->name, ast->span.start, entry ? entry->at : NAME_FREE);
         break;
     case AST_BINDING:

@@ -47,7 +47,7 @@ static bool claims_to_be_script(const Source *source) {
     return false;
 }
 
-static bool is_blank(const Source *source, uint32_t line) {
+static bool is_blank_byte(const Source *source, uint32_t line) {
     Str text = str_trim(source_locate(source, source->line_starts[line]).text);
     return text.len == 0 || str_starts_with(text, STR("--"));
 }
@@ -66,7 +66,7 @@ static Tally count_lines(const Source *source, const DiagSink *diags) {
         last = line > last ? line : last;
     }
     for (uint32_t line = 0; line < last; line++)
-        tally.lines += !is_blank(source, line);
+        tally.lines += !is_blank_byte(source, line);
     return tally;
 }
 

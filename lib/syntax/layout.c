@@ -15,7 +15,7 @@ void layout_init(Layout *layout, const Source *source) {
 }
 
 // Returns the indentation after a newline token: spaces plus eight per tab, without tab stops.
-static uint32_t indentation(const Source *source, Span newline) {
+static uint32_t line_indentation(const Source *source, Span newline) {
     uint32_t indent = 0;
     for (uint32_t at = newline.end; at > newline.start && source->text.bytes[at - 1] != '\n'; at--)
         indent += source->text.bytes[at - 1] == '\t' ? 8 : 1;
@@ -52,7 +52,7 @@ static Token newline_token(Layout *layout) {
 
 static Token begin_newline(Layout *layout, Token token) {
     layout->line = token.span;
-    layout->indent = indentation(layout->lexer.source, token.span);
+    layout->indent = line_indentation(layout->lexer.source, token.span);
     layout->indent_pending = true;
     return token;
 }
@@ -61,7 +61,7 @@ static Token begin_newline(Layout *layout, Token token) {
 static bool is_dropped(Layout *layout, const Token *newline) {
     if (layout->dropping)
         layout->dropping =
-            indentation(layout->lexer.source, newline->span) > layout->levels[layout->level_count - 1].indent;
+            line_indentation(layout->lexer.source, newline->span) > layout->levels[layout->level_count - 1].indent;
     return layout->dropping;
 }
 

@@ -9,7 +9,7 @@
 #include <assert.h>
 #include <string.h>
 
-enum { NODE_WORK = 2 }; // work units per created node
+enum { BATCH_NODE_WORK = 2 }; // work units per created node
 
 // Returns true if each row contains numbers of an attribute whose entry in NodeBatch.numbers is `numbers`.
 static bool in_row(uint32_t numbers) {
@@ -110,7 +110,7 @@ static const Node **make_row_nodes(Arena *arena, const NodeBatch *batch, const N
     NodeRow row;
     node_batch_open(batch, &row);
     for (uint32_t i = 0; i < batch->count; i++) {
-        arena_charge(arena, NODE_WORK);
+        arena_charge(arena, BATCH_NODE_WORK);
         Node *node = arena_alloc(arena, sizeof *node + attr_count * sizeof(Attr));
         node_batch_row(batch, i, &row);
         *node = row.node;

@@ -30,7 +30,7 @@ void symbol_table_free(SymbolTable *table) {
     hash_index_free(&table->by_number);
 }
 
-static bool has_name(const void *owner, uint32_t entry, const void *key) {
+static bool has_symbol_name(const void *owner, uint32_t entry, const void *key) {
     return str_equal(((const SymbolTable *)owner)->items[entry]->name, *(const Str *)key);
 }
 
@@ -40,7 +40,7 @@ static bool has_number(const void *owner, uint32_t entry, const void *key) {
 
 static uint32_t intern_name(SymbolTable *table, Str name) {
     uint64_t hash = hash_bytes(0, name.bytes, name.len);
-    uint32_t found = hash_index_find(&table->by_name, hash, has_name, table, &name);
+    uint32_t found = hash_index_find(&table->by_name, hash, has_symbol_name, table, &name);
     if (found != HASH_INDEX_NONE)
         return found;
     table->items = arena_grow_array(table->arena, table->items, table->count, &table->capacity, sizeof *table->items);

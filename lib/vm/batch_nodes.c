@@ -2,7 +2,7 @@
 #include "vm/machine.h"
 
 enum {
-    MIN_BATCH = 16,        // minimum number of remaining iterations for which a batch is started
+    MIN_NODE_BATCH = 16,   // minimum number of remaining iterations for which a batch is started
     MIN_ROWS = 8,          // a batch with fewer rows is short
     MAX_SHORT_BATCHES = 4, // after this number of short batches, a loop creates only single nodes
 };
@@ -26,7 +26,7 @@ static NodeBatch *begin_batch(Vm *vm, const Frame *frame, const Instr *instr, co
     uint32_t iterations = loop->source.len - loop->at, numbers[NODE_BATCH_MAX_ATTRS] = {0}, count = 0;
     int32_t from[NODE_BATCH_MAX_ATTRS];
     Attr attrs[NODE_BATCH_MAX_ATTRS] = {{0}};
-    if (iterations < MIN_BATCH || loop->short_batches >= MAX_SHORT_BATCHES || vm->no_batches)
+    if (iterations < MIN_NODE_BATCH || loop->short_batches >= MAX_SHORT_BATCHES || vm->no_batches)
         return NULL;
     for (uint32_t i = 0; i < instr->count; i++) {
         const Value *value = &frame->slots[list[i]];

@@ -18,7 +18,7 @@ typedef struct Numbers {
 
 // Reads the numbers of operands. Returns false if there are too many operands, or if an operand is not a single number
 // in all iterations.
-static bool read_numbers(const LoopBatch *batch, const int32_t *operands, uint32_t count, Numbers *numbers) {
+static bool read_column_numbers(const LoopBatch *batch, const int32_t *operands, uint32_t count, Numbers *numbers) {
     for (uint32_t i = 0; i < count; i++)
         if (count > MAX_OPERANDS || !(numbers->of[i] = vm_batch_numbers(batch, operands[i], numbers->buffers[i])))
             return false;
@@ -35,7 +35,7 @@ static const int32_t *operand_list(const LoopBatch *batch, const Instr *instr) {
 static bool run_numbers(LoopBatch *batch, const Instr *instr) {
     Numbers numbers;
     double to[BATCH_SIZE];
-    if (!read_numbers(batch, (int32_t[]){instr->a, instr->b}, 2, &numbers))
+    if (!read_column_numbers(batch, (int32_t[]){instr->a, instr->b}, 2, &numbers))
         return false;
     const double *xs = numbers.of[0], *ys = numbers.of[1];
     const uint32_t count = batch->selected_count;
@@ -61,7 +61,7 @@ static bool run_numbers(LoopBatch *batch, const Instr *instr) {
 static bool run_powers(LoopBatch *batch, const Instr *instr) {
     Numbers numbers;
     uint32_t count = batch->selected_count;
-    if (!read_numbers(batch, (int32_t[]){instr->a, instr->b}, 2, &numbers))
+    if (!read_column_numbers(batch, (int32_t[]){instr->a, instr->b}, 2, &numbers))
         return false;
     batch->vm->at = instr->at;
     Value powers = op_arith(batch->vm->arena, ARITH_POW, value_numbers_view(numbers.of[0], count),
@@ -77,7 +77,7 @@ static bool run_index(LoopBatch *batch, const Instr *instr) {
     Numbers numbers;
     double to[BATCH_SIZE];
     const Value *vector = &batch->frame->slots[instr->a];
-    if (column_of(batch, instr->a) || !read_numbers(batch, &instr->b, 1, &numbers))
+    if (column_of(batch, instr->a) || !read_column_numbers(batch, &instr->b, 1, &numbers))
         return false;
     const double *at = numbers.of[0], *from = value_numbers(vector);
     if (vector->kind == VALUE_STREAM)
@@ -96,7 +96,7 @@ static bool run_slice(LoopBatch *batch, const Instr *instr) {
     Numbers numbers;
     Value values[BATCH_SIZE];
     const Value *vector = &batch->frame->slots[instr->a];
-    if (column_of(batch, instr->a) || !read_numbers(batch, (int32_t[]){instr->b, instr->c}, 2, &numbers))
+    if (column_of(batch, instr->a) || !read_column_numbers(batch, (int32_t[]){instr->b, instr->c}, 2, &numbers))
         return false;
     batch->vm->at = instr->as.inner_origin;
     for (uint32_t k = 0; k < batch->selected_count; k++)
@@ -111,7 +111,7 @@ static bool run_lookups(LoopBatch *batch, const Instr *instr) {
     Numbers numbers;
     double key[MAX_OPERANDS];
     Value values[BATCH_SIZE];
-    if (!batch->vm->state || !read_numbers(batch, operand_list(batch, instr), instr->count, &numbers))
+    if (!batch->vm->state || !read_column_numbers(batch, operand_list(batch, instr), instr->count, &numbers))
         return false;
     batch->vm->at = instr->at;
     batch->vm->met_dynamic = true;
@@ -133,7 +133,7 @@ static bool run_each(LoopBatch *batch, const Instr *instr) {
     const int32_t *list = operand_list(batch, instr);
     Numbers numbers;
     Value args[MAX_OPERANDS];
-    if (builtin->each == 0 || instr->count < builtin->each || !read_numbers(batch, list, instr->count, &numbers))
+    if (builtin->each == 0 || instr->count < builtin->each || !read_column_numbers(batch, list, instr->count, &numbers))
         return false;
     for (uint32_t i = 0; i < instr->count; i++)
         args[i] = value_numbers_view(numbers.of[i], column_of(batch, list[i]) ? batch->selected_count : 1);
@@ -177,7 +177,7 @@ static bool run_noise(LoopBatch *batch, const Instr *instr) {
     Numbers numbers;
     double to[BATCH_SIZE];
     if (instr->as.builtin->each != BUILTIN_EACH_POINT || instr->count != 3 || column_of(batch, list[0]) ||
-        !read_numbers(batch, list + 1, 2, &numbers))
+        !read_column_numbers(batch, list + 1, 2, &numbers))
         return false;
     vm_charge(batch->vm, instr->at, batch->selected_count);
     builtin_noise_points(&batch->vm->builtins, batch->frame->slots[list[0]], numbers.of[0], numbers.of[1],
@@ -197,7 +197,7 @@ static bool run_compose(LoopBatch *batch, const Instr *instr) {
     Numbers numbers;
     uint32_t width = instr->count, count = batch->selected_count;
     Value values[BATCH_SIZE];
-    if (!read_numbers(batch, operand_list(batch, instr), width, &numbers))
+    if (!read_column_numbers(batch, operand_list(batch, instr), width, &numbers))
         return false;
     batch->vm->at = instr->at;
     double *rows = arena_alloc(batch->vm->arena, (size_t)count * width * sizeof *rows);

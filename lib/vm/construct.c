@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
+static uint32_t add_vector_numbers(double *numbers, uint32_t at, const Value *part) {
     if (part->len == 1) {
         numbers[at] = part->as.number;
         return at + 1;
@@ -33,7 +33,7 @@ Value vm_compose_at(Vm *vm, const Frame *frame, const Instr *instr, const Origin
         double *numbers = arena_alloc_array(vm->arena, (size_t)len, sizeof *numbers);
         uint32_t filled = 0;
         for (uint32_t i = 0; i < instr->count; i++)
-            filled = add_numbers(numbers, filled, &slots[list[i]]);
+            filled = add_vector_numbers(numbers, filled, &slots[list[i]]);
         return (Value){.len = filled, .as.numbers = numbers};
     }
     Vector vector = vector_new(vm->arena);

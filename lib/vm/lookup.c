@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { MAX_ON_STACK = 8 };
+enum { MAX_INDICES_ON_STACK = 8 };
 
 void vm_inline_cache_reset(Vm *vm, uint32_t count) {
     if (count > vm->inline_cache_count) {
@@ -94,9 +94,9 @@ Value vm_lookup(Vm *vm, const Frame *frame, const Instr *instr) {
     const int32_t *list = frame->operands + instr->list;
     vm->met_dynamic = true;
     vm->at = instr->at;
-    double buffer[MAX_ON_STACK];
+    double buffer[MAX_INDICES_ON_STACK];
     uint32_t count = 0;
-    while (count < instr->count && count < MAX_ON_STACK && is_number(&slots[list[count]])) {
+    while (count < instr->count && count < MAX_INDICES_ON_STACK && is_number(&slots[list[count]])) {
         buffer[count] = slots[list[count]].as.number;
         count++;
     }

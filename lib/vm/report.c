@@ -25,14 +25,14 @@ static bool is_new_error(Vm *vm, const Origin *at, uint64_t what) {
     return true;
 }
 
-static void report_diagnostic(Vm *vm, const Origin *at, DiagLevel level, const char *code, Str text) {
+static void report_vm_diagnostic(Vm *vm, const Origin *at, DiagLevel level, const char *code, Str text) {
     Diag diag = {level, *at, text, .code = code};
     vm->host.report(vm->host.user_data, &diag);
 }
 
 void vm_report_text(Vm *vm, const Origin *at, const char *code, Str text) {
     if (is_new_error(vm, at, hash_bytes(0, text.bytes, text.len)))
-        report_diagnostic(vm, at, DIAG_WARNING, code, text);
+        report_vm_diagnostic(vm, at, DIAG_WARNING, code, text);
 }
 
 void vm_report(Vm *vm, const Origin *at, const char *code, const char *format, ...) {
@@ -43,7 +43,7 @@ void vm_report(Vm *vm, const Origin *at, const char *code, const char *format, .
     Text text = text_new(vm->arena);
     text_add_va(&text, format, args);
     va_end(args);
-    report_diagnostic(vm, at, DIAG_WARNING, code, text_str(&text));
+    report_vm_diagnostic(vm, at, DIAG_WARNING, code, text_str(&text));
 }
 
 Value vm_finish(Vm *vm, const Origin *at, Vector *vector) {

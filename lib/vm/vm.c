@@ -13,7 +13,7 @@ static void report_builtin_error(void *host, Str text) {
     vm_report_text(vm, vm->at, "bad-call", text);
 }
 
-static void builtin_log(void *host, Str text) {
+static void log_of_builtin(void *host, Str text) {
     const Vm *vm = host;
     vm->host.log(vm->host.user_data, text);
 }
@@ -27,8 +27,11 @@ void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t sta
                .is_static = is_static};
     arena_init(&vm->slots, "call frames", SIZE_MAX);
     vm->slots.budget = arena->budget;
-    vm->builtins = (BuiltinContext){
-        .arena = arena, .symbols = symbols, .report_error = report_builtin_error, .log = builtin_log, .user_data = vm};
+    vm->builtins = (BuiltinContext){.arena = arena,
+                                    .symbols = symbols,
+                                    .report_error = report_builtin_error,
+                                    .log = log_of_builtin,
+                                    .user_data = vm};
 }
 
 void vm_free(Vm *vm) {
