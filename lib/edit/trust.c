@@ -220,8 +220,8 @@ static void advise(const Trust *trust, const PetriTrust *found, double value, ch
     }
     double parts = ldexp(1, (int)fmax(doublings, 1)), rate = parts / trust->step;
     bool whole = fabs(rate - round(rate)) < 1e-9 * rate;
-    int used = snprintf(text, size, "step too large: for %d digits, use resolution=%s%.4g", WANTED, whole ? "1/" : "",
-                        whole ? round(rate) : 1 / rate);
+    int used = snprintf(text, size, "step too large: for %d digits, use resolution=%s%.*g", WANTED, whole ? "1/" : "",
+                        whole ? 9 : 4, whole ? round(rate) : 1 / rate);
     if (trust->random)
         snprintf(text + used, size - (size_t)used, ", and !random %.3g times as strong", sqrt(parts));
 }

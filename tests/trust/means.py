@@ -2,8 +2,8 @@
 """means.py PETRI COUNT: checks the intervals that `petri trust --seeds` states for a mean that is known.
 
 A bead in a harmonic trap with noise and drag has the mean position 5, by symmetry. Its positions are correlated for
-about a second. Each of COUNT groups of 10 runs has other random numbers. Exits with 1 if fewer than 90 of 100 intervals
-contain the mean (95 are expected, and fewer than 90 in one of 50 attempts), or if they are wider than they need to be.
+about a second. Each of COUNT groups of 10 runs has other random numbers. Exits with 1 if so few intervals
+contain the mean that 95 % intervals would do so in less than one of 1000 attempts, or if they are wider than needed.
 """
 import json
 import math
@@ -43,7 +43,8 @@ def main():
     scatter = math.sqrt(sum((one["mean"] - MEAN) ** 2 for one in found) / count)
     width = sum(one["half_width"] for one in found) / count
     print(f"{contained} of {count} intervals contain the mean; their half width is {width / scatter:.2f} standard errors")
-    sys.exit(contained < 0.9 * count or width > 3.5 * scatter)
+    chance = sum(math.comb(count, k) * 0.95**k * 0.05 ** (count - k) for k in range(contained + 1))
+    sys.exit(chance < 0.001 or width > 3.5 * scatter)
 
 
 if __name__ == "__main__":
