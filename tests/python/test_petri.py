@@ -523,9 +523,11 @@ class Closed(unittest.TestCase):
     def test_closed_sessions_have_no_frame_and_no_systems(self):
         session = petri.Session("!physics state=:s\n    !particle id=1\n")
         session.step()
-        systems = session.systems
+        systems, state = session.systems, session.state
         session.close()
-        for use in (lambda: session.frame, lambda: list(systems), lambda: session.systems["s"], lambda: len(session.parameters)):
+        self.assertEqual(repr(state), "<petri.State, closed>")
+        for use in (lambda: state["s", 1], lambda: list(state), lambda: ("s", 1) in state, lambda: state.update(a=1),
+                    lambda: session.frame, lambda: list(systems), lambda: session.systems["s"], lambda: len(session.parameters)):
             self.assertRaises(ValueError, use)
 
     def test_missing_scripts_are_missing_files(self):
@@ -999,8 +1001,9 @@ class Archives(unittest.TestCase):
 
 class Versions(unittest.TestCase):
     def test_a_session_can_follow_an_earlier_specification(self):
-        # Specification 0.3 reflects a particle at a barrier in another place.
-        script = "!physics state=:a dimensions=1\n    !particle id=0 position=1\n    !barrier position=0 normal=1\n    !constant acceleration=-9\n"
+        # By specification 0.3, restitution also slows a particle that slides along a barrier.
+        script = ("!physics state=:a dimensions=2\n    !particle id=0 velocity=3;0\n"
+                  "    !barrier normal=0;1 restitution=0.5\n    !constant acceleration=0;-9\n")
         found = {}
         for spec in None, "0.3":
             session = petri.Session(script, options=petri.Options(spec=spec))

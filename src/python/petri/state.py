@@ -24,6 +24,11 @@ class State(MutableMapping):
         self._symbols: dict[str, float] = {}
         self._value = ffi.new("PetriValue *")
 
+    def _check(self) -> None:
+        """Raises ValueError if the session is closed."""
+        if not self._session:
+            raise ValueError("the session is closed, or is calling this function")
+
     def _symbol(self, name: str) -> float:
         if name not in self._symbols:
             self._symbols[name] = values.symbol(self._session, name)
@@ -32,6 +37,7 @@ class State(MutableMapping):
     def __getitem__(self, key: Any) -> values.Value:
         value = self._value
         with self._lock:
+            self._check()
             # Fast path for the most common keys: a symbol and a number.
             if type(key) is tuple and len(key) == 2 and type(key[0]) is str and type(key[1]) in (int, float):
                 plain = lib.petri_python_pair(self._session, self._symbols.get(key[0]) or self._symbol(key[0]), key[1],
@@ -52,6 +58,7 @@ class State(MutableMapping):
 
     def __setitem__(self, key: Any, value: Any) -> None:
         with self._lock:
+            self._check()
             encoded_key, keep_key = values.encode(self._session, key)
             encoded, keep = values.encode(self._session, value)
             if lib.petri_state_set(self._session, encoded_key, encoded) != lib.PETRI_OK:
@@ -67,6 +74,7 @@ class State(MutableMapping):
     def _keys(self) -> list:
         cursor, key, value, keys = ffi.new("uint32_t *"), ffi.new("PetriValue *"), ffi.new("PetriValue *"), []
         with self._lock:
+            self._check()
             while lib.petri_state_next(self._session, cursor, key, value):
                 keys.append(values.whole(values.decode(self._session, key)))
         return keys
@@ -75,4 +83,4 @@ class State(MutableMapping):
         return len(self._keys())
 
     def __repr__(self) -> str:
-        return f"<petri.State with {len(self)} keys>"
+        return f"<petri.State with {len(self)} keys>" if self._session else "<petri.State, closed>"
