@@ -126,6 +126,34 @@ test('the page of petri itself can contain the element', options, () => opened('
     },
 }));
 
+test('the script is shown in colours exactly behind the letters that the reader types', options, () => embedded(
+    `<petri-dish editor><pre>${SQUARE}</pre></petri-dish>`, async page => {
+        const seen = () => page.evaluate(() => {
+            const { shadowRoot } = document.querySelector('petri-dish');
+            const [text, colours] = ['text', 'colours'].map(id => shadowRoot.getElementById(id));
+            const place = element => {
+                const { font, padding, tabSize, borderWidth } = getComputedStyle(element);
+                const { x, y, width, height } = element.getBoundingClientRect();
+                return [font, padding, tabSize, borderWidth, x, y, width, height, element.scrollLeft, element.scrollTop];
+            };
+            const words = [...colours.querySelectorAll('span')].map(({ textContent, style }) => [textContent, style.color]);
+            const same = colours.textContent === `${text.value}\n`;
+            return { same, places: [place(text), place(colours)], words, color: getComputedStyle(text).color };
+        });
+        const first = await seen(), colour = word => first.words.find(([text]) => text === word)[1];
+        assert.ok(first.same && first.words.length > 8);
+        assert.equal(first.color, 'rgba(0, 0, 0, 0)');
+        assert.notEqual(colour('!window'), colour('64'));
+        assert.deepEqual(first.places[0], first.places[1]);
+        const text = page.locator(within('#text')), long = `-- ${'x'.repeat(400)}\n${'let A=\'<b>&\'\n'.repeat(60)}`;
+        await text.fill(long);
+        await text.evaluate(element => element.scrollTo(300, 400));
+        await page.waitForFunction(() => document.querySelector('petri-dish').shadowRoot.getElementById('colours').scrollTop > 0);
+        const then = await seen();
+        assert.ok(then.same && then.places[0].at(-1) > 0 && then.places[0].at(-2) > 0);
+        assert.deepEqual(then.places[0], then.places[1]);
+    }));
+
 test('warnings are only shown to readers who can edit the script', options, () => embedded(
     ['editor', ''].map((given, i) =>
         `<petri-dish id="d${i}" ${given}><pre>!window size=9;9\n    !canvas\n        !rect sice=9\n</pre></petri-dish>`).join(''),

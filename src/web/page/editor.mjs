@@ -10,47 +10,13 @@ import {
 } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import { dragNumbers } from './drag_numbers.mjs';
+import { COLOURS, nextWord } from './flitter.mjs';
 import { showMatches } from './matches.mjs';
 
 const MAX_INDENT = 24; // columns by which wrapped lines are indented
-const KEYWORDS = /^(let|func|for|in|if|elif|else|where|import|from|stable|and|or|not|true|false|null|debug)\b/;
 
-const flitter = StreamLanguage.define({
-    token(stream) {
-        if (stream.eatSpace())
-            return null;
-        if (stream.match(/^--.*/) || stream.match(/^#!.*/))
-            return 'comment';
-        if (stream.match(/^%\w+/) || stream.match(KEYWORDS))
-            return 'keyword';
-        if (stream.match(/^("""|''')[^]*/) || stream.match(/^"(\\.|[^"\\])*"?/) || stream.match(/^'(\\.|[^'\\])*'?/))
-            return 'string';
-        if (stream.match(/^[!@][\p{L}_]\w*/u))
-            return 'typeName';
-        if (stream.match(/^#[\p{L}_]\w*/u))
-            return 'labelName';
-        if (stream.match(/^:[\p{L}_]\w*/u))
-            return 'atom';
-        if (stream.match(/^(\d[\d_]*)(\.\d+)?([eE][-+]?\d+)?[TGMkmunp]?/) || stream.match(/^\.\d+([eE][-+]?\d+)?/))
-            return 'number';
-        if (stream.match(/^[\p{L}_][\p{L}\p{N}_]*/u))
-            return 'variableName';
-        stream.next();
-        return 'operator';
-    },
-    languageData: { commentTokens: { line: '--' } },
-});
-
-// Syntax colours for light and dark themes, given as values because custom properties do not work in CodeMirror's style sheet.
-const colours = HighlightStyle.define([
-    { tag: tags.comment, color: 'light-dark(#5a636e, #98a1ad)', fontStyle: 'italic' },
-    { tag: tags.keyword, color: 'light-dark(#8a1c7c, #e59be0)' },
-    { tag: tags.string, color: 'light-dark(#1a6d1a, #8fd98f)' },
-    { tag: tags.typeName, color: 'light-dark(#0b57a4, #7cc0ff)', fontWeight: 'bold' },
-    { tag: tags.labelName, color: 'light-dark(#7a4a00, #ffc66d)' },
-    { tag: tags.atom, color: 'light-dark(#9a3412, #ffb38a)' },
-    { tag: tags.number, color: 'light-dark(#9a3412, #ffb38a)' },
-]);
+const flitter = StreamLanguage.define({ token: nextWord, languageData: { commentTokens: { line: '--' } } });
+const colours = HighlightStyle.define(Object.entries(COLOURS).map(([kind, style]) => ({ tag: tags[kind], ...style })));
 
 const theme = EditorView.theme({
     '&': { color: 'var(--front)', backgroundColor: 'var(--back)' },

@@ -4,6 +4,7 @@ import { loadEngine } from '../engine/petri.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
 import style from './embed.css';
+import { coloured } from './flitter.mjs';
 import { packLink } from './link.mjs';
 
 // The engine, which is fetched and compiled once for all elements of a page.
@@ -17,7 +18,8 @@ const TEMPLATE = `<style>${style}</style>
 <div id="frame" part="frame"><canvas id="picture" part="picture" tabindex="0" width="300" height="150"></canvas>
 <button id="start" aria-label="Run">▶</button></div>
 <div id="below" hidden>${CONTROLS}<a id="open" part="link" target="_blank" rel="noopener">Open in petri</a></div>
-<textarea id="text" part="text" spellcheck="false" autocapitalize="off" aria-label="The script" hidden></textarea>
+<div id="editor" hidden><pre id="colours" aria-hidden="true"></pre>
+<textarea id="text" part="text" spellcheck="false" autocapitalize="off" aria-label="The script"></textarea></div>
 <p id="message" part="message" role="status"></p>`;
 
 class PetriDish extends HTMLElement {
@@ -64,7 +66,7 @@ class PetriDish extends HTMLElement {
 
     arrange() {
         this.get('below').hidden = !this.hasAttribute('controls');
-        this.get('text').hidden = !this.hasAttribute('editor');
+        this.get('editor').hidden = !this.hasAttribute('editor');
         this.get('picture').setAttribute('aria-label', this.getAttribute('label') ?? 'The picture of the script');
     }
 
@@ -90,6 +92,8 @@ class PetriDish extends HTMLElement {
         dish.listen();
         this.get('start').onclick = () => this.run();
         this.get('open').onclick = event => this.linkOut(event);
+        this.get('text').oninput = () => this.colour();
+        this.get('text').onscroll = () => this.align();
         this.get('text').onkeydown = event => {
             if (event.key === 'Enter' && (event.ctrlKey || event.metaKey))
                 this.run({ always: true });
@@ -135,6 +139,18 @@ class PetriDish extends HTMLElement {
     set text(text) {
         this.get('text').value = text;
         this.get('text').rows = Math.min(text.split('\n').length, 24);
+        this.colour();
+    }
+
+    // Shows the script in colours behind the text, whose letters are transparent.
+    colour() {
+        this.get('colours').replaceChildren(...coloured(this.text));
+        this.align();
+    }
+
+    align() {
+        const { scrollLeft, scrollTop } = this.get('text');
+        Object.assign(this.get('colours'), { scrollLeft, scrollTop });
     }
 
     async ready({ always = false } = {}) {
