@@ -23,8 +23,9 @@ package [--test | --sdist | --wheel | --manylinux | --static | --vscode]: make D
   --manylinux  make a Python wheel without pictures there, for other Linux systems
   --static     make a static program without pictures there, with musl
   --vscode     make the extension for VS Code there
-dist [--source]: make all files of a release in build/dist, with notes and checksums
+dist [--source | --single]: make all files of a release in build/dist, with notes and checksums
   --source  make only the source archive, with bill of materials and checksums
+  --single  make only build/dist/single/petri.c and its headers: the engine as one C file
 sanitize [--memory | --thread | NAME...]: run most tests with clang's address and undefined-behaviour sanitizers
   NAME      only tests and suites with these names
   --memory  run tests of the libraries with the memory sanitizer instead
