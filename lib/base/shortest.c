@@ -11,6 +11,8 @@
 // integers, which tests/unit/base/check_powers.py proves for all doubles.
 #include "base/shortest.h"
 
+#include "base/wide.h"
+
 #include <stdbool.h>
 #include <string.h>
 
@@ -21,12 +23,10 @@ static const uint64_t powers[][2] = {
 #include "base/powers_of_ten.h"
 };
 
-__extension__ typedef unsigned __int128 Product;
-
 // Returns x * power / 2^128, rounded to odd.
 static uint64_t multiply(uint64_t x, const uint64_t power[2]) {
-    Product low = (Product)x * power[1], high = (Product)x * power[0] + (uint64_t)(low >> 64);
-    return (uint64_t)(high >> 64) | ((uint64_t)high != 0 || (uint64_t)low >> 61 != 0);
+    Wide lower = wide_multiply_add(x, power[1], 0), upper = wide_multiply_add(x, power[0], lower.high);
+    return upper.high | (upper.low != 0 || lower.low >> 61 != 0);
 }
 
 // Return floor(log10(2^q)), floor(log10(3/4 2^q)) and floor(log2(10^k)). The shifts round down.

@@ -46,7 +46,7 @@ static void read_pixel(const BuiltinPicture *picture, int x, int y, double *colo
     for (unsigned k = 0; k < 4; k++) {
         unsigned shift = k < 3 ? 16 - 8 * k : 24;
         color[k] = picture->linear ? (double)picture->linear[4 * at + k]
-                                   : (double)((float)(picture->bytes[at] >> shift & 255) / 255.0f);
+                                   : (double)(float)((float)(picture->bytes[at] >> shift & 255) / 255.0f);
     }
 }
 

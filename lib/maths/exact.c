@@ -141,17 +141,15 @@ double exact_acos(double x) {
 // code has the same effect: it truncates b / a to 128 bits of fraction, reduces an exact quotient by an ulp, and sets
 // the last bit.
 static double tiny_ratio(uint64_t b, uint64_t a, int scale) {
-    __extension__ typedef unsigned __int128 Long;
-    Fixed q = fixed_from_int(0, 2);
-    Long high = (Long)b << 64;
-    uint64_t rest = (uint64_t)(high % a);
-    Long low = ((Long)rest << 64) / a;
-    q.limb[2] = (uint64_t)(high / a >> 64);
-    q.limb[1] = (uint64_t)(high / a);
-    q.limb[0] = (uint64_t)low;
-    bool exact = ((Long)rest << 64) % a == 0;
+    Fixed q = fixed_from_int((int64_t)(b / a), 2);
+    uint64_t rest = b % a;
+    for (int bit = 127; bit >= 0; bit--) { // long division
+        rest *= 2;
+        q.limb[bit / 64] |= (uint64_t)(rest >= a) << bit % 64;
+        rest -= rest >= a ? a : 0;
+    }
     Fixed ulp = {.size = 2, .limb = {1}};
-    if (exact)
+    if (rest == 0)
         q = fixed_sub(&q, &ulp);
     q.limb[0] |= 1; // so that q is never exactly halfway between two doubles
     return fixed_round(&q, scale);

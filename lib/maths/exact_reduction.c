@@ -5,13 +5,12 @@
 // the table is truncated, they are too small by less than m < 2^53 units of the last bit. Only the upper 136 bits of
 // the fraction are used, so the angle is accurate to 2^-127 quarter turns. After conversion to two doubles it is
 // accurate to 2^-116.
+#include "base/wide.h"
 #include "maths/double_bits.h"
 #include "maths/fast.h"
 #include "maths/fixed.h"
 #include "maths/lanes.h"
 #include "maths/maths_tables.h"
-
-__extension__ typedef unsigned __int128 Product;
 
 void exact_reduction(double x, uint64_t *n, double *high, double *low) {
     enum { LIMBS = 1024 / 64 + FIXED_MAX_LIMBS + 2, FRACTION = 3 };
@@ -24,9 +23,9 @@ void exact_reduction(double x, uint64_t *n, double *high, double *low) {
     for (int i = 0; i <= FRACTION; i++) {
         uint64_t above = from / 64 + i < LIMBS ? table[i + 1] : 0; // the integer part of 2/pi is 0
         uint64_t window = shift ? table[i] >> shift | above << (64 - shift) : table[i];
-        Product t = (Product)m * window + carry;
-        product[i] = (uint64_t)t;
-        carry = (uint64_t)(t >> 64);
+        Wide t = wide_multiply_add(m, window, carry);
+        product[i] = t.low;
+        carry = t.high;
     }
     // Round to a multiple of pi/512: the integer part and 8 bits of the fraction become n.
     uint64_t upper = product[2] << 8 | product[1] >> 56, rest = product[1] << 8 | product[0] >> 56;

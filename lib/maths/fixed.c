@@ -1,13 +1,12 @@
 // fixed.c: the arithmetic functions of fixed.h.
 #include "maths/fixed.h"
 
+#include "base/wide.h"
 #include "maths/double_bits.h"
 #include "maths/maths_tables.h"
 
 #include <assert.h>
 #include <stddef.h>
-
-__extension__ typedef unsigned __int128 Product;
 
 bool fixed_is_negative(const Fixed *a) {
     return a->limb[a->size] >> 63;
@@ -33,20 +32,22 @@ Fixed fixed_negate(const Fixed *a) {
 }
 
 static inline __attribute__((always_inline)) void add_limbs(const uint64_t *a, const uint64_t *b, uint64_t *r, int n) {
-    Product sum = 0;
+    uint64_t carry = 0;
     for (int i = 0; i < n; i++) {
-        sum += (Product)a[i] + b[i];
-        r[i] = (uint64_t)sum;
-        sum >>= 64;
+        uint64_t sum = a[i] + carry;
+        carry = sum < carry;
+        r[i] = sum + b[i];
+        carry += r[i] < sum;
     }
 }
 
 static inline __attribute__((always_inline)) void sub_limbs(const uint64_t *a, const uint64_t *b, uint64_t *r, int n) {
     uint64_t borrow = 0;
     for (int i = 0; i < n; i++) {
-        Product difference = (Product)a[i] - b[i] - borrow;
-        r[i] = (uint64_t)difference;
-        borrow = (uint64_t)(difference >> 64) & 1;
+        uint64_t difference = a[i] - borrow, lower = b[i];
+        borrow = difference > a[i];
+        borrow += difference < lower;
+        r[i] = difference - lower;
     }
 }
 
@@ -120,9 +121,10 @@ static inline __attribute__((always_inline)) void multiply_limbs(const uint64_t 
     for (int i = 0; i < n; i++) {
         uint64_t carry = 0;
         for (int j = 0; j < n; j++) {
-            Product t = (Product)a[i] * b[j] + (i ? all[i + j] : 0) + carry;
-            all[i + j] = (uint64_t)t;
-            carry = (uint64_t)(t >> 64);
+            Wide t = wide_multiply_add(a[i], b[j], carry);
+            uint64_t before = i ? all[i + j] : 0;
+            all[i + j] = t.low + before;
+            carry = t.high + (all[i + j] < before);
         }
         all[i + n] = carry;
     }
@@ -189,9 +191,9 @@ Fixed fixed_mul_small(const Fixed *a, uint64_t by) {
     r.size = a->size;
     uint64_t carry = 0;
     for (int i = 0; i <= a->size; i++) {
-        Product t = (Product)x.limb[i] * by + carry;
-        r.limb[i] = (uint64_t)t;
-        carry = (uint64_t)(t >> 64);
+        Wide t = wide_multiply_add(x.limb[i], by, carry);
+        r.limb[i] = t.low;
+        carry = t.high;
     }
     return fixed_is_negative(a) ? fixed_negate(&r) : r;
 }

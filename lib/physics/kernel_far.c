@@ -21,7 +21,8 @@ KERNEL Real inverse_root(Real a) {
     float32x2_t root = vsqrt_f32(vcvt_f32_f64((float64x2_t)a));
     Real y = (Real)vcvt_f64_f32(vdiv_f32(vdup_n_f32(1), root));
 #else
-    Real y = {(double)(1 / sqrtf((float)a[0])), (double)(1 / sqrtf((float)a[1]))};
+    // The outer casts to float matter where quotients of floats are computed as doubles, as on s390x.
+    Real y = {(double)(float)(1 / sqrtf((float)a[0])), (double)(float)(1 / sqrtf((float)a[1]))};
 #endif
     return y * (real_set(1.5) - real_set(0.5) * a * (y * y));
 }
