@@ -87,6 +87,10 @@ FORMAT_NEEDS='command -v clang-format: clang-format'
 TIDY_NEEDS='command -v run-clang-tidy: clang-tidy'
 CROSS_NEEDS='
 command -v aarch64-linux-gnu-gcc: gcc-aarch64-linux-gnu libc6-dev-arm64-cross
+command -v riscv64-linux-gnu-gcc: gcc-riscv64-linux-gnu libc6-dev-riscv64-cross
+command -v powerpc64le-linux-gnu-gcc: gcc-powerpc64le-linux-gnu libc6-dev-ppc64el-cross
+command -v s390x-linux-gnu-gcc: gcc-s390x-linux-gnu libc6-dev-s390x-cross
+command -v arm-linux-gnueabihf-gcc: gcc-arm-linux-gnueabihf libc6-dev-armhf-cross
 command -v qemu-aarch64  : qemu-user
 command -v musl-gcc      : musl-tools
 '
