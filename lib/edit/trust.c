@@ -57,13 +57,13 @@ static bool filter_diagnostic(void *context, const PetriDiagnostic *diagnostic) 
 
 // --- the rows of a run
 
-typedef struct Printed {
+typedef struct TrustText {
     char text[VALUE_BYTES];
     size_t length;
-} Printed;
+} TrustText;
 
 static bool collect_text(void *user_data, const char *text, size_t length) {
-    Printed *printed = user_data;
+    TrustText *printed = user_data;
     size_t room = sizeof printed->text - 1 - printed->length;
     length = length < room ? length : room;
     memcpy(printed->text + printed->length, text, length);
@@ -76,8 +76,8 @@ static double *series_of(const Trust *trust, uint32_t expression, int element) {
     return trust->numbers + ((size_t)expression * ELEMENTS + (size_t)element) * TRUST_RUNS * trust->capacity;
 }
 
-static PetriStatus measure(Trust *trust, uint32_t expression, size_t row) {
-    Printed printed = {.length = 0};
+static PetriStatus measure_expression(Trust *trust, uint32_t expression, size_t row) {
+    TrustText printed = {.length = 0};
     PetriEvaluation result;
     const PetriTrustOptions *given = &trust->given;
     PetriStatus status = given->measure
@@ -147,7 +147,7 @@ static PetriStatus take_row(Trust *trust, size_t row) {
     project(trust, row);
     PetriStatus status = PETRI_OK;
     for (uint32_t i = 0; status == PETRI_OK && i < trust->given.count; i++)
-        status = measure(trust, i, row);
+        status = measure_expression(trust, i, row);
     return status;
 }
 
@@ -253,7 +253,7 @@ static void judge(const Trust *trust, double value, PetriTrust *found, char *tex
     }
 }
 
-static void report(const Trust *trust, const TrustGrowth *growth, uint32_t expression, size_t row) {
+static void report_row(const Trust *trust, const TrustGrowth *growth, uint32_t expression, size_t row) {
     double time = trust->rows > 1 ? trust->times[1] - trust->times[0] : 0;
     PetriTrust found = {.size = sizeof found,
                         .frame = trust->frames[row],
@@ -304,7 +304,7 @@ static void report_all(Trust *trust) {
     for (size_t row = 0; row < trust->rows; row++) {
         bool due = trust->given.every > 0 && trust->frames[row] % trust->given.every == 0;
         for (uint32_t i = 0; i < trust->given.count && (due || row + 1 == trust->rows); i++)
-            report(trust, &growth, i, row);
+            report_row(trust, &growth, i, row);
     }
 }
 

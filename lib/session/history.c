@@ -289,14 +289,14 @@ static void record_time(PetriHistory *history) {
 }
 
 // Completes the current frame, which was computed or restored with `status`: moves particles again.
-static PetriStatus end_frame(PetriHistory *history, PetriStatus status) {
+static PetriStatus end_recomputed_frame(PetriHistory *history, PetriStatus status) {
     PetriStatus moved = moves_repeat(&history->moves, history->session);
     return status == PETRI_OK ? moved : status;
 }
 
 static PetriStatus rewind_to(PetriHistory *history, const PetriSnapshot *snapshot) {
     PetriStatus status = petri_rewind(history->session, snapshot);
-    return status == PETRI_OK ? end_frame(history, status) : status;
+    return status == PETRI_OK ? end_recomputed_frame(history, status) : status;
 }
 
 static PetriStatus replay_step(PetriHistory *history) {
@@ -307,7 +307,7 @@ static PetriStatus replay_step(PetriHistory *history) {
     follow_epoch(history);
     PetriStatus status =
         known ? petri_step_at(session, history->times[at].time, history->times[at].beat) : petri_step(session);
-    return session->clock.number == before ? status : end_frame(history, status);
+    return session->clock.number == before ? status : end_recomputed_frame(history, status);
 }
 
 // Adds the current frame to the timeline.
@@ -346,7 +346,7 @@ PetriStatus petri_history_step(PetriHistory *history) {
     PetriStatus recorded = session->config_revision == config
                                ? record_history_frame(history)
                                : petri_history_start(history, "an imported file has changed");
-    return end_frame(history, status == PETRI_OK ? recorded : status);
+    return end_recomputed_frame(history, status == PETRI_OK ? recorded : status);
 }
 
 // Returns the last keyframe that is before `frame`, or NULL. If `frame` is the first of the timeline, returns it.

@@ -39,7 +39,7 @@ static PetriStatus prepare_moves(PetriSession *session, void *context) {
     return PETRI_OK;
 }
 
-static PetriStatus store(PetriSession *session, Value key, Value value) {
+static PetriStatus store_moved(PetriSession *session, Value key, Value value) {
     PetriStatus status = petri_state_set(session, session_export_value(&key), session_export_value(&value));
     if (status == PETRI_OK)
         scene_show_entry(session->scene, session->state, state_find(session->state, key));
@@ -59,10 +59,10 @@ PetriStatus moves_add(Moves *moves, PetriSession *session, size_t system, uint32
     int stored = 0;
     for (; stored < 2 && status == PETRI_OK; stored++)
         if (vectors[stored])
-            status = store(session, request.changes[stored].key, request.changes[stored].value);
+            status = store_moved(session, request.changes[stored].key, request.changes[stored].value);
     if (status != PETRI_OK) {
         if (stored > 1 && vectors[0])
-            store(session, request.changes[0].key, request.before[0]);
+            store_moved(session, request.changes[0].key, request.before[0]);
         return status;
     }
     moves_drop_after(moves, session->clock.number);
@@ -78,7 +78,7 @@ PetriStatus moves_repeat(Moves *moves, PetriSession *session) {
     while (first > 0 && moves->items[first - 1].frame >= session->clock.number)
         first--;
     for (uint32_t i = first; i < moves->count && moves->items[i].frame == session->clock.number; i++) {
-        PetriStatus stored = store(session, moves->items[i].key, moves->items[i].value);
+        PetriStatus stored = store_moved(session, moves->items[i].key, moves->items[i].value);
         status = status == PETRI_OK ? stored : status;
     }
     moves->torn = status != PETRI_OK;

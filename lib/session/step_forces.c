@@ -19,7 +19,7 @@ static PetriStatus name_system(PetriSession *session, void *context) {
 }
 
 // Calls the host outside of the protected call, because an escape (longjmp) must not skip over code of the host.
-static bool add_forces(void *host, StateSlot prefix, const PhysSystem *engine, const PhysStepStart *start) {
+static bool exert_forces(void *host, StateSlot prefix, const PhysSystem *engine, const PhysStepStart *start) {
     PetriSession *session = host;
     Step step = {.prefix = prefix, .engine = engine, .start = start};
     PetriStatus status = session_attempt(session, NULL, name_system, &step);
@@ -39,6 +39,6 @@ PetriStatus petri_set_force_callback(PetriSession *session, PetriForceCallback *
     if (!session || session->call_depth > 0 || (callback && session->ranks.calls.rank_count > 1))
         return PETRI_INVALID;
     session->step_forces = (StepForces){callback, user_data};
-    scene_set_forces(session->scene, callback ? add_forces : NULL, session);
+    scene_set_forces(session->scene, callback ? exert_forces : NULL, session);
     return PETRI_OK;
 }
