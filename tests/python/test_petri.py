@@ -70,6 +70,11 @@ class Package(unittest.TestCase):
         self.assertTrue(set(lines) <= set(petri.__all__))
         methods = re.search(r"^Session .*: (.*)$", petri.__doc__, re.M).group(1).split(", ")
         self.assertTrue(all(callable(getattr(petri.Session, method)) for method in methods))
+        [example] = re.findall("^    import petri\n(?:    .*\n)+", petri.__doc__, re.M)
+        names = {}
+        exec(inspect.cleandoc("\n" + example), names)  # the first example can be copied
+        self.assertEqual(names["session"].frame.number, 59)
+        self.assertEqual(names["session"].state["sky", "drop"], tuple(names["session"].systems["sky"].position[0]))
 
 
 class Views(unittest.TestCase):

@@ -1,13 +1,17 @@
-"""petri runs Flitter scripts with particle physics. It is fast, and its results are reproducible bit for bit.
+"""Runs Flitter scripts with particle physics, fast and reproducibly, bit for bit.
 
     import petri
-    session = petri.Session("dish.fl", CELLS=200)
-    session.step(60)
-    session.systems["cells"].position      # a numpy array, N×2
-    session.state["cells", 3]              # (x, y)
-    session.picture()                      # displayed in notebooks
+    session = petri.Session('''
+    !physics state=:sky dimensions=2
+        !particle id=:drop position=0;10
+        !constant acceleration=0;-9.81
+    ''')                               # or a file: petri.Session("dish.fl", CELLS=200)
+    session.step(60)                   # computes frames 0 to 59, 60 per second
+    session.systems["sky"].position    # the particles: a numpy array, N×2
+    session.state["sky", "drop"]       # one particle: (x, y)
+    session.picture()                  # displayed in notebooks
 
-Session     a script and its state: step, until, integrate, evaluate, snapshot, record, film, archive
+Session     a script and its state: step, until, integrate, evaluate, snapshot, record, film, trust, archive
 System      particles as numpy arrays, with energies and forces: session.systems["cells"]
 State       the state of a script: session.state
 Step        a physics step, for forces that Python computes: Session(..., forces={"cells": function})
@@ -16,7 +20,8 @@ sweep       runs a script with many values of its parameters
 Archive     a recorded run, which can be replayed and verified
 PetriError  an error, with its position in the script; PetriWarning: a script is probably wrong
 
-The tutorial is src/python/TUTORIAL.md in the source tree.
+help(petri.Session) explains scripts, parameters, functions and forces. The tutorial is src/python/TUTORIAL.md in the
+source tree.
 """
 
 from ._petri import ffi as _ffi, lib as _lib
