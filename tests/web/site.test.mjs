@@ -47,7 +47,7 @@ function runsWell({ frame, message, label, colours }) {
     assert.ok(colours > 1, `${label}: all of one colour`);
 }
 
-test('the ten steps of the tutorial run, and the last two are about tests and the prompt', ways, () => visit('tutorial.html', async page => {
+test('ten steps of the tutorial run; the last two are about tests and the prompt', ways, () => visit('tutorial.html', async page => {
     const steps = [...read('tutorial.html').matchAll(/<h2 id="[^"]*">(\d+)\. (.*?) <a[^]*?(?=<h2|<\/main>)/g)];
     assert.deepEqual(steps.map(([, number]) => Number(number)), [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
     assert.match(steps[0][2], /particle/);

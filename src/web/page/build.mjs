@@ -9,7 +9,9 @@ import { packagesOf, writeLicences } from '../../packaging/licences.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [, , output, samples] = process.argv;
-const OPTIONS = { external: ['node:fs/promises', './exports.js*', './grid.js*'], bundle: true, minify: true, target: 'es2022', logLevel: 'warning' };
+const OPTIONS = {
+    external: ['node:fs/promises', './exports.js*', './grid.js*'], bundle: true, minify: true, target: 'es2022', logLevel: 'warning',
+};
 const inputs = {};
 // The addresses of files that are loaded later, with their hashes, so that a page never loads those of another version (offline.js).
 const define = {};

@@ -116,7 +116,8 @@ export class Grid {
         const box = $('scroll').getBoundingClientRect(), width = Math.floor(Math.min(Math.max(Math.min(
             (box.width - 90) / across.values.length - 6, ((box.height - 60) / rows.length - 6) * ratio), MIN_WIDTH), MAX_WIDTH));
         this.dialog.style.setProperty('--cell', `${width}px`);
-        const scale = Math.min(globalThis.devicePixelRatio || 1, 2), size = [width, width / ratio].map(length => Math.round(length * scale));
+        const scale = Math.min(globalThis.devicePixelRatio || 1, 2);
+        const size = [width, width / ratio].map(length => Math.round(length * scale));
         this.cells = rows.flatMap(y => across.values.map(x => this.cell([[across.name, x], ...down ? [[down.name, y]] : []], size)));
         this.arrange(across, down, rows);
         this.say('Click a dish, or press Enter, to open it with these values. Arrow keys move between dishes.');
@@ -158,7 +159,8 @@ export class Grid {
 
     // Makes the table, whose rows and columns have the values as headings.
     arrange(across, down, rows) {
-        const [head, body] = this.dialog.querySelector('table').children, heading = (scope, text) => make('th', { scope, textContent: text });
+        const [head, body] = this.dialog.querySelector('table').children;
+        const heading = (scope, text) => make('th', { scope, textContent: text });
         const corner = make('td', {}, `${across.name} →`, make('br'), down ? `${down.name} ↓` : '');
         head.replaceChildren(make('tr', {}, corner, ...across.values.map(value => heading('col', value))));
         const columns = this.columns = across.values.length;
