@@ -39,6 +39,7 @@ static bool try_values(Measure *measure) {
 
 // Returns true if the expression is valid. Also returns true if its evaluation exceeded a limit, because the runs
 // report such errors; without a frame, checks only names. Otherwise returns false after a message.
+// `option`: the option that contains it, or NULL.
 static bool try_expression(Measure *measure, const char *option, const char *expression, bool has_frame) {
     PetriEvaluation result = {0};
     uint64_t errors = petri_diagnostic_count(measure->session, PETRI_ERROR);
@@ -49,7 +50,10 @@ static bool try_expression(Measure *measure, const char *option, const char *exp
     bool good = status != PETRI_INVALID && petri_diagnostic_count(measure->session, PETRI_ERROR) == errors;
     if (!measure->unbound_name && (aborted || good || !has_frame))
         return true;
-    message("cannot evaluate the expression of '--%s': '%s'", option, expression);
+    if (option)
+        message("cannot evaluate the expression of '--%s': '%s'", option, expression);
+    else
+        message("cannot evaluate the expression: '%s'", expression);
     return false;
 }
 
@@ -71,8 +75,8 @@ int measure_dry_run(Measure *measure) {
     measure->strict = true;
     bool good = !sweep->own->until || try_expression(measure, "until", sweep->own->until, has_frame);
     for (size_t i = 0; i < sweep->metric_count; i++) {
-        const char *expression = sweep->metrics[i].expression;
-        good = (!expression || try_expression(measure, "metric", expression, has_frame)) && good;
+        const char *expression = sweep->metrics[i].expression, *option = sweep->finish ? NULL : "metric";
+        good = (!expression || try_expression(measure, option, expression, has_frame)) && good;
     }
     return good ? STATUS_DONE : STATUS_USAGE;
 }

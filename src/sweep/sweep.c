@@ -72,7 +72,8 @@ static void print_cache_report(const Sweep *sweep) {
     if (differs > 0)
         message("%zu of %zu verified runs differ from their results in the cache", differs, verified + differs);
     if (sweep->own->cache && sweep->options->verbosity > LOG_QUIET)
-        message("%zu runs computed, %zu from the cache, %zu verified", sweep->origins[RESULT_COMPUTED],
+        message("%s%zu runs computed, %zu from the cache, %zu verified",
+                sweep->parts > 1 ? "with halves of the steps: " : "", sweep->origins[RESULT_COMPUTED],
                 sweep->origins[RESULT_CACHED], verified + differs);
 }
 

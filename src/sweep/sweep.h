@@ -9,6 +9,7 @@
 //   cache.c, read_files.c                results of earlier sweeps
 //   summary.c, table.c                   the table, commands and statistics
 //   result.c                             the cells of results
+//   student.c                            confidence intervals of means
 //   design.c, axis.c                     runs and their values
 #pragma once
 
@@ -111,6 +112,12 @@ bool axis_read(Axis *axis, const char *text);
 Cell axis_cell(const Axis *axis, const char *value);
 // Appends a value as an expression of the language.
 void axis_add_literal(Text *out, const char *value);
+
+// Returns the half width of the confidence interval of a mean by Student's distribution, or INFINITY if `count` is
+// below
+// 2. `level` is its probability, such as 0.95, `count` the number of independent values, and `squares` the sum of their
+// squared differences from their mean.
+double student_half_width(double level, double count, double squares);
 
 // Executes the runs of a sweep whose fields up to `own` are set, and `trust_columns` and `finish` for another command
 // than `petri sweep`. Returns the exit status.

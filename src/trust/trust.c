@@ -143,6 +143,11 @@ static int print_findings(Sweep *sweep) {
 
 static int trust_run(const CommandContext *host, Options *options) {
     TrustOptions *own = options->own;
+    bool means = own->sweep.seeds > 0 || own->within > 0;
+    if (means && own->sweep.row_every > 0) {
+        message("option '--every' reports frames of a single run; leave it out with --seeds and --within");
+        return STATUS_USAGE;
+    }
     if (options->expressions.count == 0)
         texts_add(&options->expressions, "energy");
     for (size_t i = 0; i < options->expressions.count; i++) {
@@ -153,7 +158,7 @@ static int trust_run(const CommandContext *host, Options *options) {
         text_add_c(&metric, expression);
         texts_add(&own->sweep.metrics, metric.bytes);
     }
-    if (own->sweep.seeds > 0 || own->within > 0) {
+    if (means) {
         int result = means_run(host, options);
         texts_free(&own->sweep.metrics);
         return result;
@@ -187,7 +192,7 @@ static const OptionSpec ROWS[] = {
     OWN("seeds", 0, "N", WHOLE(1, 100000), sweep.seeds, "print means over N runs, with SEED from 1 to N; with --within: at most N")
     OWN("within", 0, "P%", read_width, within, "add runs until the 95 % interval of each mean is within P % of it")
     OWN("jobs", 0, "N", WHOLE(1, 1024), sweep.jobs, "execute N runs in parallel (default: number of CPUs)")
-    OWN("json", 0, NULL, option_flag, json, "print a list of objects with value, error, order, spread, digits, verdict")
+    OWN("json", 0, NULL, option_flag, json, "print a list of objects")
     OWN("cache", 0, "DIR", option_text, sweep.cache, "store the results in the folder DIR, and use those that are there")
     FPS_OPTION READ_OPTIONS
     SHARED("threads", 0, "N", WHOLE(1, 1024), threads, "use N worker threads (default: 1); does not change results")
@@ -206,15 +211,20 @@ const Command TRUST_COMMAND = {
         "the\n"
         "last frame: its value, a bound of the error of the step, the order that was observed, the spread by "
         "rounding,\n"
-        "and the number of digits that are true. EXPR is an expression as for --metric of petri sweep, or one of\n"
+        "and the number of digits that are true; --json prints these, lyapunov_time, lyapunov_error, horizon and "
+        "verdict.\n"
+        "EXPR is an expression as for --metric of petri sweep, or one of\n"
         "energy, kinetic_energy, potential_energy, momentum, angular_momentum (default: energy).\n"
         "\n"
         "--seeds N prints means over N runs instead, with 95 % intervals that allow for correlation in time; --within "
         "1%\n"
-        "executes as many runs as the means need, and the same command with --cache DIR resumes.\n"
+        "executes as many runs as the means need, and the same command with --cache DIR resumes. The objects of "
+        "--json\n"
+        "then have expression, mean, half_width, step, runs, independent, verdict.\n"
         "\n"
         "The last lines say whether the value has converged, which step to use instead, from when on a chaotic system\n"
-        "has no predictable values, or which force is unstable. The exit status is 1 if the run is unstable or fails.",
+        "has no predictable values, or which force is unstable. The exit status is 1 if the run is unstable or fails, "
+        "or misses --within.",
     .examples = "  petri trust dish.fl\n"
                 "  petri trust dish.fl 'place(0)' 'mean(hypot(place(i)) for i in ..DROPS)' --every 100\n"
                 "  petri trust dish.fl energy --frames 2000 --json\n"

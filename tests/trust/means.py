@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""means.py PETRI COUNT: checks the intervals that `petri trust --seeds` states for a mean that is known.
+"""means.py PETRI COUNT: checks the intervals that `petri trust` states for a mean that is known.
 
 A bead in a harmonic trap with noise and drag has the mean position 5, by symmetry. Its positions are correlated for
-about a second. Each of COUNT groups of 10 runs has other random numbers. Exits with 1 if so few intervals
-contain the mean that 95 % intervals would do so in less than one of 1000 attempts, or if they are wider than needed.
+about a second. Each of COUNT groups of runs has other random numbers: of 10 runs, or of as many as --within adds. Exits
+with 1 if so few intervals contain the mean that chance explains it in less than one of 50 attempts, where 95 of 100 are
+expected; if they are fewer than 93 of 100, for at least 200 groups; if they are wider than they need to be; or if more
+than 6 of 100 groups are said to drift (2 are expected).
 """
 import json
 import math
@@ -27,6 +29,30 @@ let SEED=SEED or 1
 """
 
 
+# Options of trust.
+WAYS = {"10 runs": ["--seeds", "10", "--frames", "1200"], "--within 8%": ["--within", "8%", "--frames", "600"]}
+
+
+def fewest(count):
+    """Returns the smallest number of intervals that is not suspicious."""
+    def chance(end):
+        return sum(math.comb(count, k) * 0.95**k * 0.05 ** (count - k) for k in range(end))
+
+    by_chance = max(k for k in range(count + 1) if chance(k) < 0.02)
+    return max(by_chance, math.ceil(0.93 * count)) if count >= 190 else by_chance
+
+
+def is_good(way, options, count, run):
+    found = [one for one in run(options, range(1, count + 1)) if one["half_width"] is not None]
+    contained = sum(abs(one["mean"] - MEAN) <= one["half_width"] for one in found)
+    scatter = math.sqrt(sum((one["mean"] - MEAN) ** 2 for one in found) / len(found))
+    width = sum(one["half_width"] for one in found) / len(found)
+    runs = sum(one["runs"] for one in found) / len(found)
+    print(f"{way}: {contained} of {len(found)} intervals contain the mean; {count - len(found)} groups drift; "
+          f"the half width is {width / scatter:.2f} standard errors, with {runs:.1f} runs")
+    return contained >= fewest(len(found)) and width < 3.5 * scatter and count - len(found) <= 0.06 * count
+
+
 def main():
     petri, count = sys.argv[1], int(sys.argv[2])
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -34,17 +60,16 @@ def main():
         with open(path, "w", encoding="utf-8") as file:
             file.write(SCRIPT)
 
-        def group(number):
-            words = ["trust", path, "$(:t;:bead)", "--seeds", "10", "--frames", "1200", "--json", "--jobs", "1", "-D", f"GROUP={number}"]
-            return json.loads(subprocess.run([petri, *words], check=True, capture_output=True, text=True).stdout)[0]
+        def group(options, number):
+            words = [petri, "trust", path, "$(:t;:bead)", *options, "--json", "--jobs", "1", "-D", f"GROUP={number}"]
+            output = subprocess.run(words, capture_output=True, text=True).stdout  # status 1: it drifts
+            return json.loads(output)[0]
 
-        found = list(pool.map(group, range(1, count + 1)))
-    contained = sum(abs(one["mean"] - MEAN) <= one["half_width"] for one in found)
-    scatter = math.sqrt(sum((one["mean"] - MEAN) ** 2 for one in found) / count)
-    width = sum(one["half_width"] for one in found) / count
-    print(f"{contained} of {count} intervals contain the mean; their half width is {width / scatter:.2f} standard errors")
-    chance = sum(math.comb(count, k) * 0.95**k * 0.05 ** (count - k) for k in range(contained + 1))
-    sys.exit(chance < 0.001 or width > 3.5 * scatter)
+        def run(options, numbers):
+            return list(pool.map(lambda number: group(options, number), numbers))
+
+        good = [is_good(way, options, count, run) for way, options in WAYS.items()]
+    sys.exit(not all(good))
 
 
 if __name__ == "__main__":

@@ -97,17 +97,38 @@ check "the number of jobs does not matter" same_after trust dish.fl '$(:t;:bead)
 trust dish.fl '$(:t;:bead)' --within 3% --frames 600 --cache runs
 check "runs are added until the interval is narrow" eval 'status_is 0 && grep -q "within [12][.0-9]* %" out'
 count=$(sed -n 's/^petri: \([0-9]*\) runs computed, 0 from the cache.*/\1/p' err | head -n 1)
-check "more than the first runs are needed" [ "$count" -gt 8 ]
+check "more than the first runs are needed" [ "$count" -gt 20 ]
+check "the runs with halves of the steps are the same" [ "$(grep -c "$count runs computed" err)" -eq 2 ]
+check "and are said to be those" has err "with halves of the steps: $count runs computed"
 trust dish.fl '$(:t;:bead)' --within 3% --frames 600 --cache runs
 check "an interrupted search resumes from the cache" has err "0 runs computed, $count from the cache"
 trust dish.fl '$(:t;:bead)' --within 0.01% --seeds 10 --frames 600
-check "a limit says how many runs are needed" has out "runs would give 0.01 %"
+check "a limit says how many runs are needed" eval 'has out "misses 0.01 %: within " && has out "runs would give 0.01 %"'
+check "a missed width is a failure" status_is 1
+trust dish.fl '$(:t;:bead)' 1 --seeds 10 --frames 600 --json
+check "a width that nobody wants is none" eval 'status_is 0 && has out "\"verdict\": \"within "'
+trust dish.fl '0*$(:t;:bead)' --seeds 10 --frames 600 --within 1%
+check "the mean 0 of equal values has an interval" eval 'status_is 0 && has out "within 0 %"'
+trust dish.fl '$(:t;:bead)+frame*0.006' --seeds 8 --frames 600
+check "a drift leaves no interval" eval 'has out "still drifts, by " && has out " from the third to the fourth quarter; use more frames" && has out "  -  "'
+trust dish.fl '$(:t;:bead)+frame*0.006' --within 5% --frames 600 --cache drift
+check "a clear drift ends the search" eval 'status_is 1 && has err "petri: 20 runs computed"'
+trust dish.fl '$(:t;:bead)+(1 if frame < 300 else 0)' --seeds 8 --frames 600
+check "a drift of the first half does not matter" has out "within "
+sed 's/dimensions=1/& resolution=RES/; s/^let /let RES=RES or 0.002 /' dish.fl >steps.fl
+trust steps.fl '$(:t;:bead;:velocity)**2' --seeds 10 --frames 600 --fps 2 -D RES=0.5
+check "an error of the step that is not noise asks for a smaller resolution" eval 'has out "the step adds up to " && has out ": use a smaller resolution"'
+trust steps.fl '$(:t;:bead;:velocity)**2' --seeds 10 --frames 600
+check "an error of the step that is small is not mentioned" eval '! has out "the step"'
 trust spring.fl '$(:s;:ball)' --seeds 4
 check "runs that do not differ have no interval" eval 'has out "the runs are alike" && has out "  -  "'
 trust dish.fl 1 --seeds 4 --frames 10
 check "a constant is its mean" grep -q "^1 *1 *0 *0 *4 " out
 trust dish.fl 1 --within 0
 check "a width of 0 is rejected" eval 'status_is 2 && has err "a percentage above 0"'
+
+trust dish.fl energy --seeds 4 --every 10
+check "rows of means are rejected" eval 'status_is 2 && has err "'"'--every'"'"'
 
 # --- errors
 
@@ -116,7 +137,7 @@ check "a script is needed" eval 'status_is 2 && has err "no script given"'
 trust missing.fl
 check "a missing script is reported" eval 'status_is 1 && has err missing.fl'
 trust spring.fl 'nope+1'
-check "an unbound name is an error" eval 'status_is 2 && has err "unbound name" && has err nope'
+check "an unbound name is an error" eval 'status_is 2 && has err "unbound name" && has err "expression: '"'nope+1'"'" && ! has err metric'
 trust spring.fl '1+'
 check "a syntax error is an error" eval 'status_is 2 && has err "cannot evaluate"'
 trust - '1'
