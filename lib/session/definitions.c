@@ -1,11 +1,13 @@
 // definitions.c: checks of the definitions (-D) that set the parameters of the loaded script.
 #include "session/definitions.h"
 
+#include "ast/literal.h"
 #include "base/number.h"
 #include "session/session.h"
 #include "value/format.h"
 
 #include <math.h>
+#include <string.h>
 
 static bool has_module(const ModuleList *list, const Program *module) {
     for (uint32_t i = 0; i < list->count; i++)
@@ -78,6 +80,23 @@ static Origin origin_of(const Parameter *parameter) {
     return (Origin){parameter->source, parameter->span};
 }
 
+// Returns how to write a value that is not a number. `quoted` is it as text of the language.
+static Str number_hint(Arena *arena, Str quoted) {
+    if (str_equal(quoted, STR("'true'")) || str_equal(quoted, STR("'false'")))
+        return STR("write 1 for true and 0 for false");
+    const char *slash = memchr(quoted.bytes, '/', quoted.len);
+    double a, b;
+    char quotient[NUMBER_TEXT];
+    if (!slash || quoted.bytes[0] != '\'')
+        return (Str){0};
+    Str before = {quoted.bytes + 1, (size_t)(slash - quoted.bytes) - 1};
+    Str after = {slash + 1, quoted.len - before.len - 3};
+    if (!literal_parse_number(before, &a) || !literal_parse_number(after, &b) || !isfinite(a / b))
+        return (Str){0};
+    size_t length = number_format(a / b, quotient);
+    return str_format(arena, "write %.*s for %.*s", (int)length, quotient, (int)(quoted.len - 2), quoted.bytes + 1);
+}
+
 // Reports an error and returns false if the default consists of numbers, but the definition does not.
 static bool check_numbers(const Check *check, const Parameter *parameter) {
     Value v = check->define->value;
@@ -88,11 +107,10 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
     while (is_plain_constant(check->session, value_at(&v, at)))
         at++;
     Str wrong = format_text(arena, &check->session->symbols, value_element(v, at));
-    bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));
     report_definition(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
                       str_format(arena, "%.*s is not a number; '%.*s' takes numbers, such as its default %.*s",
                                  STR_ARGS(wrong), STR_ARGS(parameter->name->name), STR_ARGS(parameter->default_text)),
-                      is_truth ? STR("write 1 for true and 0 for false") : (Str){0});
+                      number_hint(arena, wrong));
     return false;
 }
 

@@ -28,8 +28,8 @@ static bool try_values(Measure *measure) {
                 continue;
             measure_begin_run(measure, run);
             if (measure->false_definition || measure->invalid_definition) {
-                message("cannot start the sweep: the script does not use %s=%s", design->axes[axis].name,
-                        values->items[i]);
+                message("cannot start the sweep: the script does not %s %s=%s",
+                        measure->false_definition ? "use" : "accept", design->axes[axis].name, values->items[i]);
                 return false;
             }
         }

@@ -75,6 +75,15 @@ petri run --frames 1 --print tree gain.fl -D GAIN=0
 check "a run does not use the default instead of 0" eval 'status_is 1 && empty out'
 check "the error writes the declaration that accepts 0" has err "write 'let GAIN=GAIN if GAIN != null else 5'"
 
+for row in '1/240=0.004166666666666667' '-3/2=-1.5' '1k/8=125'; do
+    petri run --frames 1 gain.fl -D "GAIN=${row%=*}"
+    check "the number ${row#*=} is suggested for the quotient ${row%=*}" eval 'status_is 2 && has err "write ${row#*=} for ${row%=*}"'
+done
+for value in 1/0 1/ /2 1/2/3 a/b ':1/23'; do
+    petri run --frames 1 gain.fl -D "GAIN=$value"
+    check "no number is suggested for $value" eval 'status_is 2 && has err "is not a number" && lacks err "write"'
+done
+
 petri run --parameters cells.fl
 check "--parameters lists name, default, range and comment" out_is "CELLS  200       1..500  how many cells
 SPEED  1.5

@@ -466,7 +466,7 @@ printf 'let A=A or 7 -- 1..9\n' >defaults.fl
 for values in '2;0' '2;-0' '3;0.0' '2;0;0' '1;(0;0)' '-1..1'; do
     refused "the values $values are rejected, because one has no effect" "write 'let A=A if A != null else 7'" defaults.fl -D "A=$values" --metric a=A
 done
-refused "a later value of the wrong type is rejected" "cannot start the sweep: the script does not use A=x" defaults.fl -D 'A=2;3;x' --metric a=A
+refused "a later value of the wrong type is rejected" "cannot start the sweep: the script does not accept A=x" defaults.fl -D 'A=2;3;x' --metric a=A
 printf 'let A=A if A != null else 7\n    B=B or 0\n' >zeros.fl
 sweep zeros.fl -D 'A=-1..1' -D 'B=0;2' --frames 1 --metric 's=A+B' --quiet
 check "values of 0 are used where the script accepts them" [ "$(cut -d, -f5 out | tail -n 6 | tr '\n' ' ')" = '-1 1 0 2 1 3 ' ]
