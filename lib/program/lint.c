@@ -49,7 +49,7 @@ static bool mentions(const Ast *ast, const Symbol *name) {
 static Str unused_hint(const Binding *binding, bool top_level) {
     if (binding->value && mentions(binding->value, binding->name))
         return STR("a 'let' binds a new name and changes no other one; to add up numbers, write 'sum(x for x in v)'");
-    if (top_level && binding->kind == BINDING_FUNC)
+    if (top_level && (binding->kind == BINDING_FUNC || binding->kind == BINDING_LET))
         return STR("if only --metric or the prompt uses it, begin its name with '_'");
     return (Str){0};
 }

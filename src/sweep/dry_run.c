@@ -72,6 +72,7 @@ int measure_dry_run(Measure *measure) {
     size_t last = sweep->design.run_count - 1;
     bool has_frame = petri_step(measure->session) == PETRI_OK ||
                      (measure_begin_run(measure, last) == PETRI_OK && petri_step(measure->session) == PETRI_OK);
+    measure_hint_late_metrics(measure);
     measure->strict = true;
     bool good = !sweep->own->until || try_expression(measure, "until", sweep->own->until, has_frame);
     for (size_t i = 0; i < sweep->metric_count; i++) {

@@ -45,5 +45,7 @@ PetriStatus measure_begin_run(Measure *measure, size_t run);
 // that it may reject, and computes the first frame of a run. Returns STATUS_DONE, or the exit status after a
 // message.
 int measure_dry_run(Measure *measure);
+// Shows a hint for each metric that is only the name of a `let` which reads the state (late_metrics.c).
+void measure_hint_late_metrics(Measure *measure);
 // Adds the contents of all source files of the script, or the digest of the archive, to the hash.
 void measure_hash_sources(Measure *measure, Sha256 *hash);

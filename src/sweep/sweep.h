@@ -5,7 +5,8 @@
 //   settings.c; plan.c, plot_grid.c      its options; plans and plots, which petri itself does not link (plots.h)
 //   worker_pool.c or worker_sequence.c   workers that execute runs; worker_result.c: the results that they send
 //   journal.c                            results of finished runs, to resume from
-//   dry_run.c, measure.c                 checks before the first run; execution of a run
+//   dry_run.c, late_metrics.c            checks before the first run
+//   measure.c                            execution of a run
 //   cache.c, read_files.c                results of earlier sweeps
 //   summary.c, table.c                   the table, commands and statistics
 //   result.c                             the cells of results

@@ -281,7 +281,7 @@ petri run optional.fl --frames 1
 check "run does not report optional definitions" empty err
 
 # Output formats for other programs.
-printf 'let \303\251=coz(1)\n!n a=\303\251 b="\\q"+1\n!pysics\nlet u=2\n' >codes.fl
+printf 'let \303\251=coz(1)\n!n a=\303\251 b="\\q"+1\n!pysics\n!p\n    let u=2\n    !o a=1\n' >codes.fl
 petri check --format gcc codes.fl
 check "--format gcc prints one line per diagnostic on standard output" lines_are out 4
 check "gcc output has position, text, hint and code" \

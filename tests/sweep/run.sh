@@ -466,6 +466,33 @@ printf 'let A=A or 7 -- 1..9\n' >defaults.fl
 for values in '2;0' '2;-0' '3;0.0' '2;0;0' '1;(0;0)' '-1..1'; do
     refused "the values $values are rejected, because one has no effect" "write 'let A=A if A != null else 7'" defaults.fl -D "A=$values" --metric a=A
 done
+cat >late.fl <<'END'
+let N=N or 2
+    CONSTANT=N*3
+func place(i)
+    $(:s;i)
+func loop(i)
+    loop(i-1) if i > 0 else 0
+let direct=$(:s;0)
+    indirect=place(0)+CONSTANT
+    recursive=loop(3)
+func _inside()
+    place(0)
+!physics state=:s dimensions=1
+    !particle id=0 position=0 velocity=N
+END
+for metric in direct indirect ' indirect '; do
+    sweep late.fl -D N=1 --frames 3 --metric "m=$metric"
+    check "the metric $metric is late" eval 'status_is 0 && has err "reads the state, so it is one frame late"'
+done
+for metric in N CONSTANT recursive '_inside()' '$(:s;0)' 'indirect+0*N' 'place(0)'; do
+    sweep late.fl -D N=1 --frames 3 --metric "m=$metric"
+    check "nothing is said about the metric $metric" eval 'status_is 0 && lacks err late'
+done
+sweep late.fl -D N=1 --frames 3 --metric direct=direct --metric 'now=$(:s;0)' --every 1
+check "it has the value after the frame before" [ "$(sed -n 3p out | cut -d, -f4)" = "$(sed -n 2p out | cut -d, -f5)" ]
+sweep late.fl -D N=1 --frames 3 --metric m=direct --quiet
+check "--quiet hides the hint" empty err
 refused "a later value of the wrong type is rejected" "cannot start the sweep: the script does not accept A=x" defaults.fl -D 'A=2;3;x' --metric a=A
 printf 'let A=A if A != null else 7\n    B=B or 0\n' >zeros.fl
 sweep zeros.fl -D 'A=-1..1' -D 'B=0;2' --frames 1 --metric 's=A+B' --quiet
