@@ -364,6 +364,7 @@ def main():
     (folder / 'petri.c').write_text('\n'.join(make(build)) + '\n', encoding='utf-8')
     for name in PUBLIC:
         shutil.copyfile(ROOT / 'lib/include' / name, folder / name)
+    shutil.copyfile(PARTS / 'check_report.c', folder / 'check_report.c')
 
 
 main()

@@ -50,6 +50,18 @@ END
     petri run ball.fl --quiet --frames 90 --every 89 --print digest
     check "the digests are those of the run" eval \
         'for digest in $(sed -n "s/^= //p" out); do has report.txt "$digest"; done'
+    "$CHECK_REPORT" report.txt ball.fl >out 2>err
+    status=$?
+    check "a program of 80 lines checks the report" eval 'status_is 0 && has out "frame 89: equal"'
+    sed 's/^frame 89 ./frame 89 x/' report.txt >forged.txt
+    "$CHECK_REPORT" forged.txt ball.fl >out 2>err
+    status=$?
+    check "it finds a forged digest" eval 'status_is 1 && has out "frame 89: differs"'
+    petri archive verify "$releases/0.3/floor.petri" --spec 0.3 --report old.txt
+    petri archive unpack "$releases/0.3/floor.petri" floor
+    "$CHECK_REPORT" old.txt floor/floor.fl >out 2>err
+    status=$?
+    check "it computes by the rules in the report" eval 'status_is 0 && has out "frame 39: equal"'
     petri archive verify "$releases/0.3/floor.petri" --report bad.txt
     check "a run that differs has no report" eval 'status_is 1 && ! [ -e bad.txt ]'
     petri archive verify ball.petri --sample 1 --report bad.txt

@@ -41,6 +41,8 @@ for compiler in gcc clang; do
     nm -g --defined-only petri.o | awk '{ print $3 }' |
         grep -vE '^(petri_|heap_exhausted$|(far|pair|phys)_kernels_|maths_arrays_)' >out
     check "$compiler exports only the interface" [ ! -s out ]
+    $compiler -Wall -Wextra -Werror petri.o check_report.c -o check_report -lm -lpthread >out 2>&1
+    check "check_report.c compiles with $compiler" [ -x check_report ]
     relink src/petri "$PWD/petri" >out 2>&1
     check "the command links with petri.c by $compiler" [ -x petri ]
     for program in tests/physics/seed_tests tests/physics/test_determinism; do
