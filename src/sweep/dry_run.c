@@ -3,6 +3,9 @@
 #include "sweep/measure.h"
 #include "sweep/options.h"
 
+#include <math.h>
+#include <string.h>
+
 // Returns true if the script may reject the value or replace it by its default. It always uses numbers other than 0.
 static bool may_be_refused(const char *value) {
     double x = 0;
@@ -57,6 +60,19 @@ static bool try_expression(Measure *measure, const char *option, const char *exp
     return false;
 }
 
+// Shows a hint for each definition that looks like the values of a sweep. It is a vector for other commands.
+static void hint_vectors(Measure *measure) {
+    const Sweep *sweep = measure->sweep;
+    PetriParameter parameter;
+    if (!sweep->finish || sweep->parts > 1 || sweep->options->verbosity <= LOG_QUIET)
+        return;
+    for (size_t i = 0; petri_parameter(measure->session, i, &parameter, sizeof parameter); i++)
+        if (parameter.defined && !isnan(parameter.default_number) && strchr(parameter.value, ';'))
+            message("%s=%s is a vector, but the default %s is one number; petri trust takes one value for each name, "
+                    "petri sweep --trust varies it",
+                    parameter.name, parameter.value, parameter.default_value);
+}
+
 int measure_dry_run(Measure *measure) {
     const Sweep *sweep = measure->sweep;
     if (!try_values(measure))
@@ -73,6 +89,7 @@ int measure_dry_run(Measure *measure) {
     bool has_frame = petri_step(measure->session) == PETRI_OK ||
                      (measure_begin_run(measure, last) == PETRI_OK && petri_step(measure->session) == PETRI_OK);
     measure_hint_late_metrics(measure);
+    hint_vectors(measure);
     measure->strict = true;
     bool good = !sweep->own->until || try_expression(measure, "until", sweep->own->until, has_frame);
     for (size_t i = 0; i < sweep->metric_count; i++) {

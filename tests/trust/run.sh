@@ -127,6 +127,21 @@ check "a constant is its mean" grep -q "^1 *1 *0 *0 *4 " out
 trust dish.fl 1 --within 0
 check "a width of 0 is rejected" eval 'status_is 2 && has err "a percentage above 0"'
 
+trust spring.fl energy -D 'K=10;20' --frames 10
+check "values as for a sweep get a hint" eval 'has err "K=10;20 is a vector, but the default 10 is one number" && has err "petri sweep --trust varies it"'
+trust spring.fl energy -D K=20 --frames 10
+check "one value gets none" eval 'status_is 0 && ! has err vector'
+cat >late.fl <<'END'
+let here=$(:s;0)
+func now()
+    $(:s;0)
+!physics state=:s dimensions=1
+    !particle id=0 position=0 velocity=1
+END
+trust late.fl here --frames 10
+check "a let that reads the state gets a hint" has err "'here' is a 'let' that reads the state, so it is one frame late"
+trust late.fl 'now()' --frames 10
+check "a function gets none" eval 'status_is 0 && ! has err "one frame"'
 trust dish.fl energy --seeds 4 --every 10
 check "rows of means are rejected" eval 'status_is 2 && has err "'"'--every'"'"'
 
