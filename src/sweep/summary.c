@@ -1,4 +1,4 @@
-// summary.c: mean, standard deviation and quantiles of each metric over runs that differ only in SEED.
+// summary.c: mean, its 95 % interval, standard deviation and quantiles of each metric over runs that differ only in SEED.
 #include "cli/particles.h"
 #include "sweep/options.h"
 #include "sweep/table.h"
@@ -30,7 +30,10 @@ static void add_statistics(Text *out, const Row *sorted, size_t count) {
         squares += (sorted[i].x - mean) * (sorted[i].x - mean);
     text_add_format(out, "%zu,%.12g,", count, mean);
     if (count > 1)
-        text_add_format(out, "%.12g", sqrt(squares / (double)(count - 1)));
+        text_add_format(out, "%.12g,%.12g", sqrt(squares / (double)(count - 1)),
+                        student_half_width(0.95, (double)count, squares));
+    else
+        text_add_c(out, ",");
     for (int quarter = 0; quarter <= 4; quarter++)
         text_add_format(out, ",%.12g", quantile(sorted, count, quarter / 4.0));
     text_add_format(out, "\n");
@@ -79,7 +82,7 @@ void summary_make(const Sweep *sweep, Text *out) {
     const Design *design = &sweep->design;
     for (size_t i = 0; i < design->axis_count - design->seeded; i++)
         add_name(out, design->axes[i].name);
-    text_add_format(out, "%smetric,runs,mean,std,min,q1,median,q3,max\n", sweep->own->row_every > 0 ? "frame," : "");
+    text_add_format(out, "%smetric,runs,mean,std,half_width,min,q1,median,q3,max\n", sweep->own->row_every > 0 ? "frame," : "");
     for (size_t run = 0, end = 0; run < design->run_count; run = end) {
         while (end < design->run_count && differ_in_seed_alone(design, run, end))
             end++;

@@ -15,5 +15,5 @@ void table_make(const Sweep *sweep, bool csv, Text *out);
 void table_commands(const Sweep *sweep, Text *out);
 // Appends the start of the command that compares a run with a second run.
 void table_diff_command(const Sweep *sweep, size_t run, int64_t frames, Text *out);
-// Appends mean, standard deviation and quantiles of each metric over runs that differ only in SEED.
+// Appends mean, its 95 % interval, standard deviation and quantiles of each metric over runs that differ only in SEED.
 void summary_make(const Sweep *sweep, Text *out);

@@ -147,11 +147,17 @@ check "a different seed gives a different sample" [ "$(cmp -s out first; echo $?
 # --- summary and plots
 
 sweep sum.fl -D A=1..2 --seeds 4 --frames 1 --metric x=A*SEED*SEED --summary means.csv -o t.csv
-check "--summary writes mean, deviation and quartiles" [ "$(cat means.csv)" = 'A,metric,runs,mean,std,min,q1,median,q3,max
-1,x,4,7.5,6.5574385243,1,3.25,6.5,10.75,16
-2,x,4,15,13.1148770486,2,6.5,13,21.5,32' ]
+check "--summary writes mean, deviation, interval and quartiles" [ "$(cat means.csv)" = 'A,metric,runs,mean,std,half_width,min,q1,median,q3,max
+1,x,4,7.5,6.5574385243,10.4343480019,1,3.25,6.5,10.75,16
+2,x,4,15,13.1148770486,20.8686960038,2,6.5,13,21.5,32' ]
+# The quantiles of Student's distribution in tables are 12.706, 4.303, 2.262, 2.045 and 1.984.
+for row in 2:12.706 3:4.303 10:2.262 30:2.045 100:1.984; do
+    sweep sum.fl -D A=1 --seeds "${row%:*}" --frames 1 --metric x=SEED --summary means.csv -o t.csv
+    check "the interval of ${row%:*} runs is Student's" \
+        [ "$(awk -F, -v n="${row%:*}" 'NR == 2 { printf "%.3f", $6 / $5 * sqrt(n) }' means.csv)" = "${row#*:}" ]
+done
 sweep sum.fl -D A=1..2 --frames 9 --until 'frame == A' --summary means.csv -o t.csv
-check "without metrics, --summary summarises the last frame" has means.csv '2,frame,1,2,,2,2,2,2,2'
+check "without metrics, --summary summarises the last frame" has means.csv '2,frame,1,2,,,2,2,2,2,2'
 if [ "$2" = draws ]; then
     sweep sum.fl -D A=1..5 -D 'B=1;2' --frames 3 --metric x=A*B --plot plot.png -o t.csv
     check "--plot writes a PNG file" [ "$(head -c 4 plot.png | tail -c 3)" = PNG ]
