@@ -1,4 +1,5 @@
-// summary.c: mean, its 95 % interval, standard deviation and quantiles of each metric over runs that differ only in SEED.
+// summary.c: mean, its 95 % interval, standard deviation and quantiles of each metric over runs that differ only in
+// SEED.
 #include "cli/particles.h"
 #include "sweep/options.h"
 #include "sweep/table.h"
@@ -82,7 +83,8 @@ void summary_make(const Sweep *sweep, Text *out) {
     const Design *design = &sweep->design;
     for (size_t i = 0; i < design->axis_count - design->seeded; i++)
         add_name(out, design->axes[i].name);
-    text_add_format(out, "%smetric,runs,mean,std,half_width,min,q1,median,q3,max\n", sweep->own->row_every > 0 ? "frame," : "");
+    text_add_format(out, "%smetric,runs,mean,std,half_width,min,q1,median,q3,max\n",
+                    sweep->own->row_every > 0 ? "frame," : "");
     for (size_t run = 0, end = 0; run < design->run_count; run = end) {
         while (end < design->run_count && differ_in_seed_alone(design, run, end))
             end++;

@@ -169,7 +169,7 @@ test('SIGTERM ends a run with its summary', async () => {
 
 test('the command is small and starts quickly', () => {
     const size = name => gzipSync(fs.readFileSync(join(folder, name)), { level: 9 }).length;
-    assert.ok(size('petri-command.wasm') <= 570e3 && size('petri-pictures.wasm') <= 1050e3);
+    assert.ok(size('petri-command.wasm') <= 580e3 && size('petri-pictures.wasm') <= 1060e3);
     const seconds = command => Math.min(...Array.from({ length: 5 }, () => {
         const start = performance.now();
         assert.equal(spawnSync('node', command).status, 0);

@@ -128,7 +128,7 @@ test('a script that draws nothing, or has errors from the start, shows an empty 
             await page.click('#reset');
             await atFrame(page, 0);
             await page.click('#save-as');
-            assert.ok(await page.isDisabled('#saving [value=picture]') && await page.isDisabled('#saving [value=film]'));
+            assert.ok(await page.isDisabled('#saving [value=picture]') && await page.isDisabled('#saving [value=gif]'));
             await page.keyboard.press('Escape');
         }
         await typed(page, RED);
