@@ -54,8 +54,9 @@ awk -v work="$work" '/^## [0-9]+\. / { step = $2 + 0 }
     /^```$/ { file = "" }
     file { print >file }
     /^\*\*Task:\*\* / { print step }' samples/TUTORIAL.md >"$work/tasks"
-check "each step of the tutorial has one task and an answer" \
-    [ "$(tr '\n' ' ' <"$work/tasks")-$(sed '/^#/d; s/ .*//' tests/docs/tasks.txt | tr '\n' ' ')" = "$(seq -s ' ' 10) -$(seq -s ' ' 10) " ]
+check "each step of the tutorial has one task" [ "$(tr '\n' ' ' <"$work/tasks")" = "$(seq -s ' ' 12) " ]
+# The tasks about tests and the prompt do not change the script.
+check "each task of the first ten has an answer" [ "$(sed '/^#/d; s/ .*//' tests/docs/tasks.txt | tr '\n' ' ')" = "$(seq -s ' ' 10) " ]
 sed '/^#/d' tests/docs/tasks.txt >"$work/answers"
 while read -r step answer; do
     sed "$answer" "$work/$step.fl" >"$work/answer.fl"
