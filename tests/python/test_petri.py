@@ -584,7 +584,7 @@ class Sweeps(unittest.TestCase):
                     ({"A": [1, 2]}, {"x": "AA+1"}, {}, "did you mean 'A'"), ({"A": [1, 2]}, {"x": "A"}, {"until": "frme > 1"}, "'frme'"),
                     ({"AA": [1, 2]}, {"x": "A"}, {}, "did you mean 'A'"), ({"A": [1, 2]}, {"x": "A"}, {"seeds": 2}, "does not read 'SEED'"),
                     ({"A": [2, 1, 0]}, {"x": "A"}, {}, "write 'let A=A if A != null else 1'"),
-                    ({"A": [2, "x"]}, {"x": "A"}, {}, "does not use A=.?x")):
+                    ({"A": [2, "x"]}, {"x": "A"}, {}, "does not accept A=.?x")):
                 calls.clear()
                 with self.subTest(kind=kind, message=message):
                     with self.assertRaisesRegex(petri.PetriError, f"(?s){message}.*cannot|cannot .*{message}"):

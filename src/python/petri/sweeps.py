@@ -64,7 +64,7 @@ def _check_values(axes: Mapping[str, List[Any]], runs: List[Mapping[str, Any]], 
                     dry_run(chosen).close()
             except PetriError as error:
                 _refuse((found for found in error.diagnostics if found.code in _UNUSED_VALUE),
-                        f"the script does not use {name}={value!r}")
+                        f"the script does not accept {name}={value!r}")
 
 
 def _check(axes: Mapping[str, List[Any]], runs: List[Mapping[str, Any]], expressions: List[str], dry_run: Callable) -> None:
