@@ -4,6 +4,10 @@
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
+command -v xz >/dev/null || {
+    echo "skipped: no xz to pack the page of a release (Debian: xz-utils)"
+    exit 77
+}
 scratch
 project="$work/a project"
 dist=$project/build/dist
