@@ -64,7 +64,13 @@ static bool answer(Review *review, Output *output, TestCase *test, char letter) 
     }
 }
 
-// Reads a key on a terminal, and shows it. Ctrl-C and Ctrl-D end the review, so that the terminal's settings return.
+static void print_question(Output *output) {
+    output_format(output, "accept, reject, skip, cause, pictures or quit? [a/r/s/c/p/q] ");
+    output_flush(output);
+}
+
+// Asks on a terminal, reads a key and shows it. Ctrl-C and Ctrl-D end the review, so that the terminal's settings
+// return. They have changed before the question, so that no answer comes too early.
 static char read_key(Output *output, const struct termios *settings) {
     struct termios raw = *settings;
     char key = '\n';
@@ -72,6 +78,7 @@ static char read_key(Output *output, const struct termios *settings) {
     raw.c_cc[VMIN] = 1;
     raw.c_cc[VTIME] = 0;
     tcsetattr(STDIN_FILENO, TCSADRAIN, &raw);
+    print_question(output);
     while (key == '\n' || key == '\r') { // of an answer with Enter
         ssize_t count = read(STDIN_FILENO, &key, 1);
         if (count == 0 || (count < 0 && errno != EINTR))
@@ -83,7 +90,8 @@ static char read_key(Output *output, const struct termios *settings) {
     return key;
 }
 
-// Reads an answer: a key on a terminal, otherwise the first character of a line. Returns false at the end of the input.
+// Asks, and reads an answer: a key on a terminal, otherwise the first character of a line. Returns false at the end of
+// the input.
 static bool read_answer(Output *output, char *letter) {
     struct termios settings;
     char line[80] = "";
@@ -91,6 +99,7 @@ static bool read_answer(Output *output, char *letter) {
         *letter = read_key(output, &settings);
         return true;
     }
+    print_question(output);
     bool good = fgets(line, sizeof line, stdin);
     *letter = line[0];
     return good;
@@ -100,8 +109,6 @@ void review_ask(Review *review, Output *output, TestCase *test) {
     char letter;
     bool decided = review->ended;
     while (!decided) {
-        output_format(output, "accept, reject, skip, cause, pictures or quit? [a/r/s/c/p/q] ");
-        output_flush(output);
         if (!read_answer(output, &letter)) {
             output_format(output, "\n");
             review->ended = decided = true;
