@@ -59,6 +59,7 @@ petri test --review --format tap rev
 check "--review needs text" status_is 2
 
 # --watch: a module, a golden, and a script that gets a new dependency
+: >watched
 "$petri" test --watch rev >watched 2>err </dev/null &
 watching=$!
 # awaits TEXT COUNT: waits until the text is in that many lines of the output.
