@@ -74,6 +74,30 @@ static void end_bounce(const Columns *columns, size_t i, const PhysForce *barrie
         acceleration[k] = tau > 0 ? (columns->velocity[k * columns->stride + i] - u[k]) / tau : 0;
 }
 
+// Returns true if particle i is behind the barrier and moves further behind it; sets *x to its height and *w to its
+// velocity along the normal. Puts a particle that is behind it and moves away on the surface.
+static bool has_arrived(const Columns *columns, size_t i, const PhysForce *barrier, double *x, double *w) {
+    *x = particle_height(columns, i, barrier, -columns->radius[phys_numbers_at(columns, i)]);
+    if (*x >= 0)
+        return false;
+    *w = velocity_along(columns, i, barrier);
+    if (*w < 0)
+        return true;
+    put_on_surface(columns, i, barrier, *x);
+    return false;
+}
+
+// Moves particle i for the time `tau` with the same force. Returns its velocity before, in the scratch of `columns`.
+static const double *move_again(const Columns *columns, size_t i, double tau, double speed_of_light) {
+    Block block = block_at(columns, i);
+    double *u = phys_acceleration(columns) + columns->dimensions;
+    for (size_t k = 0; k < columns->dimensions; k++)
+        u[k] = velocity_component(&block, k);
+    if (tau > 0)
+        move_particles(columns->dimensions, &block, tau, speed_of_light);
+    return u;
+}
+
 // Symbols are those of single_formulas.h, and a is the acceleration in the move:
 //
 //   x = −r + Σ (p_k − position_k)·normal_k, added in this order;   w = Σ v_k·normal_k;   b = Σ a_k·normal_k
@@ -91,14 +115,10 @@ static void end_bounce(const Columns *columns, size_t i, const PhysForce *barrie
 //   a_k = (v_k − u_k) / τ if τ > 0, else 0                     for the next barrier
 static void reflect(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;
-    double x = particle_height(columns, i, barrier, -columns->radius[phys_numbers_at(columns, i)]);
-    if (x >= 0)
+    double x, w;
+    if (!has_arrived(columns, i, barrier, &x, &w))
         return;
-    double w = velocity_along(columns, i, barrier), b = acceleration_along(columns, barrier);
-    if (!(w < 0)) {
-        put_on_surface(columns, i, barrier, x);
-        return;
-    }
+    double b = acceleration_along(columns, barrier);
     double tau = x / w;
     if (tau > delta)
         tau = delta;
@@ -108,12 +128,7 @@ static void reflect(const Columns *columns, size_t i, const Force *force, double
         hit(columns, i, barrier);
     else if (c < 0)
         reduce_velocity(columns, i, barrier, c * (1 + barrier->restitution));
-    Block block = block_at(columns, i);
-    double *u = phys_acceleration(columns) + columns->dimensions;
-    for (size_t k = 0; k < columns->dimensions; k++)
-        u[k] = velocity_component(&block, k);
-    if (tau > 0)
-        move_particles(columns->dimensions, &block, tau, speed_of_light);
+    const double *u = move_again(columns, i, tau, speed_of_light);
     end_bounce(columns, i, barrier, tau, u);
 }
 
@@ -131,34 +146,26 @@ static void reflect(const Columns *columns, size_t i, const Force *force, double
 static void reflect_0_3(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;
     size_t n = columns->dimensions, stride = columns->stride;
-    double radius = columns->radius[phys_numbers_at(columns, i)], x = particle_height(columns, i, barrier, -radius);
-    if (x >= 0)
+    double x, w;
+    if (!has_arrived(columns, i, barrier, &x, &w))
         return;
-    double w = velocity_along(columns, i, barrier), b = acceleration_along(columns, barrier);
-    if (!(w < 0)) {
-        put_on_surface(columns, i, barrier, x);
-        return;
-    }
+    double b = acceleration_along(columns, barrier);
     double tau = x / w > delta ? delta : x / w;
     bool outside = x / w > delta;
     move_back_to_contact(columns, i, tau);
     for (size_t k = 0; k < n; k++)
         columns->velocity[k * stride + i] *= barrier->restitution;
     w = velocity_along(columns, i, barrier);
-    if (outside && (x = particle_height(columns, i, barrier, -radius)) < 0)
+    if (outside && (x = particle_height(columns, i, barrier, -columns->radius[phys_numbers_at(columns, i)])) < 0)
         put_on_surface(columns, i, barrier, x);
     if (w < 0)
         reduce_velocity(columns, i, barrier, 2 * w);
     if (b < 0 && w / b < tau)
         tau = w / b > 0 ? w / b : 0;
-    Block block = block_at(columns, i);
-    double *acceleration = phys_acceleration(columns), *u = acceleration + n;
+    const double *u = move_again(columns, i, tau, speed_of_light);
+    double *acceleration = phys_acceleration(columns);
     for (size_t k = 0; k < n; k++)
-        u[k] = velocity_component(&block, k);
-    if (tau > 0)
-        move_particles(n, &block, tau, speed_of_light);
-    for (size_t k = 0; k < n; k++)
-        acceleration[k] = tau > 0 ? (velocity_component(&block, k) - u[k]) / tau : 0;
+        acceleration[k] = tau > 0 ? (columns->velocity[k * stride + i] - u[k]) / tau : 0;
 }
 
 void phys_integrate_reflect(const IntegratePass *pass, size_t i, const double *before) {
