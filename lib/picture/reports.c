@@ -70,10 +70,13 @@ PetriStatus painter_report_limit(DiagSink *diags) {
 }
 
 static void report_no_backend(void *diags) {
-    painter_report(
-        diags, NULL, DIAG_ERROR, "cannot-draw",
-        "this build of petri cannot draw: it lacks Cairo, Pango, libjpeg or libpng; install them and build it "
-        "again (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev libpng-dev)");
+#ifdef __EMSCRIPTEN__
+    const char *advice = "petri for Node.js draws with `petri render` only; use the native petri";
+#else
+    const char *advice = "this build of petri cannot draw: it lacks Cairo, Pango, libjpeg or libpng; install them and "
+                         "build it again (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev libpng-dev)";
+#endif
+    painter_report(diags, NULL, DIAG_ERROR, "cannot-draw", "%s", advice);
 }
 
 PetriStatus painter_report_no_backend(DiagSink *diags) {

@@ -64,6 +64,24 @@ test('the gallery draws samples, moves the one under the pointer, and opens it',
     },
 }));
 
+test('the gallery shows the pictures of the manual, and computes one that cannot be loaded', options, () => opened('', {
+    expected: /Failed to load resource|willReadFrequently/,
+    use: async page => {
+        const loaded = new Set();
+        await page.route('**/manual/pictures/*', route => {
+            const name = route.request().url().replace(/.*pictures-|[.]png$/g, '');
+            loaded.add(name);
+            return name === 'hello' ? route.abort() : route.continue();
+        });
+        const names = ['hello', 'bubble', 'trails'];
+        await page.click('#scripts');
+        await page.waitForFunction(wanted => [...document.querySelectorAll('#sample-cards button')].filter(button =>
+            wanted.includes(button.querySelector('strong').textContent)).every(button =>
+            button.querySelector('canvas').getContext('2d').getImageData(0, 0, 320, 240).data.some(byte => byte > 0)), names);
+        assert.deepEqual(names.filter(name => !loaded.has(name)), []);
+    },
+}));
+
 test('scripts are made, renamed, duplicated, deleted and restored', options, () => opened('', {
     use: async page => {
         await page.click('#new');

@@ -34,7 +34,7 @@ export async function serveScript(script, report = () => {}) {
                 + 'new EventSource("events").onmessage = event => { location.hash = event.data; };\n';
         if (file === 'samples.json') {
             const given = JSON.parse(fs.readFileSync(join(PACKAGE, 'page/samples.json'), 'utf8'));
-            return JSON.stringify({ ...given, files: { ...given.files, ...filesBelow(dirname(fs.realpathSync(script))) } });
+            return JSON.stringify({ ...given, pictures: {}, files: { ...given.files, ...filesBelow(dirname(fs.realpathSync(script))) } });
         }
         return /^petri\/engine(-archives)?\.wasm$/.test(file) ? fs.readFileSync(join(PACKAGE, basename(file)))
             : page.includes(file) && file !== 'offline.js' ? fs.readFileSync(join(PACKAGE, 'page', file)) : null;

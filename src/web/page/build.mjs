@@ -1,6 +1,6 @@
 // build.mjs OUTPUT SAMPLES: bundles the page with esbuild.
 import { createHash } from 'node:crypto';
-import { copyFileSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
@@ -42,7 +42,11 @@ const texts = Object.fromEntries(readdirSync(samples).filter(name => name.endsWi
     .map(name => [name, readFileSync(join(samples, name), 'utf8')]));
 // The page's first script names no commands of the terminal.
 texts['dish.fl'] = texts['dish.fl'].replace(/^(-- .*?:).*\n/, '$1 change a number below.\n').replace(/ `petri run -D .*/, '');
-writeFileSync(join(output, 'samples.json'), JSON.stringify({ scripts: texts, files: Object.fromEntries(files('lib')) }));
+// The pictures of the manual, which the gallery shows at once (src/web/site/text.mjs names them).
+const pictures = Object.fromEntries(Object.keys(texts).flatMap(name => ['pictures/', ''].map(folder => `${folder}${name.slice(0, -3)}.png`)
+    .filter(file => existsSync(join(samples, file))).slice(0, 1)
+    .map(file => [name, `manual/pictures/samples-${file.replaceAll('/', '-')}`])));
+writeFileSync(join(output, 'samples.json'), JSON.stringify({ scripts: texts, files: Object.fromEntries(files('lib')), pictures }));
 
 // The page of `petri link --html`, which contains everything but the script. `petri link` replaces the text of #petri-data.
 const { outputFiles: [code, worker] } = await build({

@@ -1,5 +1,5 @@
-// gallery.mjs: the dialog with the user's scripts and the samples, whose pictures are computed when they are shown. The picture under the
-// pointer, or with the focus, moves.
+// gallery.mjs: the dialog with the user's scripts and the samples. Their pictures are those of the manual; others are computed when they
+// are shown. The picture under the pointer, or with the focus, moves.
 import { Dish } from './dish.mjs';
 import { makeElement } from './element.mjs';
 
@@ -27,6 +27,7 @@ export class Gallery {
 
     // Opens the dialog. Meanwhile the page's script rests, so that the thumbnails do not wait for it.
     show() {
+        this.cards.forEach(card => this.load(card));
         this.rests = this.page.dish.running;
         this.page.dish.pause();
         this.fill();
@@ -84,6 +85,23 @@ export class Gallery {
         return card;
     }
 
+    // Shows the picture of the manual, if the sample has one and it can be loaded.
+    async load(card) {
+        const src = this.page.pictures[card.name];
+        if (!src || card.picture)
+            return;
+        card.picture = makeElement('img', { src });
+        card.drawn = true;
+        try {
+            await card.picture.decode();
+            if (this.current !== card)
+                this.copy(card.picture, card);
+        } catch {
+            card.drawn = false;
+            this.work();
+        }
+    }
+
     // Makes the picture of a card move, or of no card if it is null.
     run(card) {
         this.wanted = matchMedia('(prefers-reduced-motion: reduce)').matches ? null : card;
@@ -114,20 +132,20 @@ export class Gallery {
         if (this.dish)
             return this.dish;
         const { page, source } = this, stage = makeElement('canvas'), ignore = () => {};
-        this.dish = new Dish(stage, { shown: () => this.draw(stage), failed: ignore, changed: ignore }, { source });
+        this.dish = new Dish(stage, { shown: () => this.copy(stage, this.current), failed: ignore, changed: ignore }, { source });
         const { dish } = this;
         Object.assign(dish, { files: page.dish.files, images: page.dish.images });
         await dish.giveFiles();
         return dish;
     }
 
-    // Copies the picture to the current card, which it covers.
-    draw(stage) {
-        const context = this.current.canvas.getContext('2d'), scale = Math.max(WIDTH / stage.width, HEIGHT / stage.height);
-        const [width, height] = [stage.width * scale, stage.height * scale];
+    // Copies a picture to a card, which it covers.
+    copy(picture, { canvas }) {
+        const context = canvas.getContext('2d'), scale = Math.max(WIDTH / picture.width, HEIGHT / picture.height);
+        const [width, height] = [picture.width * scale, picture.height * scale];
         context.imageSmoothingQuality = 'high';
         context.clearRect(0, 0, WIDTH, HEIGHT);
-        context.drawImage(stage, (WIDTH - width) / 2, (HEIGHT - height) / 2, width, height);
+        context.drawImage(picture, (WIDTH - width) / 2, (HEIGHT - height) / 2, width, height);
     }
 
     end() {

@@ -29,7 +29,7 @@ const encoder = new TextEncoder();
 
 // What the modules of the page share: the script's name, the samples, editor, dish, problems, live, scripts and controls.
 const page = {
-    name: FIRST, samples: {}, say, openText,
+    name: FIRST, samples: {}, pictures: {}, say, openText,
     // The name of the script in diagnostics: the one that it had when it was loaded.
     get file() {
         return page.dish.loaded === null ? page.name : page.dish.name;
@@ -135,6 +135,7 @@ async function begin() {
     const dish = page.dish = new Dish($('picture'), host, start);
     const given = await (await fetch('samples.json')).json();
     page.samples = given.scripts;
+    page.pictures = given.pictures;
     for (const [file, text] of Object.entries(given.files))
         dish.files.set(file, encoder.encode(text));
     page.editor = new Editor($('editor'), { text: '', onChange: changed, onRun: run, onRestart: restart, help: () => help });
