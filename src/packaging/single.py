@@ -19,7 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 LIBRARIES = ['base', 'maths', 'physics', 'ranks', 'value', 'schema', 'state', 'builtin', 'ast', 'grammar', 'syntax',
-             'program', 'vm', 'scene', 'canvas', 'session', 'edit']
+             'program', 'vm', 'scene', 'canvas', 'session', 'edit', 'accuracy']
 PUBLIC = ['petri.h', 'petri-edit.h', 'petri-inspect.h', 'petri-live.h']
 INCLUDE = re.compile(r'^\s*#\s*include "([^"]+)"')
 DEFINE = re.compile(r'^\s*#\s*define (\w+)')

@@ -1,6 +1,7 @@
-// trust_estimate.c: errors of a run from the differences between runs; see trust.h. src/manual/trust.md explains the
+// estimate.c: errors of a run from the differences between runs; see estimate.h. src/manual/trust.md explains the
 // method and has its tests.
-#include "edit/trust.h"
+#include "accuracy/estimate.h"
+
 #include "maths/maths.h"
 
 #include <float.h>

@@ -1,4 +1,5 @@
-// trust.h: the numerics of petri_trust, which know no sessions. The runs (trust.c) give them values at equal intervals.
+// estimate.h: the numerics of petri_trust, which know no sessions. The runs (trust.c) give them values at equal
+// intervals.
 #pragma once
 
 #include <stdbool.h>

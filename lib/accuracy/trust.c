@@ -1,6 +1,5 @@
 // trust.c: runs a script several times to find out how many digits of its results are true (petri_trust).
-#include "edit/trust.h"
-
+#include "accuracy/estimate.h"
 #include "base/hash_index.h"
 #include "base/heap.h"
 #include "base/host_struct.h"
