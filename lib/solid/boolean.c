@@ -92,7 +92,8 @@ static void make_crossing_points(Build *build, Operand *operand, const Operand *
         const uint32_t *face = other->solid->faces[crossing->face];
         const int32_t *f[3] = {other->solid->points[face[0]], other->solid->points[face[1]],
                                other->solid->points[face[2]]};
-        double one = (double)volume_of(f[0], f[1], f[2], a), two = (double)volume_of(f[0], f[1], f[2], b);
+        double one = volume_to_double(volume_of(f[0], f[1], f[2], a)),
+               two = volume_to_double(volume_of(f[0], f[1], f[2], b));
         double along = crossing->along, exact = one / (one - two), length = 0;
         for (int k = 0; k < 3; k++)
             length += ((double)b[k] - a[k]) * ((double)b[k] - a[k]);

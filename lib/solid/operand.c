@@ -96,24 +96,24 @@ static int point_triangle(const Position p, const Triangle f) {
     int sum = below_edge(p, f[0], f[1]) + below_edge(p, f[1], f[2]) + below_edge(p, f[2], f[0]);
     if (sum == 0)
         return 0;
-    SolidWide volume = volume_of(f[0], f[1], f[2], p);
-    return (sum < 0 ? volume < 0 : volume > 0) ? sum : 0;
+    int side = volume_sign(volume_of(f[0], f[1], f[2], p));
+    return (sum < 0 ? side < 0 : side > 0) ? sum : 0;
 }
 
 static int triangle_point(const Triangle f, const Position q) {
     int sum = edge_below(f[0], f[1], q) + edge_below(f[1], f[2], q) + edge_below(f[2], f[0], q);
     if (sum == 0)
         return 0;
-    SolidWide volume = volume_of(f[0], f[1], f[2], q);
-    return (sum < 0 ? volume > 0 : volume < 0) ? sum : 0;
+    int side = volume_sign(volume_of(f[0], f[1], f[2], q));
+    return (sum < 0 ? side > 0 : side < 0) ? sum : 0;
 }
 
 static int edge_edge(const Position a, const Position b, const Position q_a, const Position q_b) {
     int sum = below_edge(b, q_a, q_b) - below_edge(a, q_a, q_b) - edge_below(a, b, q_b) + edge_below(a, b, q_a);
     if (sum == 0)
         return 0;
-    SolidWide volume = volume_of(a, b, q_a, q_b);
-    return (sum < 0 ? volume > 0 : volume < 0) ? sum : 0;
+    int side = volume_sign(volume_of(a, b, q_a, q_b));
+    return (sum < 0 ? side > 0 : side < 0) ? sum : 0;
 }
 
 // Returns `leaves` of the crossing of an edge with a triangle of the other operand.
@@ -131,7 +131,8 @@ static int edge_leaves(const Operand *operand, const Position a, const Position 
 
 // Returns where an edge crosses the plane of a triangle.
 static double crossing_place(const Position a, const Position b, const Triangle f) {
-    double one = (double)volume_of(f[0], f[1], f[2], a), two = (double)volume_of(f[0], f[1], f[2], b);
+    double one = volume_to_double(volume_of(f[0], f[1], f[2], a)),
+           two = volume_to_double(volume_of(f[0], f[1], f[2], b));
     double along = one / (one - two);
     return along > 0 ? along < 1 ? along : 1 : along <= 0 ? 0 : 0.5;
 }

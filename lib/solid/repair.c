@@ -18,7 +18,7 @@ static void flip_face(uint32_t face[3]) {
 static double volume_below(const Solid *solid, uint32_t face) {
     static const Position origin = {0, 0, 0};
     const uint32_t *f = solid->faces[face];
-    return -(double)volume_of(solid->points[f[0]], solid->points[f[1]], solid->points[f[2]], origin);
+    return -volume_to_double(volume_of(solid->points[f[0]], solid->points[f[1]], solid->points[f[2]], origin));
 }
 
 void solid_turn_outwards(Solid *solid) {
