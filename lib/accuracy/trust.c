@@ -111,7 +111,7 @@ static void project(Trust *trust, size_t row) {
             const double *position = system.position.data + i * system.position.stride;
             for (uint32_t k = 0; k < system.dimensions; k++)
                 for (int p = 0; p < PROJECTIONS; p++) {
-                    uint64_t key = hash_mix(hash_mix(number << 32 | i) + k * PROJECTIONS + (uint64_t)p);
+                    uint64_t key = hash_mix(hash_mix((uint64_t)number << 32 | i) + k * PROJECTIONS + (uint64_t)p);
                     sums[p] += position[k] * ((double)(key >> 11) * 0x1p-52 - 1);
                 }
         }

@@ -51,7 +51,7 @@ static void sort_doubles(double *values, size_t count) {
 // Takes samples of the particles and sorts each component. The grid is chosen from the samples, so that it covers most
 // particles but not the outliers.
 static void sample_particles(const PairPass *pass, const NeighbourList *list, Samples *samples) {
-    uint64_t every = list->total / GRID_SAMPLES + 1, i = 0;
+    size_t every = list->total / GRID_SAMPLES + 1, i = 0;
     samples->count = 0;
     for (uint32_t r = 0; r < list->ranges.count; r++) {
         const ColumnRange *range = &list->ranges.at[r];

@@ -47,7 +47,7 @@ bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
             memset(*vectors[i] + k * stride + count, 0, padding);
     for (unsigned i = 0; i < scalar_count; i++)
         memset(*scalars[i] + count, 0, padding);
-    memset(columns->anchor + count, 0, stride - count + 2 * LINE);
+    memset(columns->anchor + count, 0, (size_t)(stride - count) + 2 * LINE);
     return true;
 }
 

@@ -23,7 +23,7 @@ typedef struct Walker {
     void *user_data;
     ScopeEntry *scope;   // the last entry
     ScopeEntry **chains; // hash table of all entries in the scope; the last entry of each chain is its first
-    uint64_t chain_count;
+    size_t chain_count;
     uint32_t end;   // end of the current scope in the text
     uint32_t depth; // current value of BindingInfo.depth
 } Walker;

@@ -80,8 +80,7 @@ bool archive_report_problem(const PetriArchive *archive, const char *file) {
 }
 
 PetriArchive *replay_archive(const Options *options, const char *file) {
-    size_t limit = options->memory > 0 ? options->memory : petri_default_options().memory_limit;
-    return petri_archive_open(file, limit / 2);
+    return petri_archive_open(file, options_memory_limit(options) / 2);
 }
 
 // Sets the default number of frames: those that are recorded.

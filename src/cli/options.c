@@ -147,7 +147,8 @@ uint64_t options_work_limit(const Options *options) {
 }
 
 size_t options_memory_limit(const Options *options) {
-    return options->memory > 0 ? options->memory : petri_default_options().memory_limit;
+    uint64_t bytes = options->memory > 0 ? options->memory : petri_default_options().memory_limit;
+    return bytes < SIZE_MAX ? (size_t)bytes : SIZE_MAX;
 }
 
 int options_open(const Options *options, const CommandContext *host,

@@ -63,13 +63,13 @@ bool h5md_add(H5md *file, PetriSession *session, const ParticlesEnergies *energi
     PetriFrame now;
     petri_frame(session, &now, sizeof now);
     Hdf5Frame frame = {.number = now.number, .time = now.time, .text_count = file->sent};
-    size_t bytes = sizeof frame;
+    uint64_t bytes = sizeof frame;
     PetriSystem system;
     file->ids.len = 0;
     text_add_c(&file->ids, "");
     text_add_c(&texts, "");
-    for (; petri_system(session, frame.system_count, &system, sizeof system); frame.system_count++) {
-        if (!id_numbers_of_system(&file->names, session, frame.system_count, &system, &file->ids))
+    for (size_t s = 0; petri_system(session, s, &system, sizeof system); frame.system_count = ++s) {
+        if (!id_numbers_of_system(&file->names, session, s, &system, &file->ids))
             return false;
         bytes += sizeof(Hdf5System) + hdf5_padded(strlen(system.name)) +
                  system.particle_count * (2 * system.dimensions + HDF5_NUMBERS) * sizeof(double);
