@@ -282,9 +282,9 @@ static int compare_lines(const void *a, const void *b) {
     return str_compare(*(const Str *)a, *(const Str *)b);
 }
 
-// Returns the sorted lines of a state file, without those that depend on its form or on the order of the others. The
-// caller frees them with heap_free. Returns NULL if out of memory.
-static Str *sorted_lines(Str text, size_t *count) {
+// Returns the lines of a state file, without those that depend on its form, on the version of the specification or on
+// the other lines. The caller frees them with heap_free. Returns NULL if out of memory.
+static Str *state_lines(Str text, bool sorted, size_t *count) {
     size_t capacity = 1;
     for (Str rest = text; rest.len > 0; capacity++)
         next_line(&rest);
@@ -296,17 +296,19 @@ static Str *sorted_lines(Str text, size_t *count) {
             !str_starts_with(line, STR("end ")))
             lines[(*count)++] = line;
     }
-    if (lines)
+    if (lines && sorted)
         qsort(lines, *count, sizeof *lines, compare_lines);
     return lines;
 }
 
-// Returns true if two state files have the same lines. Petri 0.3 wrote them in another order.
+// Returns true if two state files have the same state. Petri 0.3 wrote the lines in another order. The rules by which
+// the states were computed may differ.
 static bool states_equal(PetriArchive *archive, Str recorded, Str computed) {
-    if (!str_starts_with(recorded, STR("petri-state 1\n")))
-        return str_equal(recorded, computed);
+    if (str_equal(recorded, computed))
+        return true;
+    bool sorted = str_starts_with(recorded, STR("petri-state 1\n"));
     size_t count[2];
-    Str *lines[] = {sorted_lines(recorded, &count[0]), sorted_lines(computed, &count[1])};
+    Str *lines[] = {state_lines(recorded, sorted, &count[0]), state_lines(computed, sorted, &count[1])};
     if (!lines[0] || !lines[1])
         archive_fail(archive, "out of memory");
     bool same = lines[0] && lines[1] && count[0] == count[1];
