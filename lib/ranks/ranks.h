@@ -13,6 +13,8 @@ typedef struct Ranks {
     PetriRanks calls;
 } Ranks;
 
+// Returns false in a build without ranks.
+bool ranks_available(void);
 // Returns the value of PhysOptions.division for these ranks, which are copied to *ranks. `ranks` must outlive all
 // systems with these options. Returns NULL for one process, or if `calls` is NULL.
 const PhysDivision *ranks_init(Ranks *ranks, const PetriRanks *calls);

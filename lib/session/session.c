@@ -41,6 +41,8 @@ static const char *read_options(Wanted *wanted, const PetriOptions *given) {
         return "the options were not initialised, or a later version of petri knows one of them";
     if (options->ranks && !host_struct_read(&wanted->ranks, sizeof wanted->ranks, options->ranks))
         return "ranks were not initialised";
+    if (options->ranks && !ranks_available())
+        return "this build of libpetri has no ranks";
     if (options->tuning && !host_struct_read(&wanted->tuning, sizeof wanted->tuning, options->tuning))
         return "tuning was not initialised";
     options->ranks = options->ranks ? &wanted->ranks : NULL;

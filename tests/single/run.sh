@@ -16,6 +16,8 @@ relink() {
 scratch
 cat >host.c <<'END'
 #include "petri.h"
+#include "petri-ranks.h"
+#include <string.h>
 int heap_free, arena_new, value_number; // names of petri.c that hosts may also use
 
 int main(void) {
@@ -28,6 +30,9 @@ int main(void) {
         if (petri_step(session) != PETRI_OK)
             return 1;
     petri_close(&session);
+    options.ranks = &(const struct PetriRanks){.size = sizeof(struct PetriRanks), .rank_count = 2};
+    const char *problem = petri_options_problem(&options);
+    return petri_open(&options) || !problem || !strstr(problem, "has no ranks");
 }
 END
 check "petri.c is made" python3 "$root/src/packaging/single.py" "$build" .
@@ -36,7 +41,7 @@ for compiler in gcc clang; do
     $compiler -O2 -ffp-contract=off -Wall -Wextra -Werror -c petri.c >out 2>&1
     status=$?
     check "$compiler compiles petri.c" status_is 0
-    $compiler -Wall -Wextra -Werror petri.o host.c -o host -lm -lpthread >out 2>&1
+    $compiler -Wall -Wextra -Werror -idirafter "$root/lib/include" petri.o host.c -o host -lm -lpthread >out 2>&1
     check "a host of $compiler runs" ./host
     nm -g --defined-only petri.o | awk '{ print $3 }' |
         grep -vE '^(petri_|heap_exhausted$|(far|pair|phys)_kernels_|maths_arrays_)' >out
