@@ -18,8 +18,8 @@
 //   callback receives, therefore starts with its size: set `size` to the size of the struct. A function that fills a
 //   struct takes its size as an argument: pass `sizeof`. Fields that an older library does not know become 0. A call
 //   that sets such a field fails.
-// - Text is UTF-8. The length PETRI_NUL_TERMINATED means that the
-//   text ends at a NUL byte. Indices and item numbers start at 0.
+// - Text is UTF-8. The length PETRI_NUL_TERMINATED means that the text ends at a NUL byte. Indices and item numbers
+//   start at 0.
 // - Functions that can fail return a PetriStatus. They may all return PETRI_OUT_OF_MEMORY, or PETRI_INVALID for invalid
 //   arguments. Functions that load, step, print or evaluate may also return PETRI_LIMIT_EXCEEDED or PETRI_INTERRUPTED.
 // - A call that fails changes nothing. If a script cannot be loaded, the current script stays loaded. An aborted frame
@@ -27,9 +27,8 @@
 // - Errors and warnings about scripts are reported through PetriOptions.on_diagnostic, once per position and load. The
 //   library never prints or exits, and never changes the locale, signal handlers or working directory of the process.
 // - Later versions may add values to enums. Ignore, or treat as unknown, a value that you do not know.
-// - petri_set_global passes a value to a script: call it before petri_load, and again before any frame. petri_define
-// and
-//   petri_set_parameter pass text that a user has typed, and check it against the parameters of the script.
+// - petri_set_global passes a value to a script: call it before petri_load, and again before any frame.
+//   petri_define and petri_set_parameter pass text that a user has typed, and check it against the parameters.
 // - From version 0.4 on, no public name is removed or changes its meaning. A name that is replaced stays as an alias
 //   until version 2.0, and its comment says so. libpetri-draw and libpetri-archive keep these rules, too, but only work
 //   with the libpetri of the same version, which the loader checks.
@@ -178,7 +177,7 @@ typedef struct PetriOptions {
     void *user_data; // passed to on_diagnostic, should_interrupt and on_file_read
     // Other processes that run the script together with this one (petri-ranks.h); NULL (the default): none. petri_open
     // copies the struct. All ranks need the same options, including `tuning`. If one rank is interrupted, all ranks
-    // must be interrupted, and none may continue its session.
+    // must be interrupted, and none may continue its session. Not supported by petri.c, libpetri in one file.
     const PetriRanks *ranks;
     // Provides the contents of all files: loaded scripts, modules, included files, images, and files that scripts read
     // with `read` and `csv`. NULL (the default): files are read from disk. Returns the bytes and sets *length, or
@@ -501,8 +500,9 @@ PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *s
 // `system` describes the particles as in petri_system, but with the positions and velocities at the start of the step;
 // `force` and `anchor` are not available, and `steps` is 0. `clock` is the simulation clock of the system and `delta`
 // the length of the step, both in seconds. `force` has `dimensions` numbers for each particle, all 0: the function
-// adds forces there, which act on the particles like their attribute `force`, and are ignored for anchors. All
-// arguments are valid only during the call. Returns false to interrupt the frame. Must not call the session and must
+// adds forces there, which act on the particles like their attribute `force`, and are ignored for anchors. A force that
+// is not finite causes a warning, and the particle keeps its velocity in this step. All arguments are valid only during
+// the call. Returns false to interrupt the frame. Must not call the session and must
 // return normally: no longjmp, no exception.
 //
 // Results stay deterministic if the forces depend only on the arguments. Threads do not affect the arguments. Frames

@@ -1,4 +1,5 @@
 // step_forces.c: forces of the host, which it computes in each step (petri_set_force_callback).
+#include "base/number.h"
 #include "session/session.h"
 #include "value/format.h"
 
@@ -18,6 +19,26 @@ static PetriStatus name_system(PetriSession *session, void *context) {
     return PETRI_OK;
 }
 
+// Returns true if the host exerts a force on a particle that does not change its velocity (spec physics.md 4.3).
+static bool is_ignored(const Step *step, uint32_t particle) {
+    const double *force = step->start->force + (size_t)particle * step->start->dimensions;
+    return !numbers_finite(force, step->start->dimensions, 1) && !phys_is_anchor(step->engine, particle);
+}
+
+static PetriStatus report_ignored(PetriSession *session, void *context) {
+    const Step *step = context;
+    for (uint32_t i = 0; i < step->start->particle_count; i++)
+        if (is_ignored(step, i)) {
+            Str text = str_format(&session->text_arena,
+                                  "the force of the host on particle number %u of %s is not finite, so the particle "
+                                  "keeps its velocity",
+                                  (unsigned)i, step->name);
+            session_report_text(session, DIAG_WARNING, "not-finite", text);
+            break;
+        }
+    return PETRI_OK;
+}
+
 // Calls the host outside of the protected call, because an escape (longjmp) must not skip over code of the host.
 static bool exert_forces(void *host, StateSlot prefix, const PhysSystem *engine, const PhysStepStart *start) {
     PetriSession *session = host;
@@ -32,6 +53,8 @@ static bool exert_forces(void *host, StateSlot prefix, const PhysSystem *engine,
     const StepForces *forces = &session->step_forces;
     if (!forces->callback(forces->user_data, &system, start->clock, start->delta, start->force))
         petri_interrupt(session);
+    else if (!numbers_finite(start->force, start->dimensions * start->particle_count, 1))
+        session_attempt(session, NULL, report_ignored, &step);
     return true;
 }
 

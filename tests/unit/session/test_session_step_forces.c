@@ -198,6 +198,35 @@ static void test_ranks_have_no_force_of_the_host(void **state) {
     assert_int_equal(petri_set_force_callback(player->session, NULL, NULL), PETRI_OK);
 }
 
+// Divides by zero at the anchor and at each particle whose bit is set in *context.
+static bool divide(void *context, const PetriSystem *system, double clock, double delta, double *force) {
+    (void)clock;
+    (void)delta;
+    for (uint32_t i = 0; i < system->particle_count; i++)
+        if (i == 0 || *(const unsigned *)context >> i & 1)
+            force[i * system->dimensions + 1] = i % 2 ? NAN : -INFINITY;
+    return true;
+}
+
+static void test_forces_that_are_not_finite_are_reported(void **state) {
+    Player *player = *state;
+    unsigned bits = 0;
+    set_force(player, divide, &bits);
+    player_run(player,
+               "!physics state=:a;1 dimensions=2\n    !anchor id=0 position=0\n"
+               "    for i in 1..4\n        !particle id=i position=i velocity=1;2\n",
+               5);
+    assert_string_equal(player->diagnostics.text, ""); // forces on anchors have no effect
+    bits = 1 << 2 | 1 << 3;
+    player_step(player, 3);
+    assert_string_equal(player->diagnostics.text, // once
+                        "warning the force of the host on particle number 2 of :a;1 is not finite, so the particle "
+                        "keeps its velocity [not-finite]\n");
+    PetriSystem system = first_system(player);
+    assert_number("velocity", system.velocity.data[2 * system.velocity.stride + 1], 2);
+    assert_true(fabs(system.position.data[2 * system.position.stride + 1] - (2 + 2 * 7 / 60.0)) < 1e-14);
+}
+
 TEST_GROUP(session_step_forces) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_an_oscillator_has_the_order_of_the_integrator),
@@ -206,6 +235,7 @@ TEST_GROUP(session_step_forces) {
         PLAYER_TEST(test_the_force_of_the_host_is_explained),
         PLAYER_TEST(test_a_refused_step_is_rolled_back),
         PLAYER_TEST(test_ranks_have_no_force_of_the_host),
+        PLAYER_TEST(test_forces_that_are_not_finite_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
