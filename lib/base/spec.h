@@ -18,7 +18,7 @@ enum {
 
 typedef struct SpecChange {
     const char *version; // first version with the new rule
-    const char *name;    // one word
+    const char *alone;   // the version before, and the name of the change: only this rule is the old one
     const char *section; // of lib/spec
     const char *sentence;
     unsigned rule; // the old rule; 0: it is not kept
@@ -31,5 +31,5 @@ extern const size_t SPEC_CHANGE_COUNT;
 // Reads a version, such as "0.3", or a version and the name of one of the changes since, such as "0.3 barriers": only
 // this rule is the old one. Returns false if there is no such version or name.
 bool spec_find(const char *text, unsigned *old_rules);
-// Returns the version whose rules these are.
+// Returns the text by which spec_find finds these rules.
 const char *spec_version(unsigned old_rules);

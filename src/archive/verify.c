@@ -15,11 +15,14 @@
 // Options that no other command has.
 typedef struct Own {
     int64_t sample_segments; // 0: all
-    int spec;                // index of SPECS
+    const char *spec;        // as for spec_find; NULL: the present version
     const char *report;      // file, or "-"; NULL: none
 } Own;
 
-#define SPECS SPEC_VERSION, SPEC_FIRST
+static bool read_spec(const Args *args, void *field) {
+    unsigned old_rules;
+    return spec_find(args->value, &old_rules) ? option_text(args, field) : option_choice(args, &(int){0});
+}
 
 static void print_difference(const Verification *verification, Output *output) {
     const SegmentResult *found = &verification->result;
@@ -51,21 +54,19 @@ static bool is_same_by(const Verification *verification, const char *spec) {
 
 // Prints the changes since the specification `spec` that cause the difference: one that does so alone, or all together.
 static void print_changes(const Verification *verification, const char *spec, Output *output) {
-    SCOPED_TEXT one = {0};
     const SpecChange *cause = NULL;
-    for (size_t i = 0; i < SPEC_CHANGE_COUNT && !cause; i++) {
-        one.len = 0;
-        text_add_format(&one, "%s %s", spec, SPEC_CHANGES[i].name);
-        if (SPEC_CHANGES[i].rule && is_same_by(verification, one.bytes))
+    for (size_t i = 0; i < SPEC_CHANGE_COUNT && !cause; i++)
+        if (SPEC_CHANGES[i].rule && is_same_by(verification, SPEC_CHANGES[i].alone))
             cause = &SPEC_CHANGES[i];
-    }
     output_format(output, "the specification has changed since %s, by which this run was computed: ", spec);
     for (size_t i = 0, found = 0; i < SPEC_CHANGE_COUNT; i++)
         if (cause ? cause == &SPEC_CHANGES[i] : SPEC_CHANGES[i].rule)
             output_format(output, "%s%s (lib/spec/%s)", found++ > 0 ? "; " : "", SPEC_CHANGES[i].sentence,
                           SPEC_CHANGES[i].section);
     SCOPED_TEXT command = {0};
-    text_add_format(&command, "petri archive verify --spec %s ", spec);
+    text_add_c(&command, "petri archive verify --spec ");
+    shell_add_word(&command, spec);
+    text_add_c(&command, " ");
     shell_add_word(&command, verification->file);
     output_format(output, "\nto compute by the rules of %s, run '%s'\n", spec, command.bytes);
 }
@@ -135,7 +136,6 @@ static int verify_archive(const CommandContext *context, const Options *options,
 }
 
 static int verify_run(const CommandContext *context, Options *options) {
-    static const char *const specs[] = {SPECS};
     if (((const Own *)options->own)->report && ((const Own *)options->own)->sample_segments > 0) {
         message("a report needs all frames; drop --sample");
         return STATUS_USAGE;
@@ -144,7 +144,8 @@ static int verify_run(const CommandContext *context, Options *options) {
     PetriArchive *archive = archive_open(options, options->script);
     if (!archive)
         return STATUS_DAMAGED;
-    options->spec = specs[((const Own *)options->own)->spec];
+    const char *spec = ((const Own *)options->own)->spec;
+    options->spec = spec ? spec : SPEC_VERSION;
     output_start(&output, STDOUT_FILENO);
     int status = verify_archive(context, options, archive, &output);
     petri_archive_close(&archive);
@@ -154,7 +155,7 @@ static int verify_run(const CommandContext *context, Options *options) {
 // clang-format off
 static const OptionSpec ROWS[] = {
     LIMIT_OPTIONS
-    OWN("spec", 0, "VERSION", ONE_OF(option_choice, SPECS), spec, "compute by this version of the specification (default: " SPEC_VERSION ")")
+    OWN("spec", 0, "VERSION", ONE_OF(read_spec, SPEC_VERSION, SPEC_FIRST), spec, "compute by this version of the specification (default: " SPEC_VERSION ")")
     OWN("report", 0, "FILE", option_text, report, "if all frames are verified, write a report for a publication to FILE (-: standard output)")
     OWN("sample", 0, "K", WHOLE(1, INT64_MAX), sample_segments, "verify only K segments, chosen at random")
     SHARED("threads", 0, "N", WHOLE(1, 1024), threads, "verify N segments at a time (default: number of CPUs)")

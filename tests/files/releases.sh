@@ -22,6 +22,11 @@ if petri run plain.fl --frames 1 --archive plain.petri && status_is 0; then
         check "$archive says its version" has out "spec        $release"
     done
 
+    petri archive verify "$releases/0.3/floor.petri" --spec '0.3 barriers'
+    check "a single rule of 0.3 suffices" status_is 0
+    petri archive verify "$releases/0.3/floor.petri" --spec '0.3 theta'
+    check "another rule does not" explained "only a faster one bounces"
+
     # A forged digest
     cp "$releases/0.3/floor.petri" forged.petri
     sqlite3 forged.petri "UPDATE digest SET digest = zeroblob(16) WHERE frame = 12" 2>err || true

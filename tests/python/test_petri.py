@@ -1019,6 +1019,29 @@ class Versions(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "spec='9'"):
             petri.Session(script, options=petri.Options(spec="9"))
 
+    def test_states_and_archives_keep_a_single_rule_of_an_earlier_specification(self):
+        script = ("!physics state=:a dimensions=2\n    !particle id=0 velocity=3;0 mass=2\n"
+                  "    !particle id=1 position=3;0\n    !gravity theta=0.5\n"
+                  "    !barrier normal=0;1 restitution=0.5\n    !constant acceleration=0;-9\n")
+        for spec in "0.3 barriers", "0.3 theta":
+            options = petri.Options(spec=spec)
+            session = petri.Session(script, options=options)
+            self.assertEqual(session.spec, spec)
+            session.step(5)
+            with tempfile.TemporaryDirectory() as folder:
+                session.save(f"{folder}/rule.state")
+                with open(f"{folder}/rule.state", encoding="utf-8") as file:
+                    self.assertIn(f"\nspec {spec}\n", file.read())
+                petri.Session(script, options=options).restore(f"{folder}/rule.state")
+                try:
+                    with session.archive(f"{folder}/rule.petri"):
+                        session.step(30)
+                except petri.ArchiveError as error:
+                    self.skipTest(str(error))
+                archive = petri.Archive(f"{folder}/rule.petri")
+                self.assertEqual((archive.info["spec"], archive.session(20).spec), (spec, spec))
+                self.assertEqual(list(archive.verify())[-1], 34)
+
 
 class StepForces(unittest.TestCase):
     """Forces that Python computes in each physics step."""
