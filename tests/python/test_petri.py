@@ -231,6 +231,13 @@ class State(unittest.TestCase):
         with self.assertRaises(KeyError):
             self.state["dish", 17]
 
+    def test_each_key_leads_to_its_value(self):
+        for name in "!physics state=-0", "!physics state=:s;-0", "!physics state=0":
+            session = petri.Session(f"{name} dimensions=1\n    for i in -0;0;0.5;1e300;-3\n        !particle id=i position=i+1\n")
+            session.step(2)
+            keys = [str(key) for key, _ in session.state.items()]  # each key is found
+            self.assertEqual((len(set(keys)), any("-0.0" in key for key in keys)), (len(keys), True), name)
+
     def test_values_can_be_set(self):
         for value in (3.0, (1.0, 2.0), "word", ("a", "b", 3.0), petri.Text("a text"), (petri.Text(""), 1.0, "s")):
             self.state["mine", petri.Text("key")] = value
@@ -363,11 +370,12 @@ class Running(unittest.TestCase):
 
     def test_ids_are_those_of_the_script(self):
         for listed, wanted in {"..4": [0, 1, 2, 3], "-2;0.5;1e300;7": [-2, 0.5, int(1e300), 7], ":b;:a;3": ["b", "a", 3],
-                               "'a';1": [petri.Text("a"), 1], "9007199254740993;-0;3": [9007199254740992, 0, 3]}.items():
+                               "'a';1": [petri.Text("a"), 1], "9007199254740993;3": [9007199254740992, 3], "-0;0;3": [-0.0, 0, 3]}.items():
             session = petri.Session(f"!physics state=:s dimensions=1\n    for i in {listed}\n        !particle id=i position=i\n")
             session.step()
             ids = session.systems["s"].ids
             self.assertEqual([(type(id), id) for id in ids], [(type(id), id) for id in wanted], listed)
+            self.assertEqual([session.systems["s"].index(id) for id in ids], list(range(len(ids))), listed)
         session = petri.Session("!physics state=:s dimensions=1\n    for i in ..(5-frame)\n        !particle id=i;i+1 position=i\n")
         for frame in range(6):
             session.step()

@@ -110,16 +110,17 @@ def decode(session: Any, value: Any) -> Value:
 
 
 def whole(value: Value) -> Value:
-    """Converts integral floats to int, for keys."""
+    """Converts integral floats to int, for keys. -0.0 remains, because it is another key than 0."""
     if isinstance(value, tuple):
         return tuple(whole(part) for part in value)  # type: ignore[misc]
-    return int(value) if isinstance(value, float) and value.is_integer() else value
+    return int(value) if isinstance(value, float) and value.is_integer() and str(value) != "-0.0" else value
 
 
 def whole_numbers(session: Any, data: Any, count: int) -> List[Element]:
     """Returns `count` doubles as whole() converts them, with the names of symbols."""
     numbers = numpy.frombuffer(ffi.buffer(data, 8 * count))
-    if numpy.all((numbers == numpy.floor(numbers)) & (abs(numbers) < 2**53)):
+    negative_zero = (numbers == 0) & numpy.signbit(numbers)
+    if numpy.all((numbers == numpy.floor(numbers)) & (abs(numbers) < 2**53) & ~negative_zero):
         return numbers.astype(numpy.int64).tolist()
     return [whole(number(session, x)) for x in numbers.tolist()]  # type: ignore[misc]
 
