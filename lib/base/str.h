@@ -68,6 +68,8 @@ char *text_reserve(Text *text, size_t more);
 void text_add(Text *text, Str part);
 void text_add_c(Text *text, const char *part);
 void text_add_char(Text *text, char c);
+// Adds two hexadecimal digits for each byte.
+void text_add_hex(Text *text, const uint8_t *bytes, size_t count);
 void text_add_code_point(Text *text, uint32_t code_point);
 // Adds a text. Writes '?' for ill-formed UTF-8 and for control characters that are not in `allowed`, because they must
 // not reach a terminal.

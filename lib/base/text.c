@@ -53,6 +53,14 @@ void text_add_char(Text *text, char c) {
     add_len(text, 1);
 }
 
+void text_add_hex(Text *text, const uint8_t *bytes, size_t count) {
+    static const char digits[] = "0123456789abcdef";
+    for (size_t i = 0; i < count; i++) {
+        text_add_char(text, digits[bytes[i] >> 4]);
+        text_add_char(text, digits[bytes[i] & 15]);
+    }
+}
+
 void text_add_code_point(Text *text, uint32_t code_point) {
     add_len(text, utf8_encode(code_point, text_reserve(text, UTF8_MAX)));
 }

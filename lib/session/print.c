@@ -63,8 +63,7 @@ static void print_digest(TextSink *out, PetriSession *session) {
     uint8_t digest[STATE_DIGEST_SIZE];
     session_digest(session, digest);
     text_add_c(&out->text, "= ");
-    for (int i = 0; i < STATE_DIGEST_SIZE; i++)
-        text_add_format(&out->text, "%02x", digest[i]);
+    text_add_hex(&out->text, digest, sizeof digest);
     text_sink_end_line(out);
 }
 

@@ -18,7 +18,7 @@ typedef struct RankResult {
     size_t differs_at;
     int64_t frames;
     int64_t frame;
-    char digests[2][33];
+    uint8_t digests[2][DIGEST_BYTES];
 } RankResult;
 
 // Waits for a message. Returns the rank of its sender.

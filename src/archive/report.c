@@ -86,8 +86,7 @@ static void add_frames(Text *report, PetriArchive *archive, const PetriArchiveIn
         if (!petri_archive_digest(archive, frame, digest))
             continue;
         text_add_format(report, "frame %" PRId64 " ", frame);
-        for (int i = 0; i < DIGEST_BYTES; i++)
-            text_add_format(report, "%02x", digest[i]);
+        text_add_hex(report, digest, sizeof digest);
         text_add_c(report, "\n");
     }
 }

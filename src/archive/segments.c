@@ -19,7 +19,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { DIGEST_SIZE = 16, MAX_THREADS = 256 };
+enum { MAX_THREADS = 256 };
 
 // --- choice
 
@@ -84,21 +84,14 @@ static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
     pthread_mutex_unlock(&verification->mutex);
 }
 
-static void write_digest(const uint8_t *digest, char *digits) {
-    for (int i = 0; i < DIGEST_SIZE; i++)
-        snprintf(digits + 2 * (size_t)i, 3, "%02x", digest[i]);
-}
-
 // Compares the current frame with the archive. Returns true if they are the same, or if nothing was recorded.
 static bool frame_is_same(Worker *worker, SegmentResult *result) {
-    uint8_t recorded[DIGEST_SIZE], computed[DIGEST_SIZE];
+    uint8_t *recorded = result->digests[0], *computed = result->digests[1];
     result->frame = petri_frame_number(worker->session);
     result->has_digests = petri_archive_digest(worker->archive, result->frame, recorded);
     if (result->has_digests) {
         worker->failed = petri_digest(worker->session, computed) != PETRI_OK;
-        write_digest(recorded, result->digests[0]);
-        write_digest(computed, result->digests[1]);
-        if (memcmp(recorded, computed, DIGEST_SIZE) != 0)
+        if (memcmp(recorded, computed, DIGEST_BYTES) != 0)
             return false;
         result->has_digests = false;
     }

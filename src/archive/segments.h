@@ -10,12 +10,14 @@
 
 #include <pthread.h>
 
+enum { DIGEST_BYTES = 16 };
+
 // The first frame of a segment that differs.
 typedef struct SegmentResult {
     int64_t frame;
     bool has_digests;
-    char digests[2][33]; // of the archive and of the computed frame, in hexadecimal digits
-    Text details;        // what differs in the next keyframe; empty: unknown
+    uint8_t digests[2][DIGEST_BYTES]; // of the archive and of the computed frame
+    Text details;                     // what differs in the next keyframe; empty: unknown
 } SegmentResult;
 
 typedef struct Verification {

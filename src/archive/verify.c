@@ -24,12 +24,19 @@ static bool read_spec(const Args *args, void *field) {
     return spec_find(args->value, &old_rules) ? option_text(args, field) : option_choice(args, &(int){0});
 }
 
+static void print_digest(char mark, const uint8_t digest[DIGEST_BYTES], const char *origin, Output *output) {
+    SCOPED_TEXT digits = {0};
+    text_add_hex(&digits, digest, DIGEST_BYTES);
+    output_format(output, "%c digest %s  (%s)\n", mark, digits.bytes, origin);
+}
+
 static void print_difference(const Verification *verification, Output *output) {
     const SegmentResult *found = &verification->result;
     output_format(output, "frame %" PRId64 " differs\n", found->frame);
-    if (found->has_digests)
-        output_format(output, "- digest %s  (archive)\n+ digest %s  (computed)\n", found->digests[0],
-                      found->digests[1]);
+    if (found->has_digests) {
+        print_digest('-', found->digests[0], "archive", output);
+        print_digest('+', found->digests[1], "computed", output);
+    }
     if (found->details.len > 0)
         output_write(output, found->details.bytes, found->details.len);
 }

@@ -144,10 +144,9 @@ static void report_result(const Run *run) {
     uint8_t digest[DIGEST_BYTES];
     if (petri_digest(run->frames.session, digest) != PETRI_OK)
         return;
-    char text[2 * DIGEST_BYTES + 1];
-    for (size_t i = 0; i < DIGEST_BYTES; i++)
-        snprintf(text + 2 * i, 3, "%02x", digest[i]);
-    message("digest of the state after frame %" PRId64 ": %s", petri_frame_number(run->frames.session), text);
+    SCOPED_TEXT text = {0};
+    text_add_hex(&text, digest, sizeof digest);
+    message("digest of the state after frame %" PRId64 ": %s", petri_frame_number(run->frames.session), text.bytes);
 }
 
 static void report_summary(Run *run) {

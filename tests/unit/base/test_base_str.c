@@ -165,6 +165,25 @@ static void test_text_buffer_grows(void **state) {
     arena_free(&arena);
 }
 
+static void test_bytes_become_hexadecimal_digits(void **state) {
+    (void)state;
+    Text text = {0};
+    uint8_t bytes[256];
+    for (int i = 0; i < 256; i++)
+        bytes[i] = (uint8_t)i;
+    text_add_c(&text, "");
+    text_add_hex(&text, bytes, 0);
+    assert_string_equal(text.bytes, "");
+    text_add_hex(&text, bytes, sizeof bytes);
+    assert_int_equal(text.len, 512);
+    for (size_t i = 0; i < 256; i++) {
+        char digits[3];
+        snprintf(digits, sizeof digits, "%02x", bytes[i]);
+        assert_memory_equal(text.bytes + 2 * i, digits, 2);
+    }
+    text_free(&text);
+}
+
 static void test_hex_colours_become_numbers(void **state) {
     (void)state;
     Arena arena;
@@ -227,6 +246,7 @@ TEST_GROUP(base_str) {
         cmocka_unit_test(test_prefix_suffix_trim),
         cmocka_unit_test(test_edit_distance_counts_edits),
         cmocka_unit_test(test_text_buffer_grows),
+        cmocka_unit_test(test_bytes_become_hexadecimal_digits),
         cmocka_unit_test(test_hex_colours_become_numbers),
         cmocka_unit_test(test_split_keeps_empty_parts),
         cmocka_unit_test(test_word_number_is_index_in_list),
