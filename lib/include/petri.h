@@ -502,8 +502,8 @@ PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *s
 // the length of the step, both in seconds. `force` has `dimensions` numbers for each particle, all 0: the function
 // adds forces there, which act on the particles like their attribute `force`, and are ignored for anchors. A force that
 // is not finite causes a warning, and the particle keeps its velocity in this step. All arguments are valid only during
-// the call. Returns false to interrupt the frame. Must not call the session and must
-// return normally: no longjmp, no exception.
+// the call. Returns false to interrupt the frame. Must not call the session and must return normally: no longjmp, no
+// exception.
 //
 // Results stay deterministic if the forces depend only on the arguments. Threads do not affect the arguments. Frames
 // that are computed again (petri_rewind) and explanations of forces call the function again. The step accounts for the
