@@ -42,11 +42,14 @@ hash_of() {
 all_hashes() {
     local goldens=(*/*.golden) jobs job i
     jobs=$(nproc)
-    for ((job = 0; job < jobs; job++)); do
-        for ((i = job; i < ${#goldens[@]}; i += jobs)); do
-            hash_of "${goldens[i]%.golden}"
-        done &
-    done | LC_ALL=C sort
+    {
+        for ((job = 0; job < jobs; job++)); do
+            for ((i = job; i < ${#goldens[@]}; i += jobs)); do
+                hash_of "${goldens[i]%.golden}"
+            done &
+        done
+        wait # for their times
+    } | LC_ALL=C sort
 }
 
 if [ $mode = print ]; then
