@@ -1,12 +1,12 @@
 // helpers.c: see helpers.h.
 //
-// build_petri.py inserts the text of helpers.h before this file. The handler of SIGINT is installed only during steps
-// and then restored. If a function of the script steps another session, the handler stays, and only the active session
-// changes.
+// build_petri.py inserts the text of helpers.h before this file. The handler of SIGINT is installed only during calls
+// that compute frames, and then restored. If a function of the script makes such a call of another session, the handler
+// stays, and only the active session changes.
 #include <signal.h>
 #include <string.h>
 
-static PetriSession *volatile active_session; // session that the main thread is stepping; NULL: none
+static PetriSession *volatile active_session; // session that the main thread is computing; NULL: none
 static volatile sig_atomic_t interrupted;     // 1 if Ctrl-C was pressed since install_handler
 static struct sigaction outer;                // Python's handler of SIGINT
 
@@ -28,28 +28,54 @@ static bool install_handler(void) {
     return outer.sa_handler != SIG_IGN && outer.sa_handler != SIG_DFL && sigaction(SIGINT, &ours, NULL) == 0;
 }
 
-PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop) {
-    PetriStatus status = session ? PETRI_OK : PETRI_INVALID;
-    PetriSession *before = active_session; // the outer session, if this step is called from a function of its script
+// A call that Ctrl-C interrupts.
+typedef struct Guard {
+    PetriSession *before; // the outer session, if this call is made by a function of its script
+    bool active;
+    bool nested;
+} Guard;
+
+static Guard begin_guard(PetriSession *session, bool interruptible) {
+    Guard guard = {.before = active_session};
     struct sigaction now = {0};
-    interruptible = interruptible && session && sigaction(SIGINT, NULL, &now) == 0;
-    bool nested = interruptible && now.sa_flags & SA_SIGINFO && now.sa_sigaction == on_interrupt;
-    if (interruptible)
+    guard.active = interruptible && session && sigaction(SIGINT, NULL, &now) == 0;
+    guard.nested = guard.active && now.sa_flags & SA_SIGINFO && now.sa_sigaction == on_interrupt;
+    if (guard.active)
         active_session = session;
-    if (interruptible && !nested) {
+    if (guard.active && !guard.nested) {
         outer = now;
-        interruptible = install_handler();
+        guard.active = install_handler();
     }
-    while (status == PETRI_OK && !(stop && *stop) && count-- > 0)
-        status = petri_step(session);
-    if (interruptible && !nested) {
+    return guard;
+}
+
+static PetriStatus end_guard(PetriSession *session, Guard guard, PetriStatus status) {
+    if (guard.active && !guard.nested) {
         sigaction(SIGINT, &outer, NULL);
         if (interrupted && status != PETRI_INTERRUPTED)
-            petri_clear_interrupt(session); // Ctrl-C came after the step and must not abort the next one
+            petri_clear_interrupt(session); // Ctrl-C came after the call and must not abort the next one
     }
-    if (nested)
-        active_session = before;
+    if (guard.nested)
+        active_session = guard.before;
     return status;
+}
+
+PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop) {
+    PetriStatus status = session ? PETRI_OK : PETRI_INVALID;
+    Guard guard = begin_guard(session, interruptible);
+    while (status == PETRI_OK && !(stop && *stop) && count-- > 0)
+        status = petri_step(session);
+    return end_guard(session, guard, status);
+}
+
+PetriStatus petri_python_run_trust(PetriSession *session, const PetriTrustOptions *options, bool interruptible) {
+    Guard guard = begin_guard(session, interruptible);
+    return end_guard(session, guard, petri_trust(session, options));
+}
+
+PetriStatus petri_python_replay(PetriArchive *archive, PetriSession *session, int64_t frame, bool interruptible) {
+    Guard guard = begin_guard(session, interruptible);
+    return end_guard(session, guard, petri_archive_replay(archive, session, frame));
 }
 
 int petri_python_system(PetriSession *session, int number, const char *name, PetriSystem *system) {

@@ -12,6 +12,9 @@
 // no functions. If `interruptible` is true, Ctrl-C interrupts the step and is then passed to Python's handler.
 // `interruptible` must be false in threads other than the main thread.
 PetriStatus petri_python_step(PetriSession *session, size_t count, bool interruptible, const bool *stop);
+// Call petri_trust and petri_archive_replay. Ctrl-C interrupts them in the same way.
+PetriStatus petri_python_run_trust(PetriSession *session, const PetriTrustOptions *options, bool interruptible);
+PetriStatus petri_python_replay(PetriArchive *archive, PetriSession *session, int64_t frame, bool interruptible);
 
 // Finds the system called `name` and sets *system. Tries the index `number` first, and tries no other index if `name`
 // is NULL. Returns the index of the system, or -1 if there is none.

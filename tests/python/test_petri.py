@@ -299,6 +299,50 @@ class Running(unittest.TestCase):
         with self.assertRaises(petri.ScriptError):
             session.until("1 +")
         self.assertEqual(session.frame.number, 18)
+        with self.assertRaisesRegex(petri.ScriptError, "(?s)unbound name 'fraem'.*did you mean 'frame'") as caught:
+            session.until("fraem > 100")  # would never be true
+        self.assertEqual((session.frame.number, caught.exception.code), (19, "unbound-name"))
+        self.assertTrue(session.until("frame > 19"))
+
+    def test_arguments_of_a_wrong_type_are_rejected(self):
+        session = petri.Session("!x y=v\n", given={"v": 1})
+        for wrong in ({"a": 1}, {1, 2}, b"ab", 1j, [1, [2, b"c"]], numpy.array([1, 2j])):
+            with self.assertRaisesRegex(TypeError, "not a number, a string or a sequence"):
+                session.set_global("v", wrong)
+        session.step()
+        self.assertIn("!x y=1", session.text("tree"))
+        with self.assertRaisesRegex(TypeError, r"petri\.Options"):
+            petri.Session("!x\n", options={"fps": 3})
+        with self.assertRaisesRegex(TypeError, "forces must be a dict"):
+            petri.Session("!x\n", forces=lambda step: None)
+        with self.assertRaisesRegex(TypeError, "metrics must be a dict"):
+            petri.sweep("!x\n", {"A": [1]}, ["A"])
+        with self.assertRaisesRegex(TypeError, r"defines\['A'\] must be a list"):
+            petri.sweep("!x\n", {"A": 1}, {"a": "A"})
+        with self.assertRaisesRegex(ValueError, "at least 0, not -1"):
+            session.step(-1)
+        with self.assertRaisesRegex(TypeError, "at least one expression"):
+            session.trust()
+        with self.assertRaisesRegex(FileNotFoundError, "No such file.*gone.state"):
+            session.restore("gone.state")
+
+    def test_names_that_are_missing_are_reported_with_those_that_exist(self):
+        session = petri.Session("let A=A or 1\n!physics state=:s dimensions=1\n    !particle id=1\n")
+        with self.assertRaisesRegex(petri.ScriptError, "cannot set 'B': the script has the parameters A"):
+            session.set_parameter("B", 2)
+        with self.assertRaisesRegex(petri.ScriptError, "'a word' is not a number"):
+            session.set_parameter("A", "a word")
+        with self.assertRaisesRegex(KeyError, "no system 's' in the last frame; it has none"):
+            session.systems["s"]
+        session.step(2)
+        with self.assertRaisesRegex(KeyError, "no system 't' in the last frame; it has 's'"):
+            session.systems["t"]
+        there = session.snapshot()
+        session.rewind(there)
+        self.assertEqual(len(session.systems), 0)
+        self.assertIn(("s", 1), session.state)
+        session.step()
+        self.assertEqual(list(session.systems), ["s"])
 
     def test_integrate_reaches_a_time(self):
         for fps in (1, 10, 60, 144, 1000):
@@ -790,6 +834,29 @@ class Threads(unittest.TestCase):
         self.assertEqual(session.frame.number, number + 1)
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
 
+    def test_ctrl_c_aborts_all_that_computes_frames(self):
+        session = petri.Session("!physics state=:s dimensions=1\n    !particle id=0 position=1\n")
+        session.step(3)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "long.petri"
+            recorded = petri.Session("!x\n")
+            try:
+                with recorded.archive(file):
+                    recorded.step(10)
+            except petri.ArchiveError as error:
+                self.skipTest(str(error))
+            archive = petri.Archive(file)
+            for call in (lambda: session.trust("$(:s;0)", frames=10**9), lambda: archive.session(10**9)):
+                killer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+                killer.start()
+                with self.assertRaises(KeyboardInterrupt):
+                    call()
+                killer.join()
+                self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+            self.assertEqual(archive.session(5).frame.number, 5)
+        session.step()
+        self.assertEqual(session.frame.number, 3)
+
     def test_threads_share_a_session(self):
         session = petri.Session(DISH)
         threads = [threading.Thread(target=lambda: [session.step(10) for _ in range(20)]) for _ in range(4)]
@@ -1163,6 +1230,11 @@ class StepForces(unittest.TestCase):
         with self.assertRaises(TypeError):
             petri.Session(self.SPRING, forces={"a": 5})
 
+    def test_forces_that_are_not_finite_are_reported(self):
+        session = petri.Session(self.SPRING, forces={"a": lambda step: step.position / 0 / numpy.abs(step.position)})
+        with numpy.errstate(all="ignore"), self.assertWarnsRegex(petri.PetriWarning, "particle number 1 of :a is not finite"):
+            session.step(2)
+
     def test_a_name_without_a_system_is_reported(self):
         session = petri.Session(self.SPRING, forces={"b": lambda step: None})
         with self.assertWarnsRegex(petri.PetriWarning, r"forces\['b'\] has no effect yet.*systems: 'a'"):
@@ -1260,6 +1332,7 @@ class Notebooks(unittest.TestCase):
         path, session = petri.Session(script).record("t", 6), petri.Session(script)
         self.assertEqual(path.position.shape, (6, 3, 2))
         self.assertEqual(path.ids, [0, 1, 2])
+        self.assertEqual(repr(path), "<petri.Trajectory of 't': 6 frames, 3 particles, 2 dimensions>")
         for t in range(6):
             session.step()
             system = session.systems["t"]
@@ -1346,6 +1419,13 @@ class Notebooks(unittest.TestCase):
                             {"sum": "A+B+frame+wind+twice(1)"}, frames=5, every=2, where=lambda run: run["A"] < run["B"],
                             given={"wind": 10}, functions={"twice": twice})
         self.assertEqual(table, {"A": [1, 1, 1], "B": [2, 2, 2], "frame": [0, 2, 4], "sum": [15, 17, 19], "error": [None] * 3})
+
+    def test_warnings_of_sweeps_are_not_repeated(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            table = petri.sweep("let A=A or 1\n!x y=A z=nowhere\n", {"A": range(1, 20)}, {"a": "A"}, frames=2)
+        self.assertEqual(table["a"], list(range(1, 20)))
+        self.assertEqual([str(warning.message) for warning in caught], ["unbound name 'nowhere' is null [unbound-name]"])
 
     def test_ctrl_c_aborts_sweeps(self):
         program = ("import os, petri, signal, threading\n"

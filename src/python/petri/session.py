@@ -6,9 +6,10 @@ import errno
 import os
 import tempfile
 import threading
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import count, islice
-from typing import Any, Callable, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, List, NamedTuple, Optional, Sequence, Union
 
 from . import films, trajectories, values
 from ._petri import ffi, lib
@@ -22,6 +23,11 @@ from .state import State
 from .systems import Systems
 
 _MAIN = threading.main_thread().ident
+
+
+def _is_main_thread() -> bool:
+    """Returns true in the thread that gets Ctrl-C."""
+    return threading.get_ident() == _MAIN
 
 
 @dataclass
@@ -125,6 +131,9 @@ class Session:
     def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None,
                  given: Optional[Mapping[str, Any]] = None, functions: Optional[Mapping[str, Callable]] = None,
                  forces: Optional[Mapping[str, Callable]] = None, **defines: Any):
+        for name, argument in (("given", given), ("functions", functions), ("forces", forces)):
+            if not isinstance(argument or {}, Mapping):
+                raise TypeError(f"{name} must be a dict, not {argument!r}")
         self._prepare(options)
         self._made_of = {"source": source, "options": options, "functions": dict(functions or {}),
                          "forces": dict(forces or {})}
@@ -172,7 +181,8 @@ class Session:
         session = cls.__new__(cls)
         session._prepare(options, archive)
         with session._lock:
-            status = (lib.petri_archive_load if loads else lib.petri_archive_replay)(archive, session._c, frame)
+            status = (lib.petri_archive_load(archive, session._c, frame) if loads else
+                      lib.petri_python_replay(archive, session._c, frame, _is_main_thread()))
         _check(archive)
         session._finish(status)
         return session
@@ -184,6 +194,8 @@ class Session:
             return Recording(self._c, path, keyframe_every, digest_every)
 
     def _open(self, wanted: Options, archive: Any = None) -> Any:
+        if not isinstance(wanted, Options):
+            raise TypeError(f"options must be petri.Options(...), not {wanted!r}")
         options = ffi.new("PetriOptions *")
         lib.petri_options_init(options, ffi.sizeof("PetriOptions"))
         for name in ("fps", "threads", "memory_limit", "work_limit", "realtime", "keep_forces", "no_files"):
@@ -266,8 +278,10 @@ class Session:
 
     def step(self, n: int = 1) -> None:
         """Computes n frames without holding the GIL. Ctrl-C aborts the current frame."""
+        if n < 0:
+            raise ValueError(f"the number of frames must be at least 0, not {n}")
         with self._lock:
-            status = lib.petri_python_step(self._c, n, threading.get_ident() == _MAIN, self._stop)
+            status = lib.petri_python_step(self._c, n, _is_main_thread(), self._stop)
         if status or self._told or self._stop and self._stop[0]:
             self._finish(status)
         if self._forces:
@@ -275,12 +289,19 @@ class Session:
 
     def until(self, condition: str, limit: int = 1_000_000) -> bool:
         """Computes at least one frame, up to the first in which an expression is true. Returns False if none of `limit`
-        frames was that frame. An invalid expression raises ScriptError after the first frame."""
+        frames was that frame. An invalid expression or an unbound name in it raises ScriptError after the first
+        frame."""
         data = condition.encode()
         result = ffi.new("PetriEvaluation *")
         for _ in range(limit):
             self.step()
-            self._call(lib.petri_evaluate, data, len(data), result, ffi.sizeof(result[0]), ffi.NULL, ffi.NULL)
+            with self._lock:
+                status = lib.petri_evaluate(self._c, data, len(data), result, ffi.sizeof(result[0]), ffi.NULL, ffi.NULL)
+            unbound = tuple(found for found in self._told if found.code == "unbound-name")
+            if unbound and not status:
+                self._told.clear()
+                raise ScriptError(unbound[0].rendered.rstrip(), unbound)
+            self._finish(status)
             if result.is_true:
                 return True
         return False
@@ -338,7 +359,9 @@ class Session:
     def trust(self, *expressions: str, frames: int = 0, every: int = 0) -> List[Trust]:
         """Runs the script again from frame 0, also with shorter steps and with other starting positions, and returns how
         many digits of each expression are true: after the last frame, and after each `every`-th. `frames` is the number
-        of frames (default: those that the session has computed). The session stays where it is."""
+        of frames (default: those that the session has computed). The session stays where it is. Ctrl-C aborts the runs."""
+        if not expressions:
+            raise TypeError("trust needs at least one expression")
         texts = [ffi.new("char[]", text.encode()) for text in expressions]
         found: List[Trust] = []
         handle = ffi.new_handle((expressions, found))
@@ -347,7 +370,7 @@ class Session:
             "size": ffi.sizeof("PetriTrustOptions"), "expressions": pointers, "count": len(texts),
             "frames": frames or self.frame.number + 1, "every": every, "report": lib.petri_python_trust,
             "user_data": handle})
-        self._call(lib.petri_trust, options)
+        self._call(lib.petri_python_run_trust, options, _is_main_thread())
         return found
 
     def number(self, text: str) -> float:
@@ -379,7 +402,7 @@ class Session:
     def restore(self, file: Union[str, os.PathLike]) -> None:
         """Resumes from a saved state. The following frames are bit-identical to those of an uninterrupted run."""
         if not os.path.exists(file):
-            raise FileNotFoundError(file)
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.fspath(file))
         self._call(lib.petri_restore, _file_name(file))
 
     def reload(self) -> None:
@@ -397,8 +420,15 @@ class Session:
     def set_parameter(self, name: str, value: Any) -> None:
         """Sets a parameter (`let SIZE=SIZE or 20`) from the next frame on. None restores its default."""
         text = None if value is None else value if isinstance(value, str) else self._printed(value)
-        self._call(lib.petri_set_parameter, name.encode(), ffi.NULL if text is None else text.encode(),
-                   message=f"cannot set {name!r}: the script has no such parameter, or the value is invalid")
+        try:
+            self._call(lib.petri_set_parameter, name.encode(), ffi.NULL if text is None else text.encode(),
+                       message=f"cannot set {name!r}: the value is invalid")
+        except ScriptError:
+            names = list(self.parameters)
+            if name in names:
+                raise
+            raise ScriptError(f"cannot set {name!r}: the script has the parameters {', '.join(names)}" if names else
+                              f"cannot set {name!r}: the script has no parameters") from None
         if text is None:
             self._defined.pop(name, None)
         else:

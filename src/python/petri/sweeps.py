@@ -7,8 +7,9 @@ import os
 import re
 import threading
 import warnings
+from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Callable, Iterable, List, Mapping, Optional, Union
+from typing import Any, Callable, List, Optional, Union
 
 from . import sweep_command
 from .errors import Diagnostic, PetriError, PetriWarning, ScriptError
@@ -19,8 +20,9 @@ _UNUSED_VALUE = ("false-definition", "bad-definition")
 
 
 class _Run(Session):
-    """A session that stores what makes its results meaningless."""
+    """A session that stores what makes its results meaningless, and does not repeat the warnings of other runs."""
 
+    issued: set[Diagnostic]  #: what the runs of the sweep have reported
     marked: Optional[Diagnostic] = None  #: reason why the run is unstable; None: it is not
 
     def _finish(self, status: int, message: Optional[str] = None) -> None:
@@ -29,6 +31,9 @@ class _Run(Session):
                 self.marked = diagnostic
         # _check has found that the metrics or `until` read these names.
         self._told[:] = [diagnostic for diagnostic in self._told if diagnostic.code not in _UNREAD]
+        if not status:
+            self._told[:] = [diagnostic for diagnostic in self._told if diagnostic not in self.issued]
+            self.issued.update(self._told)
         super()._finish(status, message)
 
 
@@ -95,6 +100,15 @@ def _check(axes: Mapping[str, List[Any]], runs: List[Mapping[str, Any]], express
             pass
 
 
+def _check_arguments(defines: Any, metrics: Any) -> None:
+    for name, argument in (("defines", defines), ("metrics", metrics)):
+        if not isinstance(argument, Mapping):
+            raise TypeError(f"{name} must be a dict, not {argument!r}")
+    for name, listed in defines.items():
+        if not isinstance(listed, Iterable):
+            raise TypeError(f"defines[{name!r}] must be a list of values, not {listed!r}")
+
+
 def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, Iterable[Any]] = {},
           metrics: Mapping[str, Optional[str]] = {}, *, frames: Optional[int] = None, until: Optional[str] = None,
           every: int = 0, seeds: int = 0, where: Union[None, str, Callable[[Mapping[str, Any]], bool]] = None,
@@ -133,6 +147,7 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
     angular_momentum. In these cases `given`, `functions` and a callable `where` raise ValueError, because the runs are
     in another process. If the command fails, PetriError has its messages.
     """
+    _check_arguments(defines, metrics)
     chosen = {"sample": f"latin:{sample}" if isinstance(sample, int) else sample, "output": output, "summary": summary,
               "plot": plot, "plan": plan, "cache": cache, "verify-cache": verify_cache, "shard": shard, "trust": trust or None,
               "where": where if isinstance(where, str) else None}
@@ -159,6 +174,7 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
         raise ValueError(f"the metric {double[0]!r} has the name of another column")
     runs = [dict(zip(axes, chosen)) for chosen in itertools.product(*axes.values())]
     runs = [run for run in runs if select is None or select(run)]
+    run_type = type("_Run", (_Run,), {"issued": set()})
     stopped = threading.Event()
     active: List[Session] = []
 
@@ -180,7 +196,7 @@ def sweep(source: Union[None, str, os.PathLike] = None, defines: Mapping[str, It
         rows: List[dict] = []
         frame = None
         try:
-            with _Run(script, options=options or Options(threads=1), given=given, functions=functions, **chosen) as session:
+            with run_type(script, options=options or Options(threads=1), given=given, functions=functions, **chosen) as session:
                 active.append(session)
                 try:
                     if not stopped.is_set():

@@ -296,7 +296,8 @@ class System:
 
 
 class Systems(Mapping):
-    """The systems of the last frame by name, in the order of the script."""
+    """The systems of the last frame by name, in the order of the script. There are none after rewind, restore or a frame
+    that was undone, until the next frame; Session.state has the positions then."""
 
     def __init__(self, session: Session):
         self._session = session
@@ -325,7 +326,7 @@ class Systems(Mapping):
             if name == _plain(printed):
                 self._known[name] = System(self._session, number, printed)
                 return self._known[name]
-        raise KeyError(name)
+        raise KeyError(f"no system {name!r} in the last frame; it has {', '.join(map(repr, self)) or 'none'}")
 
     def __iter__(self) -> Iterator[str]:
         return iter([_plain(name) for name in self._names()])

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Array = numpy.typing.NDArray[numpy.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Trajectory:
     """T frames of a system with N particles, including anchors, in d dimensions. Particles that a frame does not have
     are NaN there."""
@@ -29,6 +29,10 @@ class Trajectory:
     velocity: Array           #: T×N×d.
     kinetic_energy: Array     #: T.
     potential_energy: Array   #: T; NaN if the trajectory was recorded without energies.
+
+    def __repr__(self) -> str:
+        frames, particles, dimensions = self.position.shape
+        return f"<petri.Trajectory of {self.name!r}: {frames} frames, {particles} particles, {dimensions} dimensions>"
 
     def to_xarray(self) -> Any:
         """Returns an xarray Dataset with the dimensions time, particle and axis."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections.abc import Mapping, Set
 from typing import Any, Iterable, List, Tuple, Union
 
 import numpy
@@ -32,14 +33,18 @@ Value = Union[None, Element, Tuple[Element, ...]]
 
 
 def elements(value: Any) -> Iterable[Any]:
-    """Yields the elements of a Python value: any iterable except str is a vector."""
+    """Yields the elements of a Python value: an iterable is a vector, row by row if it is nested."""
     if value is None:
         return
-    if isinstance(value, (str, float, int)) or not hasattr(value, "__iter__"):
+    if isinstance(value, (str, float, int)):
         yield value
-    else:
+    elif isinstance(value, (bytes, bytearray, complex, Mapping, Set)):
+        raise TypeError(f"{value!r} is not a number, a string or a sequence of these")
+    elif hasattr(value, "__iter__"):
         for part in value:
             yield from elements(part)
+    else:
+        yield value
 
 
 def symbol(session: Any, name: str) -> float:
