@@ -73,9 +73,10 @@ int html_write(const LinkSession *link_session, const char *page, const char *fi
     SCOPED_TEXT empty = {0};
     SCOPED_TEXT whole = {0};
     if (!find_page(path)) {
-        message("cannot write '%s': the page of the playground, %s, is not installed; run './dev web' and then "
-                "'./dev install', or use the npm package",
-                file, PAGE_NAME);
+        message(
+            "cannot write '%s': the page of the playground, %s, is not installed; copy it from petri-%s-page.tar.xz "
+            "of the release, or from build/web after './dev web', and set PETRI_STANDALONE to its name",
+            file, PAGE_NAME, petri_version());
         return STATUS_FAILED;
     }
     const char *problem = text_read_file(&empty, path, max_bytes);

@@ -70,6 +70,7 @@ notes() {
 notes >"$folder/petri-$version.md" || die "CHANGELOG.md has no changes of version $version"
 part "the source distribution of the Python module" "build/package/petri-$version.tar.gz" ./dev package --sdist
 part "Debian packages" "build/package/*_$version-*.deb build/package/petri_$version*.dsc build/package/petri_$version*.tar.xz" ./dev package
+rm -f "$folder"/*-dbgsym_*.deb # a third of all bytes, and for debuggers only; ./dev package makes them
 part "the wheel for this machine" "build/package/petri-$version-*-linux_*.whl" ./dev package --wheel
 part "the wheel for Linux" "build/package/petri-$version-*manylinux*.whl" ./dev package --manylinux
 part "the static program" "build/package/petri-$version-*-static" ./dev package --static

@@ -165,6 +165,7 @@ check "link --html rejects another file as the page" has err "cannot read 'empty
 PETRI_STANDALONE=absent.html
 petri link count.fl --html other.html
 check "link --html names the missing page" one_message "standalone.html, is not installed"
+check "link --html says where the page is for those who have no source tree" has err "page.tar.xz of the release"
 check "link --html writes no page on failure" [ ! -e other.html ]
 unset PETRI_STANDALONE
 # A copy of the program, in a folder as in a build and as in an installation. A link to it must find the same page.

@@ -39,7 +39,7 @@ case " $FAILS " in *" $part "*) exit 1 ;; esac
 case " $OMITS " in *" $part "*) exit 0 ;; esac
 cd build/package
 case $part in
-package) touch petri_1.2.3-1_amd64.deb libpetri1.2_1.2.3-1_amd64.deb petri_1.2.3-1.dsc petri_1.2.3.orig.tar.xz petri_1.2.3-1.debian.tar.xz ;;
+package) touch petri_1.2.3-1_amd64.deb petri-dbgsym_1.2.3-1_amd64.deb libpetri1.2_1.2.3-1_amd64.deb petri_1.2.3-1.dsc petri_1.2.3.orig.tar.xz petri_1.2.3-1.debian.tar.xz ;;
 --sdist) touch petri-1.2.3.tar.gz ;;
 --wheel) touch petri-1.2.3-cp311-cp311-linux_x86_64.whl ;;
 --manylinux) touch petri-1.2.3-cp311-cp311-manylinux_2_34_x86_64.whl ;;
@@ -70,6 +70,7 @@ listed() { (cd "$dist" && sha256sum --check --quiet SHA256SUMS && [ "$(ls | wc -
 release
 check "a complete release succeeds" status_is 0
 check "it has all files" [ "$(wc -l <files)" -eq 18 ]
+check "debugging symbols are not in a release" [ "$(grep -c dbgsym files)" -eq 0 ]
 check "checksums are those of all files" listed
 check "there are no folders" [ "$(find "$dist" -mindepth 1 -type d | wc -l)" -eq 0 ]
 check "the page contains neither the npm package nor a log" \
