@@ -103,16 +103,27 @@ static void change_folders(Server *server, const Json *params) {
     change_roots(server, json_get(event, "added"), texts_add);
 }
 
-static void ignore_notification(Server *server, const Json *params) {
-    (void)server;
+// Asks the editor to report scripts that other programs change, because open scripts may import them.
+static void watch_files(Server *server, const Json *params) {
     (void)params;
+    SCOPED_TEXT text = {0};
+    JsonWriter json = rpc_writer(&text);
+    json_open(&json, NULL, "{");
+    json_open(&json, "registrations", "[{");
+    JSON_PUT_TEXTS(&json, "id", "scripts", "method", "workspace/didChangeWatchedFiles");
+    json_open(&json, "registerOptions", "{");
+    json_open(&json, "watchers", "[{");
+    json_put_text(&json, "globPattern", "**/*.fl");
+    json_close(&json, "}]}}]}");
+    if (server->can_watch)
+        rpc_request("client/registerCapability", &(Json){"scripts", strlen("scripts"), 1, JSON_STRING}, &text);
 }
 
 static const struct {
     const char *method;
     void (*handle)(Server *server, const Json *params);
 } notifications[] = {
-    {"initialized", ignore_notification},
+    {"initialized", watch_files},
     {"textDocument/didOpen", open_document},
     {"textDocument/didChange", change_document},
     {"textDocument/didClose", close_document},
@@ -188,6 +199,8 @@ static void initialize(Server *server, const Json *params, JsonWriter *result) {
     const Json *encodings = json_path(params, "capabilities.general.positionEncodings");
     for (const Json *name = NULL; (name = json_next(encodings, name));)
         server->utf8 = server->utf8 || (json_is(name, JSON_STRING) && strcmp(name->text, "utf-8") == 0);
+    server->can_watch =
+        json_is(json_path(params, "capabilities.workspace.didChangeWatchedFiles.dynamicRegistration"), JSON_TRUE);
     add_roots(server, params);
     const Json *commands = json_path(params, "initializationOptions.commands");
     for (const Json *name = NULL; (name = json_next(commands, name));)
@@ -250,7 +263,7 @@ static bool handle_message(Server *server, const Json *message) {
     const Json *id = json_get(message, "id");
     if (!method) {
         return json_get(message, "result") || json_get(message, "error") || !id
-                   ? true // ignores a response, because the server sends no requests
+                   ? true // ignores the response to watch_files
                    : rpc_send_error(id, RPC_INVALID_REQUEST, "the message has no method");
     }
     if (id)

@@ -70,14 +70,14 @@ JsonWriter rpc_writer(Text *out) {
     return (JsonWriter){.out = out, .short_escapes = true};
 }
 
-// Sends a message with a method or an id, and with one more member. Returns false if the editor has closed the pipe.
+// Sends a message with a method, an id or both, and one more member. Returns false if the editor has closed the pipe.
 static bool send(const char *method, const Json *id, const char *name, const Text *value) {
     SCOPED_TEXT message = {0}, out = {0};
     JsonWriter json = rpc_writer(&message);
     json_open(&json, NULL, "{");
     if (method)
         json_put_text(&json, "method", method);
-    else
+    if (id || !method)
         json_put(&json, "id", id);
     json_put_written(&json, name, text_str(value));
     json_put_text(&json, "jsonrpc", "2.0");
@@ -103,4 +103,8 @@ bool rpc_send_error(const Json *id, int code, const char *text) {
 
 bool rpc_notify(const char *method, const Text *params) {
     return send(method, NULL, "params", params);
+}
+
+bool rpc_request(const char *method, const Json *id, const Text *params) {
+    return send(method, id, "params", params);
 }

@@ -27,3 +27,4 @@ JsonWriter rpc_writer(Text *out);
 bool rpc_answer(const Json *id, const Text *result);
 bool rpc_send_error(const Json *id, int code, const char *text);
 bool rpc_notify(const char *method, const Text *params);
+bool rpc_request(const char *method, const Json *id, const Text *params);

@@ -31,7 +31,8 @@ typedef struct Server {
     TextList commands;     // commands that the editor executes for code lenses
     Document **documents;
     size_t document_count;
-    bool utf8; // true if positions count UTF-8 bytes, false if they count UTF-16 code units
+    bool utf8;      // true if positions count UTF-8 bytes, false if they count UTF-16 code units
+    bool can_watch; // true if the editor can report changes of files on request
     bool initialized;
     bool shutting_down; // true after the shutdown request
     bool checking;      // true while the document `checked` is being checked

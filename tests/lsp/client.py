@@ -1,18 +1,23 @@
 """client.py: a language client for tests, which starts `petri lsp`, sends messages and reads the answers."""
 
+import faulthandler
 import json
 import subprocess
 
+PATIENCE = 100  # seconds without a message after which a test ends with the line that waits for it
+
 
 class Client:
-    def __init__(self, petri, utf8=False, options=(), root=None, commands=()):
+    def __init__(self, petri, utf8=False, options=(), root=None, commands=(), watches=False):
         self.process = subprocess.Popen([petri, "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.number = 0
         self.published = {}  # last publishDiagnostics message by URI
+        self.requests = []  # requests of the server
         self.versions = {}
         encodings = ["utf-8", "utf-16"] if utf8 else ["utf-16"]
         self.server = self.ask("initialize", {"processId": None, "rootUri": root, "initializationOptions": {"commands": list(commands)}, "capabilities": {
-            "general": {"positionEncodings": encodings}}})
+            "general": {"positionEncodings": encodings},
+            "workspace": {"didChangeWatchedFiles": {"dynamicRegistration": watches}}}})
         self.notify("initialized", {})
 
     def send(self, message):
@@ -21,6 +26,7 @@ class Client:
         self.process.stdin.flush()
 
     def read(self):
+        faulthandler.dump_traceback_later(PATIENCE, exit=True)
         length = None
         while (line := self.process.stdout.readline().strip()):
             name, value = line.split(b":", 1)
@@ -29,6 +35,10 @@ class Client:
         if length is None:
             raise EOFError(f"the server has ended: exit status {self.process.wait()}")
         message = json.loads(self.process.stdout.read(length))
+        faulthandler.cancel_dump_traceback_later()
+        if "method" in message and "id" in message:
+            self.requests.append(message)
+            self.send({"id": message["id"], "result": None})
         if message.get("method") == "textDocument/publishDiagnostics":
             self.published[message["params"]["uri"]] = message["params"]
         return message

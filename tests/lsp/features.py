@@ -288,6 +288,23 @@ check("closing a file discards its unsaved changes", several.published[of["main.
 several.end()
 os.chdir("..")
 
+# Files that other programs change.
+check("an editor that cannot watch files is not asked to", client.requests, [])
+watching = Client(petri, watches=True)
+importing = Path("importing.fl").absolute().as_uri()
+Path("changing.fl").write_text("func twice(x)\n    2*x\n")
+check("a correct import has no diagnostics", watching.open(importing, "import twice from 'changing.fl'\n!n a=twice(2)\n"), [])
+[asked] = watching.requests
+check("the server asks for changes of scripts", (asked["method"], [(one["method"], one["registerOptions"]) for one in asked["params"][
+    "registrations"]]), ("client/registerCapability", [("workspace/didChangeWatchedFiles", {"watchers": [{"globPattern": "**/*.fl"}]})]))
+Path("changing.fl").write_text("func thrice(x)\n    3*x\n")
+watching.notify("workspace/didChangeWatchedFiles", {"changes": [{"uri": Path("changing.fl").absolute().as_uri(), "type": 2}]})
+while not watching.published[importing]["diagnostics"]:
+    watching.read()
+check("a script is checked again after a change of a file that it imports", watching.published[importing]["diagnostics"][0]["message"],
+      f"'{Path('changing.fl').absolute()}' does not bind 'twice'")
+watching.end()
+
 # Memory for typed names is freed. Not checked with AddressSanitizer, which does not return memory to the system.
 def memory():
     return next(int(line.split()[1]) for line in open(f"/proc/{several.process.pid}/status") if line.startswith("VmRSS"))

@@ -25,8 +25,7 @@ class Server {
         this.status = vscode.languages.createLanguageStatusItem("petri.server", { language: "flitter" });
         this.status.name = "petri";
         this.status.command = { command: "petri.restart", title: "Restart" };
-        this.watcher = vscode.workspace.createFileSystemWatcher("**/*.fl");
-        context.subscriptions.push(this.status, this.watcher);
+        context.subscriptions.push(this.status);
     }
 
     show(text, detail, severity = "Information") {
@@ -59,7 +58,7 @@ class Server {
             "petri",
             "petri",
             { command, args: [...args, "lsp", ...programs.setting("arguments")], options: { env } },
-            { documentSelector: [{ language: "flitter" }], synchronize: { fileEvents: this.watcher }, errorHandler,
+            { documentSelector: [{ language: "flitter" }], errorHandler,
                 initializationFailedHandler: () => false,
                 initializationOptions: { commands: ["petri.run", "petri.render", "petri.test"] } }, // for code lenses
         );
