@@ -295,13 +295,27 @@ static void run_with(Prompt *prompt, const PromptCommand *command, const char *r
         prompt->failed = true;
 }
 
+static const PromptCommand *find_command(const char *name, TextList *candidates) {
+    const char *alias = bare_alias(name + 1, strlen(name + 1)); // accepts .exit and .q too
+    return alias ? prompt_find_command(alias, strlen(alias)) : match_command(name, candidates);
+}
+
+const PromptCommand *prompt_command_of(const char *input) {
+    if (input[0] != '.')
+        return NULL;
+    TextList candidates = {0};
+    SCOPED_STRING name = memory_strndup(input, strcspn(input, " \t\n"));
+    const PromptCommand *command = find_command(name, &candidates);
+    texts_free(&candidates);
+    return command;
+}
+
 void prompt_command(Prompt *prompt, const char *line) {
     size_t length = strcspn(line, " \t\n");
     SCOPED_STRING name = memory_strndup(line, length);
     SCOPED_STRING rest = argument_trimmed(line + length);
-    const char *alias = bare_alias(name + 1, length - 1); // accepts .exit and .q too
     TextList candidates = {0};
-    const PromptCommand *command = alias ? prompt_find_command(alias, strlen(alias)) : match_command(name, &candidates);
+    const PromptCommand *command = find_command(name, &candidates);
     if (candidates.count > 1)
         report_ambiguous(prompt, name, &candidates);
     else if (!command)

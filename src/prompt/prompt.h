@@ -229,6 +229,8 @@ extern const PromptCommand STEP_COMMANDS[], BREAK_COMMANDS[], RECALL_COMMANDS[],
 const PromptCommand *prompt_command_at(size_t index);
 // Returns the command with this name, with or without the dot, or NULL. Names are not shortened.
 const PromptCommand *prompt_find_command(const char *name, size_t length);
+// Returns the command that an input runs, or NULL. Its name may be shortened.
+const PromptCommand *prompt_command_of(const char *input);
 void prompt_command(Prompt *prompt, const char *line);
 
 // Earlier inputs and values (recall.c).

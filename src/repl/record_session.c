@@ -42,6 +42,14 @@ static void add_input(Repl *repl, const char *input, Text *text) {
         text_add_c(text, "... \n");
 }
 
+// Returns true if a test must not repeat an input: it would write its own session, or an archive over one of the user.
+static bool is_left_out(const char *input) {
+    const PromptCommand *command = prompt_command_of(input);
+    return command &&
+           (strcmp(command->name, ".archive") == 0 ||
+            (strcmp(command->name, ".record") == 0 && str_ends_with(str_from(input), STR(TRANSCRIPT_SUFFIX))));
+}
+
 static bool can_record_session(Repl *repl, const char *path) {
     Prompt *prompt = &repl->prompt;
     if (repl->options->replayed || repl->options->state_file)
@@ -79,9 +87,8 @@ bool repl_record_session(Repl *repl, const char *path) {
     if (!can_record_session(repl, path) || !add_header(repl, &text))
         return false;
     for (size_t i = 0; i < prompt->inputs.count; i++) {
-        Str input = str_from(prompt->inputs.items[i]);
-        if (str_starts_with(input, STR(".rec")) && str_ends_with(input, STR(TRANSCRIPT_SUFFIX)))
-            continue; // this command, or one like it
+        if (is_left_out(prompt->inputs.items[i]))
+            continue;
         add_input(repl, prompt->inputs.items[i], &text);
         count++;
     }

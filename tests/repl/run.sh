@@ -80,6 +80,10 @@ if [ -n "$all" ]; then
     printf 'petri> %s\n' "$last" >>longer.session
     "$petri" repl longer.session >"$work/out"
     check "its inputs lead to the same state" [ "$(tail -n 3 "$work/out" | head -n 1)" = "$(tail -n 2 live | head -n 1)" ]
+    printf '.step 3\n.archive kept.petri\n.step 2\n.arch more.petri\n.rec more.session\n' | "$petri" repl cells.fl >"$work/out" 2>&1
+    check "a session that was also archived is recorded" said "-- 2 inputs and their answers written to more.session"
+    check "it passes, too" run more.session
+    check "it writes no archive" [ "$(grep -c -e archive -e petri$ more.session)" -eq 0 ]
     printf '.record kept.session\n.record --replace kept.session\n' | "$petri" repl >"$work/out" 2>&1
     check ".record replaces no file by itself" said "'kept.session' already exists; to replace it, run"
     check ".record --replace replaces it" said "-- 0 inputs and their answers written to kept.session"
