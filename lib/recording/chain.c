@@ -16,12 +16,12 @@ static void add_text(Sha256 *hash, Str text) {
     sha256_add(hash, text.bytes, text.len);
 }
 
+// Adds a text. A blob with the same bytes is damage, because a replay needs a text.
 static bool add_column(PetriArchive *archive, Sha256 *hash, sqlite3_stmt *row, int column) {
-    Str bytes;
-    bool is_blob = sqlite3_column_type(row, column) == SQLITE_BLOB;
-    if (!(is_blob ? archive_column_blob : archive_column_text)(archive, row, column, &bytes))
+    Str text;
+    if (!archive_column_text(archive, row, column, &text))
         return false;
-    add_text(hash, bytes);
+    add_text(hash, text);
     return true;
 }
 
@@ -34,7 +34,7 @@ static bool add_pairs(PetriArchive *archive, Sha256 *hash, ArchiveStatement numb
     return !archive_fails(archive);
 }
 
-// Adds the frame in the first column, and the columns after it.
+// Adds the frame in the first column, and the texts in the columns after it.
 static bool add_row(PetriArchive *archive, Sha256 *hash, sqlite3_stmt *row, int columns) {
     int64_t frame;
     if (!archive_column_integer(archive, row, 0, -1, ARCHIVE_MAX_FRAME, &frame))
@@ -48,14 +48,18 @@ static bool add_row(PetriArchive *archive, Sha256 *hash, sqlite3_stmt *row, int 
 
 static bool add_digests(PetriArchive *archive, Sha256 *hash, const ArchiveSeal *seal) {
     int64_t frame = -2;
+    Str digest;
     sqlite3_stmt *rows = archive_statement(archive, SQL_DIGESTS_BETWEEN);
     if (rows) {
         sqlite3_bind_int64(rows, 1, seal->previous);
         sqlite3_bind_int64(rows, 2, seal->frame);
     }
-    while (archive_next_in_order(archive, rows, 0, ARCHIVE_MAX_FRAME, &frame))
-        if (!add_row(archive, hash, rows, 2))
+    while (archive_next_in_order(archive, rows, 0, ARCHIVE_MAX_FRAME, &frame)) {
+        if (!archive_column_blob(archive, rows, 1, &digest))
             return false;
+        add_integer(hash, frame);
+        add_text(hash, digest);
+    }
     return !archive_fails(archive);
 }
 
