@@ -51,6 +51,11 @@ bool gr_accepts(const gr_pstate *parser, int token);
 
 static void gr_error(const Span *span, ParseContext *context, const char *text);
 
+static AstList *add_statement(AstList *list, Ast *statement, uint32_t end) {
+    statement->end = end;
+    return ast_list_add(list, statement);
+}
+
 // Returns `ast`. If the tree is too high, records an overflow and returns a small node instead.
 static Ast *check_height(ParseContext *context, Ast *ast) {
     if (ast->height <= AST_MAX_HEIGHT)
@@ -134,7 +139,7 @@ pragma:
 
 items:
     %empty { $$ = LIST(); }
-  | items item { $$ = $item ? ast_list_add($1, $item) : $1; }
+  | items item { $$ = $item ? add_statement($1, $item, @item.end) : $1; }
   | items error NEWLINE { $$ = $1; yyerrok; }
   | items error suite { $$ = $1; yyerrok; }
   ;

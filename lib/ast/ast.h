@@ -18,6 +18,7 @@ struct Ast {
     AstKind kind;
     uint32_t count;  // number of children
     uint32_t height; // 1 + maximum height of the children
+    uint32_t end;    // of a statement in a suite: the end of its last line, which can be behind that of its span
     Span span;
     const Symbol *name; // NULL for kinds without a name
     Value value;        // value of a LITERAL

@@ -23,6 +23,7 @@ typedef struct Job {
     Str text;
     Unit *unit;
     const Ast *ast; // syntax tree of the statement
+    Span lines;     // of the statement in the text of the unit, with comments before it
     const Program *program;
     Arena *arena; // arena of the statement's value
     Value value;
@@ -192,10 +193,8 @@ static bool makes_nodes(const Ast *ast) {
 }
 
 static const char *statement_text(PetriSession *session, const Job *job) {
-    Str text = job->unit->source->text;
-    Span span = job->ast->span;
-    return str_copy(unit_arena(session, job->unit), str_trim((Str){text.bytes + span.start, span.end - span.start}))
-        .bytes;
+    Str text = {job->unit->source->text.bytes + job->lines.start, job->lines.end - job->lines.start};
+    return str_copy(unit_arena(session, job->unit), str_trim(text)).bytes;
 }
 
 // Prepares the new contents of the prompt and the frame for a statement that will be retained.
@@ -302,6 +301,7 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
         status = PETRI_INVALID;
     for (uint32_t i = 0; status == PETRI_OK && i < job.unit->ast->count; i++) {
         job.ast = job.unit->ast->children[i];
+        job.lines = (Span){job.lines.end, job.ast->end};
         status = session_run(session, wrap_statement, &job, "the input");
         if (status == PETRI_OK)
             status = prompt_statement(session, &job, &done);
@@ -321,6 +321,7 @@ static PetriStatus append_statement(PetriSession *session, void *context) {
     if (!job->unit->ast || job->unit->ast->count != 1)
         return PETRI_INVALID;
     job->ast = job->unit->ast->children[0];
+    job->lines = (Span){0, job->ast->end};
     bool adds_nodes = !binds(job->ast) && makes_nodes(job->ast);
     const char *text = statement_text(session, job);
     wrap_statement(session, job);

@@ -72,8 +72,12 @@ static inline void run_give_inputs(PetriSession *session, int frame) {
         assert_int_equal(petri_set_global(session, "level", (PetriValue){1, one, NULL}), PETRI_OK);
         break;
     case 15:
-        assert_int_equal(petri_prompt(session, "!counter state=:extra rate=2", PETRI_NUL_TERMINATED, NULL, NULL,
-                                      &result, sizeof result),
+        assert_int_equal(petri_prompt(session,
+                                      "!counter state=:extra rate=2\n"
+                                      "if frame > 16\n"
+                                      "    !physics state=:q dimensions=1\n"
+                                      "        !particle id=1 velocity=2  -- all lines are recorded\n",
+                                      PETRI_NUL_TERMINATED, NULL, NULL, &result, sizeof result),
                          PETRI_OK);
         break;
     case 20:
