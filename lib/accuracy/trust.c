@@ -329,6 +329,26 @@ static bool allocate(Trust *trust) {
     return trust->numbers && trust->motion && trust->counts && trust->times && trust->frames && trust->texts;
 }
 
+// Executes and reports all runs. An archive that is written gets none of their frames, only the files that they read.
+static PetriStatus execute_all(Trust *trust) {
+    PetriSession *session = trust->session;
+    Recorder recorder = session->recorder;
+    PetriSnapshot *snapshot = petri_snapshot(session);
+    PetriStatus status = snapshot && allocate(trust) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
+    if (recorder.after_frame)
+        session->recorder = (Recorder){.user_data = recorder.user_data, .file = recorder.file};
+    for (int run = 0; status == PETRI_OK && run < TRUST_RUNS; run++)
+        status = execute(trust, (TrustRun)run);
+    if (status == PETRI_OK)
+        report_all(trust);
+    PetriStatus rewound = snapshot ? petri_rewind(session, snapshot) : PETRI_OK;
+    session->recorder = recorder;
+    if (rewound != PETRI_OK)
+        recorder_jump(session);
+    petri_snapshot_free(snapshot);
+    return status == PETRI_OK ? rewound : status;
+}
+
 PetriStatus petri_trust(PetriSession *session, const PetriTrustOptions *given) {
     Trust trust = {.session = session, .unstable_frame = -1};
     PetriTrustOptions *options = &trust.given;
@@ -339,23 +359,16 @@ PetriStatus petri_trust(PetriSession *session, const PetriTrustOptions *given) {
     trust.last_frame = options->frames - 1;
     trust.capacity = trust.rows = (size_t)((trust.last_frame + trust.interval - 1) / trust.interval) + 1;
     PetriVariation before = session->variation;
-    PetriSnapshot *snapshot = petri_snapshot(session);
-    PetriStatus status = snapshot && allocate(&trust) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
     session->diagnostics.filter = filter_diagnostic;
     session->diagnostics.filter_context = &trust;
-    for (int run = 0; status == PETRI_OK && run < TRUST_RUNS; run++)
-        status = execute(&trust, (TrustRun)run);
+    PetriStatus status = execute_all(&trust);
     session->diagnostics.filter = NULL;
     session->variation = before;
-    if (status == PETRI_OK)
-        report_all(&trust);
-    PetriStatus rewound = snapshot ? petri_rewind(session, snapshot) : PETRI_OK;
-    petri_snapshot_free(snapshot);
     heap_free(trust.numbers);
     heap_free(trust.motion);
     heap_free(trust.counts);
     heap_free(trust.times);
     heap_free(trust.frames);
     heap_free(trust.texts);
-    return status == PETRI_OK ? rewound : status;
+    return status;
 }

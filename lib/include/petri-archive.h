@@ -40,8 +40,8 @@ static inline PetriArchiveOptions petri_archive_default_options(void) {
 // and compiles it. If the session is already recorded in another archive, completes that one; if it is a replay, ends
 // the replay. Check petri_archive_problem after the call, and when you want to know if recording has stopped, for
 // example because the disk is full. The session is not affected by such problems. Returns NULL if out of memory. Free
-// it with petri_archive_close, before or after the session. Host functions (petri_add_function) and forces
-// (petri_set_force_callback) cannot be recorded.
+// it with petri_archive_close, before or after the session. Host functions (petri_add_function), forces
+// (petri_set_force_callback) and variations (petri_vary) cannot be recorded.
 //
 // `file` must be the name of a new file or of an archive, which is replaced. Any other file has a problem as its
 // result, and so has an archive that another process or session is recording.

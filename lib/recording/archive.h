@@ -111,12 +111,12 @@ struct PetriArchive {
     bool writes;
     int claim;             // descriptor that holds the lock of the file; -1: none
     bool needs_keyframe;   // the next frame does not follow from the last one
-    bool in_frame;         // the frame after last_frame is being computed
     bool has_new_notes;    // there are notes since the last frame
     bool mentions_clock;   // a script may use `clock`
     bool mentions_files;   // nodes may have an attribute `filename`
     uint64_t revision;     // revision of the configuration that was recorded last
     int64_t last_frame;    // last recorded frame; -2: none
+    int64_t session_frame; // last frame of the session; not that of another run (petri_trust)
     int64_t last_keyframe; // -2: none
     bool state_modified;   // the host has modified the state since the last frame
     double last_commit;    // times of the monotonic clock in seconds

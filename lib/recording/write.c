@@ -14,7 +14,7 @@
 
 // Returns the frame to which an input or a file belongs: the frame that is computed, else the next one.
 static int64_t next_frame(const PetriArchive *archive) {
-    return archive->in_frame ? archive->last_frame + 1 : petri_frame_number(archive->session) + 1;
+    return archive->session_frame + 1;
 }
 
 static void add_pair(PetriArchive *archive, ArchiveStatement number, const char *key, const char *value) {
@@ -185,8 +185,8 @@ static void on_jump(void *user_data) {
     PetriArchive *archive = user_data;
     if (archive_fails(archive))
         return;
-    archive->in_frame = false;
-    remove_rows_after(archive, petri_frame_number(archive->session));
+    archive->session_frame = petri_frame_number(archive->session);
+    remove_rows_after(archive, archive->session_frame);
     archive->needs_keyframe = true;
 }
 
@@ -199,17 +199,15 @@ static PetriStatus before_frame(void *user_data, FrameClock *clock, bool *has_cl
     if (archive_fails(archive))
         return PETRI_OK;
     if (recorder_host_functions(archive->session) > 0)
-        archive_fail(archive, "functions of the host cannot be recorded");
+        archive_fail(archive, "functions, forces and variations of the host cannot be recorded");
     bool first = archive->last_frame == -2;
-    archive->in_frame = false;
     flush_configuration(archive);
     if (first)
         add_first_rows(archive);
     if (archive->needs_keyframe)
         add_keyframe(archive, true);
     archive->needs_keyframe = false;
-    archive->last_frame = petri_frame_number(archive->session);
-    archive->in_frame = true;
+    archive->last_frame = archive->session_frame;
     return PETRI_OK;
 }
 
@@ -271,8 +269,8 @@ static void after_frame(void *user_data, const FrameClock *clock, bool complete)
         archive->mentions_files ? recorder_read_drawn_files(archive->session, knows_file, archive) : PETRI_OK;
     if (drawn != PETRI_INTERRUPTED && !fail_status(archive, drawn))
         return;
-    archive->last_frame = frame;
-    archive->in_frame = archive->state_modified = archive->has_new_notes = false;
+    archive->last_frame = archive->session_frame = frame;
+    archive->state_modified = archive->has_new_notes = false;
     if (!clock->lockstep)
         add_clock(archive, frame, clock);
     if (frame % archive->options.digest_every == 0)
@@ -319,6 +317,7 @@ PetriArchive *petri_archive_create(PetriSession *session, const char *file, cons
     archive->session = session;
     archive->writes = archive->needs_keyframe = true;
     archive->last_frame = archive->last_keyframe = -2;
+    archive->session_frame = petri_frame_number(session);
     petri_archive_options_init(&archive->options, sizeof archive->options);
     if (options && !host_struct_read(&archive->options, sizeof archive->options, options))
         archive_fail(archive, "the options are not valid");

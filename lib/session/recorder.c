@@ -30,7 +30,8 @@ bool recorder_is_interrupted(const PetriSession *session) {
 }
 
 uint32_t recorder_host_functions(const PetriSession *session) {
-    return session->functions.count + (session->step_forces.callback != NULL);
+    bool varies = session->variation.parts > 1 || session->variation.shift > 0;
+    return session->functions.count + (session->step_forces.callback != NULL) + varies;
 }
 
 void recorder_jump(PetriSession *session) {

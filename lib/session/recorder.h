@@ -75,7 +75,7 @@ PetriStatus recorder_apply_input(PetriSession *session, Str kind, Str payload) P
 void recorder_ignore_input(PetriSession *session, bool ignores) PRIVATE_API(recorder_ignore_input);
 // Returns true if petri_interrupt was called and the interrupt is pending.
 bool recorder_is_interrupted(const PetriSession *session) PRIVATE_API(recorder_is_interrupted);
-// Returns the number of functions that the host added, which a recording cannot contain.
+// Returns the number of functions, forces and variations of the host, which a recording cannot contain.
 uint32_t recorder_host_functions(const PetriSession *session) PRIVATE_API(recorder_host_functions);
 
 // --- for the session, which calls them after the events

@@ -1075,7 +1075,7 @@ class Archives(unittest.TestCase):
         except petri.ArchiveError as error:
             self.skipTest(str(error))
         session.step()
-        with self.assertRaisesRegex(petri.ArchiveError, "functions of the host"):
+        with self.assertRaisesRegex(petri.ArchiveError, "of the host cannot be recorded"):
             recording.close()
 
 
@@ -1251,7 +1251,7 @@ class StepForces(unittest.TestCase):
             except petri.ArchiveError as error:
                 self.skipTest(str(error))
             session.step()
-            with self.assertRaisesRegex(petri.ArchiveError, "functions of the host"):
+            with self.assertRaisesRegex(petri.ArchiveError, "of the host cannot be recorded"):
                 recording.close()
 
 

@@ -139,7 +139,7 @@ def random_inputs(numbers, count):
         lambda: f".goto {numbers.randrange(0, 60)}", lambda: f".move (:p;{numbers.randrange(5)}) position={vector()}",
         lambda: f".move {numbers.randrange(5)} velocity={vector()} position=$(:p;0)+{numbers.randrange(1, 9)}",
         lambda: f".move :one velocity={numbers.randrange(9)}", lambda: f".set SPIN {numbers.randrange(1, 9)}",
-        lambda: f".until $:c > {numbers.randrange(1, 5)} --limit 30", lambda: ".drop",
+        lambda: f".until $:c > {numbers.randrange(1, 5)} --limit 30", lambda: ".trust $(:p;0)", lambda: ".drop",
         lambda: f"!physics state=:r dimensions=1\n    for i in ..{numbers.randrange(1, 4)}\n        !particle id=i velocity=SPIN\n",
     ]
     return [".step 3"] + [numbers.choice(makers)() for _ in range(count)]

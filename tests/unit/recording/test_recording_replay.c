@@ -459,7 +459,22 @@ static void test_forces_of_the_host_end_recording(void **state) {
     assert_null(petri_archive_problem(archive));
     assert_int_equal(petri_set_force_callback(session, pull_nothing, NULL), PETRI_OK);
     assert_int_equal(petri_step(session), PETRI_OK);
-    assert_non_null(strstr(petri_archive_problem(archive), "functions of the host"));
+    assert_non_null(strstr(petri_archive_problem(archive), "of the host cannot be recorded"));
+    petri_archive_close(&archive);
+    petri_close(&session);
+}
+
+static void test_variations_end_recording(void **state) {
+    (void)state;
+    PetriSession *session = run_open_session();
+    PetriArchive *archive = petri_archive_create(session, "varied.petri", NULL);
+    assert_int_equal(petri_load_text(session, "a.fl", "!counter state=:a rate=1\n", PETRI_NUL_TERMINATED), PETRI_OK);
+    assert_int_equal(petri_vary(session, &(PetriVariation){.size = sizeof(PetriVariation), .parts = 1}), PETRI_OK);
+    assert_int_equal(petri_step(session), PETRI_OK);
+    assert_null(petri_archive_problem(archive));
+    assert_int_equal(petri_vary(session, &(PetriVariation){.size = sizeof(PetriVariation), .parts = 2}), PETRI_OK);
+    assert_int_equal(petri_step(session), PETRI_OK);
+    assert_non_null(strstr(petri_archive_problem(archive), "variations of the host"));
     petri_archive_close(&archive);
     petri_close(&session);
 }
@@ -472,7 +487,7 @@ static void test_host_functions_end_recording(void **state) {
         session, &(PetriFunction){.size = sizeof(PetriFunction), .name = "f", .parameters = "x", .call = call_nothing});
     assert_int_equal(petri_load_text(session, "a.fl", "!counter state=:a rate=1\n", PETRI_NUL_TERMINATED), PETRI_OK);
     assert_int_equal(petri_step(session), PETRI_OK);
-    assert_non_null(strstr(petri_archive_problem(archive), "functions of the host"));
+    assert_non_null(strstr(petri_archive_problem(archive), "of the host cannot be recorded"));
     assert_int_equal(petri_step(session), PETRI_OK);
     petri_archive_close(&archive);
     petri_close(&session);
@@ -527,6 +542,7 @@ TEST_GROUP(recording_replay) {
         cmocka_unit_test(test_two_recordings_of_one_file),
         cmocka_unit_test(test_host_functions_end_recording),
         cmocka_unit_test(test_forces_of_the_host_end_recording),
+        cmocka_unit_test(test_variations_end_recording),
         cmocka_unit_test(test_functions_reject_missing_arguments),
     };
     return cmocka_run_group_tests(tests, record, leave_folder);
