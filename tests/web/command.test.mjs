@@ -213,7 +213,7 @@ test('files that cannot be read are omitted', async () => {
 });
 
 test('petri sweep --plot says where drawing works', () => within(work => {
-    fs.writeFileSync(join(work, 'a.fl'), 'let A=1\n\n!physics state=:s dimensions=1\n    !particle id=:p position=A velocity=1\n');
+    fs.writeFileSync(join(work, 'a.fl'), 'let A=A or 1\n\n!physics state=:s dimensions=1\n    !particle id=:p position=A velocity=1\n');
     const plot = petri(['sweep', 'a.fl', '-D', 'A=1;2', '--frames', '2', '--metric', 'x=$(:s;:p)', '--plot', 'p.png', '-o', 't.csv'],
         { cwd: work });
     assert.notEqual(plot.status, 0);

@@ -12,6 +12,7 @@ const withWorker = page => page.waitForFunction(() => navigator.serviceWorker.co
 const isReady = page => page.waitForFunction(() => document.body.dataset.ready);
 
 test('a page that was loaded once runs samples, exports and shows a grid offline', options, () => opened('', {
+    expected: /Failed to load resource|willReadFrequently/, // pictures of the gallery, which are then computed
     use: async (page, context) => {
         await withWorker(page);
         await page.waitForLoadState('networkidle'); // requests that are under way would fail
