@@ -11,7 +11,7 @@ const browserPath = '/usr/bin/chromium';
 const modules = join(root, 'src/web/page/node_modules/playwright-core/index.mjs');
 const missing = [modules, browserPath, join(folder, 'page.js')].find(path => !existsSync(path));
 export const options = { skip: missing ? `missing: ${missing}` : false, timeout: 60000 };
-export const world = {}; // browser, server
+export const world = { flags: [] }; // browser, its additional flags, server
 
 before(async () => {
     if (missing)
@@ -22,7 +22,7 @@ before(async () => {
     world.browser = await chromium.launch({
         executablePath: browserPath,
         args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-            '--disable-component-update', '--disable-sync'],
+            '--disable-component-update', '--disable-sync', ...world.flags],
     });
 });
 
@@ -105,6 +105,12 @@ export async function choose(page, name) {
     await page.click('#scripts');
     await page.click(`#sample-cards button:has(strong:text-is("${name.replace(/\.fl$/, '')}"))`);
 }
+
+// Returns the names of the engines that work offline.
+export const cachedEngines = page => page.evaluate(async () => {
+    const names = await caches.keys(), files = await Promise.all(names.map(async name => (await caches.open(name)).keys()));
+    return files.flat().map(({ url }) => url.replace(/.*\//, '')).filter(name => /wasm$/.test(name));
+});
 
 export async function typed(page, text) {
     await page.click('.cm-content');

@@ -24,7 +24,7 @@ test('the package has the version of the project and is small', () => {
     assert.equal(engine.version, version);
     assert.equal(JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')).version, version);
     const size = name => gzipSync(readFileSync(join(folder, name)), { level: 9 }).length;
-    assert.ok(size('engine.wasm') <= 560e3 && size('engine-archives.wasm') <= 860e3);
+    assert.ok(size('engine.wasm') <= 560e3 && size('engine-scalar.wasm') <= 560e3 && size('engine-archives.wasm') <= 860e3);
 });
 
 test('links of the README lead somewhere in a registry', () => {

@@ -6,7 +6,7 @@ import { appendFileSync, cpSync, mkdtempSync, readFileSync, rmSync, writeFileSyn
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, firefoxOptions, folder, opened, openedInFirefox, options, pixels, root, visited } from './browser.mjs';
+import { cachedEngines, choose, firefoxOptions, folder, opened, openedInFirefox, options, pixels, root, visited } from './browser.mjs';
 
 const withWorker = page => page.waitForFunction(() => navigator.serviceWorker.controller);
 const isReady = page => page.waitForFunction(() => document.body.dataset.ready);
@@ -16,6 +16,7 @@ test('a page that was loaded once runs samples, exports and shows a grid offline
     use: async (page, context) => {
         await withWorker(page);
         await page.waitForLoadState('networkidle'); // requests that are under way would fail
+        assert.deepEqual(await cachedEngines(page), ['engine.wasm']);
         await context.setOffline(true);
         await page.reload();
         await isReady(page);

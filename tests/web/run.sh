@@ -20,7 +20,10 @@ if [ "${2:-}" = --current ]; then
         [ "${file##*/}" = package.json ] || cmp -s "$file" "$PETRI_WEB/petri/${file##*/}" || skip "out of date: ./dev web"
     done
 fi
-node "$here/hashes.mjs" "$PETRI_WEB/petri/engine.wasm" "$root/tests/conformance" "$root/tests/hashes/corpora.txt"
+for engine in engine engine-scalar; do
+    [ "${2:-}" != --current ] || [ $engine = engine ] || continue
+    node "$here/hashes.mjs" "$PETRI_WEB/petri/$engine.wasm" "$root/tests/conformance" "$root/tests/hashes/corpora.txt"
+done
 cd "$here"
 # shellcheck disable=SC2086 # the files are separate words
 node --test $tests >"$PETRI_WEB/tests.log" 2>&1 || {

@@ -3,11 +3,14 @@ import type { Level, Section, Status as StatusName, TokenKind } from './constant
 
 export type { Level, Section, TokenKind };
 
-/** The bytes of engine.wasm, a compiled module, a URL, or the response of a fetch. Default: engine.wasm next to petri.mjs. */
+/** The bytes of engine.wasm, a compiled module, a URL, or the response of a fetch. Default: the file `engineFile()` next to petri.mjs. */
 export type EngineSource = BufferSource | WebAssembly.Module | Response | URL | string;
 
 /** Compiles the engine, which takes about ten milliseconds. */
 export function loadEngine(source?: EngineSource): Promise<Engine>;
+
+/** Returns the name of the engine's file for this browser: engine.wasm or, without WebAssembly SIMD, engine-scalar.wasm. */
+export function engineFile(): string;
 
 export type Status = Exclude<StatusName, 'limit_exceeded' | 'out_of_memory' | 'unsupported'> | 'limit' | 'memory' | 'missing';
 export const STATUS: Status[];

@@ -7,6 +7,8 @@ import { drawPicture, measureText, needsEngine, pictureSize } from './drawing.mj
 import { pixelContext, readPixels } from './pixels.mjs';
 import { compile, instantiate } from './wasm.mjs';
 
+export { engineFile } from './simd.mjs';
+
 const OTHER_STATUSES = { limit_exceeded: 'limit', out_of_memory: 'memory', unsupported: 'missing' };
 export const STATUS = STATUSES.map(name => OTHER_STATUSES[name] ?? name);
 const REASONS = {

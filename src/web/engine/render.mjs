@@ -118,7 +118,7 @@ function readScript({ script, settings }) {
 
 // Serves the page and receives its pictures and messages. Returns { url, close, started, done }; `done` resolves to the exit status.
 async function servePage({ job, images }, output, message) {
-    const modules = fs.readdirSync(PACKAGE).filter(file => file.endsWith('.mjs') || file === 'engine.wasm');
+    const modules = fs.readdirSync(PACKAGE).filter(file => /(\.mjs|^engine(-scalar)?\.wasm)$/.test(file));
     const page = {};
     page.done = new Promise(resolve => { page.finish = resolve; });
     page.started = new Promise(resolve => { page.start = resolve; });

@@ -44,7 +44,7 @@ async function render({ text, name, files, imageNames, define, quiet, automatic,
     for (const [index, file] of imageNames.entries())
         images.set(plain(file), await createImageBitmap(await (await fetch(`image/${index}`)).blob()).catch(() => null));
     const image = file => images.get(plain(file)) ?? null;
-    const engine = await loadEngine(new URL('engine.wasm', import.meta.url));
+    const engine = await loadEngine();
     const onDiagnostic = ({ level, rendered }) => (!quiet || level === 'error') && reported.push(rendered);
     const session = engine.open({ files, fps, work: 2 ** 30, image, onDiagnostic });
     const missing = new Set();

@@ -36,7 +36,7 @@ export async function serveScript(script, report = () => {}) {
             const given = JSON.parse(fs.readFileSync(join(PACKAGE, 'page/samples.json'), 'utf8'));
             return JSON.stringify({ ...given, pictures: {}, files: { ...given.files, ...filesBelow(dirname(fs.realpathSync(script))) } });
         }
-        return /^petri\/engine(-archives)?\.wasm$/.test(file) ? fs.readFileSync(join(PACKAGE, basename(file)))
+        return /^petri\/engine(-archives|-scalar)?\.wasm$/.test(file) ? fs.readFileSync(join(PACKAGE, basename(file)))
             : page.includes(file) && file !== 'offline.js' ? fs.readFileSync(join(PACKAGE, 'page', file)) : null;
     };
     const server = await startServer(contents, (file, request, response) => {

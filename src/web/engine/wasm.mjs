@@ -2,6 +2,7 @@
 // and calls JavaScript through the functions of src/web/host.h.
 import { ArchiveFiles } from './archive.mjs';
 import { runtime } from './runtime.mjs';
+import { hasSimd } from './simd.mjs';
 import { Screen } from './webgl.mjs';
 
 const encoder = new TextEncoder();
@@ -9,8 +10,11 @@ const decoder = new TextDecoder();
 
 const ENOSYS = 52, EBADF = 8;
 
-// Compiles the engine from bytes, a WebAssembly.Module, a URL or a Response. Default: engine.wasm next to this file.
-export async function compile(source = new URL('./engine.wasm', import.meta.url)) {
+// The engine next to this file. Bundlers copy files whose URLs are constants, so that engineFile() does not help here.
+const nextToThis = () => (hasSimd() ? new URL('./engine.wasm', import.meta.url) : new URL('./engine-scalar.wasm', import.meta.url));
+
+// Compiles the engine from bytes, a WebAssembly.Module, a URL or a Response.
+export async function compile(source = nextToThis()) {
     if (source instanceof WebAssembly.Module)
         return source;
     if (typeof source === 'string' || source instanceof URL) {

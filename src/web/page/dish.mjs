@@ -1,7 +1,6 @@
 // dish.mjs: loads a script, runs it on a canvas, and goes to frames. Used by the page and by <petri-dish>.
 import { Remote } from './engine.mjs';
 import { addImage, paint, sizeOf } from './paint.mjs';
-import { NO_ENGINE, hasEngine } from './feature_check.mjs';
 import { Input } from './input.mjs';
 import { FIRST_SEEN } from './player.mjs';
 import { Rate } from './rate.mjs';
@@ -9,6 +8,7 @@ import { Rate } from './rate.mjs';
 const MAX_STEPS = 8; // maximum number of frames between two pictures; a script that would need more runs in slow motion
 const SLOW_PICTURE = 50; // ms for frames and a picture after which every frame has a picture
 const SLOW = 500; // ms after which the page offers to stop the computation
+const NO_ENGINE = 'petri needs WebAssembly, which this browser does not support or does not allow.';
 
 export class Dish {
     // host: the callbacks shown(answer, unsupported), failed(error, diagnostics) and changed(), which is called when the script starts or
@@ -20,7 +20,7 @@ export class Dish {
             turn: 0, incomplete: false, replays: false, files: new Map(), images: new Map(),
             wanted: null, rate: new Rate(),
         });
-        this.remote = hasEngine() ? new Remote(source, worker) : null;
+        this.remote = globalThis.WebAssembly ? new Remote(source, worker) : null;
         if (this.remote)
             this.remote.onContextChange = lost => this.changeContext(lost);
     }

@@ -1,6 +1,6 @@
 // embed.mjs: <petri-dish>, an element that runs a script in any page. src/manual/playground.md lists its attributes and events. The engine
 // is loaded from this file's folder when the element comes into view.
-import { loadEngine } from '../engine/petri.mjs';
+import { engineFile, loadEngine } from '../engine/petri.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
 import style from './embed.css';
@@ -9,7 +9,7 @@ import { packLink } from './link.mjs';
 
 // The engine, which is fetched and compiled once for all elements of a page.
 let compiled = null;
-const engine = () => (compiled ??= loadEngine(new URL('petri/engine.wasm', import.meta.url)).then(({ module }) => module));
+const engine = () => (compiled ??= loadEngine(new URL(`petri/${engineFile()}`, import.meta.url)).then(({ module }) => module));
 
 const MAX_PROBLEMS = 4; // maximum number of problems shown below a picture
 

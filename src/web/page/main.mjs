@@ -1,4 +1,5 @@
 // main.mjs: the playground page: an editor beside a dish, and the actions of the buttons.
+import { engineFile } from '../engine/simd.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish } from './dish.mjs';
 import { Editor } from './editor.mjs';
@@ -131,7 +132,7 @@ function listen() {
 async function begin() {
     $('below').innerHTML = CONTROLS;
     $('tabs').before($('parameters'));
-    const start = globalThis.petriStart ?? { source: new URL('petri/engine.wasm', location.href).href };
+    const start = globalThis.petriStart ?? { source: new URL(`petri/${engineFile()}`, location.href).href };
     const dish = page.dish = new Dish($('picture'), host, start);
     const given = await (await fetch('samples.json')).json();
     page.samples = given.scripts;

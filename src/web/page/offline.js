@@ -1,12 +1,14 @@
-// offline.js: service worker with which page, manual and tour work offline after the first visit. offline_files.mjs adds the list of files.
+// offline.js: service worker with which page, manual and tour work offline after the first visit. offline_files.mjs adds the list of files
+// and the choice of the engine.
 //
 // The files of one version have one cache and are compared with their hashes, so that versions do not mix, even if the server is updated
 // meanwhile. The browser installs a new version beside the old one; the next page that is opened or loaded again uses it. Pages of the old
 // version that are still open ask for their worker and modules with hashes (`?v=`), and do not get those of the new version.
 const VERSION = '';
 const FILES = {}; // SHA-256 of each file in base64
+const engineFile = null; // that of simd.mjs
 const CACHE = `petri-${VERSION}`;
-const FIRST = path => !path.includes('/') && path !== 'standalone.html' || path === 'petri/engine.wasm'; // files that the page needs
+const FIRST = path => !path.includes('/') && path !== 'standalone.html' || path === `petri/${engineFile()}`; // files that the page needs
 const newer = new Set(); // ids of pages that show a newer version, from the network
 
 // Fetches a file of this version. Fails if the server has another version.

@@ -1,4 +1,5 @@
 // standalone.mjs: the page that `petri link --html` writes: a file with engine, script and files, which runs without a server.
+import { hasSimd } from '../engine/simd.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, errorText, unsupportedText } from './dish.mjs';
 import { readLink } from './link.mjs';
@@ -54,6 +55,8 @@ async function begin() {
     const data = JSON.parse($('petri-data').textContent);
     if (!data)
         throw new Error("this page contains no script; 'petri link --html' adds one");
+    if (globalThis.WebAssembly && !hasSimd())
+        throw new Error('this page needs WebAssembly SIMD, which this browser lacks; the playground can run its script');
     linked = await readLink(data.link, Infinity);
     document.title = $('name').textContent = linked.name;
     $('script').textContent = linked.text;

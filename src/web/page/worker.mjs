@@ -1,5 +1,6 @@
 // worker.mjs: the engine's thread. It answers every message, one at a time, so the page knows when the thread is idle.
 import { loadEngine } from '../engine/petri.mjs';
+import { hasSimd } from '../engine/simd.mjs';
 import { addImage, imageOf, paint, sizeOf } from './paint.mjs';
 import { Player } from './player.mjs';
 import { passes } from './task.mjs';
@@ -58,6 +59,8 @@ async function load(source) {
 async function loadArchives() {
     if (hasArchives)
         return;
+    if (!hasSimd())
+        throw new Error('archives need WebAssembly SIMD, which this browser lacks');
     engine = await load(new URL('./petri/engine-archives.wasm', import.meta.url));
     hasArchives = true;
     player.engine = engine;

@@ -1,6 +1,6 @@
 // try.mjs: examples with text results. When the reader changes the script, the new result is shown. The engine is loaded when the first
 // example is changed.
-import { loadEngine } from '../engine/petri.mjs';
+import { engineFile, loadEngine } from '../engine/petri.mjs';
 
 const LIMITS = { work: 2 ** 22, memory: 256 << 20 }; // limits of a script, which are low because the page cannot respond during a call
 const PAUSE = 250; // ms between the last key press and the evaluation
@@ -43,7 +43,7 @@ function change(place, button) {
     text.focus();
     let waits;
     const show = async () => {
-        engine ??= loadEngine(new URL('../petri/engine.wasm', import.meta.url));
+        engine ??= loadEngine(new URL(`../petri/${engineFile()}`, import.meta.url));
         if ((await engine).broken)
             engine = loadEngine((await engine).module);
         result.textContent = outcome(await engine, { kind, frame: Number(frame), text: text.value, files: JSON.parse(files ?? '{}') });

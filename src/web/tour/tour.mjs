@@ -1,4 +1,5 @@
 // tour.mjs: a page of the tour: an editor and a dish, and the task of the lesson, which is checked whenever the script changes.
+import { engineFile } from '../engine/simd.mjs';
 import { CONTROLS, Controls } from '../page/controls.mjs';
 import { Dish, errorText, unsupportedText } from '../page/dish.mjs';
 import { Editor } from '../page/editor.mjs';
@@ -102,7 +103,7 @@ async function begin() {
     let help = [];
     const worker = new URL('../worker.js', import.meta.url);
     globalThis.petriWorker = () => new Worker(worker, { type: 'module' });
-    const dish = page.dish = new Dish($('picture'), host, { source: new URL('../petri/engine.wasm', import.meta.url).href });
+    const dish = page.dish = new Dish($('picture'), host, { source: new URL(`../petri/${engineFile()}`, import.meta.url).href });
     const changed = () => {
         page.live.changed();
         checkTask();
