@@ -7,7 +7,7 @@
 //     file NAME SHA256               and each other file that it had read before its first frame
 //     parameter NAME=VALUE
 //     command TEXT                   that recorded the run
-//     inputs N                       what a host gave during the run; if there are some, only the archive has them
+//     inputs N                       inputs and states that a host gave during the run; only the archive has them
 //     spec 0.4                       version of the specification
 //     petri VERSION                  the program that verified the run,
 //     processor NAME                 and where
@@ -59,6 +59,15 @@ static void add_parameters(Text *report, PetriArchive *archive) {
     }
 }
 
+// Returns the number of states that a host gave after the start of the run.
+static int64_t count_given(PetriArchive *archive) {
+    PetriArchiveKeyframe keyframe;
+    int64_t count = 0;
+    for (size_t i = 1; petri_archive_keyframe(archive, i, &keyframe, sizeof keyframe); i++)
+        count += keyframe.given;
+    return count;
+}
+
 // Adds the name of the processor, or of its kind.
 static void add_processor(Text *report) {
     char text[200] = "";
@@ -103,7 +112,8 @@ bool report_write(PetriArchive *archive, const char *spec, const char *file) {
     SCOPED_TEXT command = {0};
     text_add_format(&command, "command %s", info.command);
     add_line(&report, command.bytes);
-    text_add_format(&report, "inputs %" PRId64 "\nspec %s\npetri %s\n", info.inputs, spec, petri_version());
+    text_add_format(&report, "inputs %" PRId64 "\nspec %s\npetri %s\n", info.inputs + count_given(archive), spec,
+                    petri_version());
     add_processor(&report);
     text_add_format(&report, "archive %s\n", info.sha256);
     add_frames(&report, archive, &info);

@@ -147,6 +147,11 @@ static int verify_run(const CommandContext *context, Options *options) {
         message("a report needs all frames; drop --sample");
         return STATUS_USAGE;
     }
+    const char *report = ((const Own *)options->own)->report;
+    if (report && petri_archive_is(report)) {
+        message("cannot write a report to '%s': it is an archive", report);
+        return STATUS_USAGE;
+    }
     Output output;
     PetriArchive *archive = archive_open(options, options->script);
     if (!archive)

@@ -38,41 +38,67 @@ static int check_frame(PetriSession *session, int64_t frame, const char *digest)
     return !same;
 }
 
-// Reads the lines of a report, and checks each frame. The session is opened at the line `spec`, after which no
-// parameters follow.
-int main(int argc, char **argv) {
-    char line[1024], spec[32] = "", digest[64], definitions[64][1024];
+// Reads the next line, of any length. Returns false at the end.
+static bool read_line(FILE *report, char **line, size_t *capacity) {
+    bool found = getline(line, capacity, report) >= 0;
+    if (found)
+        (*line)[strcspn(*line, "\n")] = 0;
+    return found;
+}
+
+// Opens a session for the version of the specification in a report, which must end with its checksum.
+static PetriSession *open_session(FILE *report, const char *fps, char **line, size_t *capacity) {
+    char spec[32] = "";
+    PetriOptions options = petri_default_options();
+    options.fps = fps ? atof(fps) : options.fps;
+    options.on_diagnostic = on_diagnostic;
+    options.spec = spec;
+    bool complete = false;
+    while (read_line(report, line, capacity)) {
+        sscanf(*line, "spec %31[^\n]", spec);
+        complete = strncmp(*line, "checksum ", 9) == 0;
+    }
+    rewind(report);
+    PetriSession *session = complete ? petri_open(&options) : NULL;
+    if (!session)
+        fail(complete ? petri_options_problem(&options) : "not a whole report: it does not end with its checksum", "");
+    return session;
+}
+
+// Executes a line of the report. Returns 0, 1 if a frame differs, and 2 if the report cannot be checked.
+static int check_line(PetriSession *session, const char *script, const char *line, int *checked) {
+    char digest[64];
     long long frame;
-    int defined = 0, result = 0, checked = 0;
-    PetriSession *session = NULL;
+    if (strncmp(line, "parameter ", 10) == 0 && petri_define(session, line + 10) != PETRI_OK)
+        return fail("cannot set a parameter: ", line + 10);
+    if (strncmp(line, "inputs ", 7) == 0 && strcmp(line, "inputs 0") != 0)
+        return fail("the run had inputs, which only its archive has", "");
+    if (sscanf(line, "frames %lld", &frame) == 1) {
+        if (frame != 0)
+            return fail("the run does not begin with frame 0", "");
+        return petri_load(session, script) == PETRI_OK ? 0 : fail("cannot load the script", "");
+    }
+    if (sscanf(line, "frame %lld %63s", &frame, digest) != 2)
+        return 0;
+    (*checked)++;
+    return check_frame(session, frame, digest);
+}
+
+int main(int argc, char **argv) {
+    char *line = NULL;
+    size_t capacity = 0;
+    int result = 0, checked = 0;
     FILE *report = argc >= 3 ? fopen(argv[1], "r") : NULL;
     if (!report)
         return fail("usage: check_report REPORT SCRIPT [FPS]", "");
-    while (result < 2 && fgets(line, sizeof line, report)) {
-        line[strcspn(line, "\n")] = 0;
-        if (strncmp(line, "parameter ", 10) == 0 && defined < 64)
-            snprintf(definitions[defined++], sizeof definitions[0], "%s", line + 10);
-        else if (strncmp(line, "inputs ", 7) == 0 && strcmp(line, "inputs 0") != 0)
-            result = fail("the run had inputs, which only its archive has", "");
-        else if (sscanf(line, "frames %lld", &frame) == 1 && frame != 0)
-            result = fail("the run does not begin with frame 0", "");
-        else if (sscanf(line, "spec %31s", spec) == 1) {
-            PetriOptions options = petri_default_options();
-            options.fps = argc > 3 ? atof(argv[3]) : options.fps;
-            options.on_diagnostic = on_diagnostic;
-            options.spec = spec;
-            session = petri_open(&options);
-            for (int i = 0; session && i < defined; i++)
-                petri_define(session, definitions[i]);
-            if (!session || petri_load(session, argv[2]) != PETRI_OK)
-                result = fail(session ? "cannot load the script" : petri_options_problem(&options), "");
-        } else if (session && sscanf(line, "frame %lld %63s", &frame, digest) == 2) {
-            int found = check_frame(session, frame, digest);
-            result = found > result ? found : result;
-            checked++;
-        }
+    PetriSession *session = open_session(report, argv[3], &line, &capacity);
+    while (session && result < 2 && read_line(report, &line, &capacity)) {
+        int found = check_line(session, argv[2], line, &checked);
+        result = found > result ? found : result;
     }
+    free(line);
     fclose(report);
+    result = session ? result : 2;
     petri_close(&session);
-    return result == 0 && checked == 0 ? fail("not a report: ", argv[1]) : result;
+    return result == 0 && checked == 0 ? fail("the report has no frames: ", argv[1]) : result;
 }
