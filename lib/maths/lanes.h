@@ -196,6 +196,24 @@ KERNEL void quads_transpose(Quad *r) {
 }
 #endif
 
+#if LANES == 8
+// Returns a row of four numbers, followed by another one.
+KERNEL Real real_of_rows(const double *low, const double *high) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1);
+}
+
+// Transposes eight rows into four columns. pairs[i] has the rows i and i + 4.
+KERNEL void rows_transpose(const Real *pairs, Real *columns) {
+    Real even_ab = _mm512_unpacklo_pd(pairs[0], pairs[1]), odd_ab = _mm512_unpackhi_pd(pairs[0], pairs[1]);
+    Real even_cd = _mm512_unpacklo_pd(pairs[2], pairs[3]), odd_cd = _mm512_unpackhi_pd(pairs[2], pairs[3]);
+    __m512i low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0), high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+    columns[0] = _mm512_permutex2var_pd(even_ab, low, even_cd);
+    columns[1] = _mm512_permutex2var_pd(odd_ab, low, odd_cd);
+    columns[2] = _mm512_permutex2var_pd(even_ab, high, even_cd);
+    columns[3] = _mm512_permutex2var_pd(odd_ab, high, odd_cd);
+}
+#endif
+
 // Loads a row of four numbers per lane and transposes them into four columns. One load per lane and a transposition are
 // faster than four gathers.
 KERNEL void real_load_rows(const double *const *rows, Real *columns) {
@@ -208,17 +226,9 @@ KERNEL void real_load_rows(const double *const *rows, Real *columns) {
     quads_transpose(columns);
 #elif LANES == 8
     Real pairs[4];
-    for (int lane = 0; lane < 4; lane++) {
-        __m512d lower = _mm512_castpd256_pd512(_mm256_loadu_pd(rows[lane]));
-        pairs[lane] = _mm512_insertf64x4(lower, _mm256_loadu_pd(rows[lane + 4]), 1);
-    }
-    Real even_ab = _mm512_unpacklo_pd(pairs[0], pairs[1]), odd_ab = _mm512_unpackhi_pd(pairs[0], pairs[1]);
-    Real even_cd = _mm512_unpacklo_pd(pairs[2], pairs[3]), odd_cd = _mm512_unpackhi_pd(pairs[2], pairs[3]);
-    __m512i low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0), high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
-    columns[0] = _mm512_permutex2var_pd(even_ab, low, even_cd);
-    columns[1] = _mm512_permutex2var_pd(odd_ab, low, odd_cd);
-    columns[2] = _mm512_permutex2var_pd(even_ab, high, even_cd);
-    columns[3] = _mm512_permutex2var_pd(odd_ab, high, odd_cd);
+    for (int lane = 0; lane < 4; lane++)
+        pairs[lane] = real_of_rows(rows[lane], rows[lane + 4]);
+    rows_transpose(pairs, columns);
 #else
     for (int m = 0; m < 4; m++) {
         double lanes[LANES];

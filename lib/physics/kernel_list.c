@@ -15,14 +15,11 @@ KERNEL bool uses_pairs(size_t dimensions, bool one_size) {
 
 KERNEL PairEnd packed_end(PairShape shape, const ListView *view, const uint32_t *offsets) {
     Real parts[4];
-    const double *rows[LANES];
-    for (int lane = 0; lane < LANES; lane++)
-        rows[lane] = view->packed + offsets[lane];
     PairEnd end = {.radius = real_set(view->one_radius), .mass = real_zero(), .charge = real_zero()};
     if (uses_pairs(shape.dimensions, shape.one_size))
-        real_load_pairs(rows, parts);
+        real_load_pairs(view->packed, offsets, parts);
     else
-        real_load_rows(rows, parts);
+        real_load_quads(view->packed, offsets, parts);
     for (size_t k = 0; k < shape.dimensions; k++)
         end.position[k] = parts[k];
     if (!shape.one_size)

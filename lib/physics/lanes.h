@@ -268,30 +268,57 @@ KERNEL void real_scatter_where(Mask mask, double *to, const uint32_t *index, Rea
 #endif
 }
 
-// Loads two doubles per row: columns[m] receives element m of each lane's row.
-KERNEL void real_load_pairs(const double *const *rows, Real *columns) {
+#if LANES > 2
+// Loads two doubles for every second lane.
+KERNEL Real load_half(const double *from, const uint32_t *index) {
+    Quad low = _mm256_castpd128_pd256(_mm_loadu_pd(from + index[0]));
+    low = _mm256_insertf128_pd(low, _mm_loadu_pd(from + index[2]), 1);
+#if LANES == 8
+    Quad high = _mm256_castpd128_pd256(_mm_loadu_pd(from + index[4]));
+    high = _mm256_insertf128_pd(high, _mm_loadu_pd(from + index[6]), 1);
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+#else
+    return low;
+#endif
+}
+#endif
+
+// The next two functions load two or four doubles per lane: columns[m] receives from[index[lane] + m]. They have
+// neither loops nor an array of addresses, because gcc -O2 would keep the loops, and compute the addresses in vectors.
+KERNEL void real_load_pairs(const double *from, const uint32_t *index, Real *columns) {
 #if LANES == 2
-    for (int m = 0; m < 2; m++)
-        columns[m] = (Real){rows[0][m], rows[1][m]};
+    columns[0] = (Real){from[index[0]], from[index[1]]};
+    columns[1] = (Real){from[index[0] + 1], from[index[1] + 1]};
 #else
-    Real half[2];
-    for (int odd = 0; odd < 2; odd++) {
-        const double *const *row = rows + odd;
-        Quad low = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(row[0])), _mm_loadu_pd(row[2]), 1);
+    Real even = load_half(from, index), odd = load_half(from, index + 1);
 #if LANES == 8
-        Quad high = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(row[4])), _mm_loadu_pd(row[6]), 1);
-        half[odd] = _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+    columns[0] = _mm512_unpacklo_pd(even, odd);
+    columns[1] = _mm512_unpackhi_pd(even, odd);
 #else
-        half[odd] = low;
+    columns[0] = _mm256_unpacklo_pd(even, odd);
+    columns[1] = _mm256_unpackhi_pd(even, odd);
 #endif
-    }
+#endif
+}
+
+KERNEL void real_load_quads(const double *from, const uint32_t *index, Real *columns) {
 #if LANES == 8
-    columns[0] = _mm512_unpacklo_pd(half[0], half[1]);
-    columns[1] = _mm512_unpackhi_pd(half[0], half[1]);
+    const Real pairs[] = {
+        real_of_rows(from + index[0], from + index[4]), real_of_rows(from + index[1], from + index[5]),
+        real_of_rows(from + index[2], from + index[6]), real_of_rows(from + index[3], from + index[7])};
+    rows_transpose(pairs, columns);
+#elif LANES == 4
+    columns[0] = real_load(from + index[0]);
+    columns[1] = real_load(from + index[1]);
+    columns[2] = real_load(from + index[2]);
+    columns[3] = real_load(from + index[3]);
+    quads_transpose(columns);
 #else
-    columns[0] = _mm256_unpacklo_pd(half[0], half[1]);
-    columns[1] = _mm256_unpackhi_pd(half[0], half[1]);
-#endif
+    const double *first = from + index[0], *second = from + index[1];
+    columns[0] = (Real){first[0], second[0]};
+    columns[1] = (Real){first[1], second[1]};
+    columns[2] = (Real){first[2], second[2]};
+    columns[3] = (Real){first[3], second[3]};
 #endif
 }
 
@@ -313,7 +340,7 @@ KERNEL void real_store_pairs(double *pairs, const Real *parts) {
 #endif
 }
 
-// Stores lane `lane` of parts[m] in element m of row `lane`. The inverse of real_load_rows.
+// Stores lane `lane` of parts[m] in element m of row `lane`. The inverse of real_load_quads.
 KERNEL void real_store_rows(double *const *rows, const Real *parts) {
 #if LANES == 2
     for (int lane = 0; lane < LANES; lane++)

@@ -228,10 +228,8 @@ KERNEL void single_random(const Singles *s) {
     }
     Real parts[PHYS_VECTOR_DIMENSIONS];
     if (s->n == 2 && bits == ALL_LANES) { // fast, because no numbers are stored one by one
-        const double *rows[LANES];
-        for (size_t lane = 0; lane < LANES; lane++)
-            rows[lane] = next + 2 * lane;
-        real_load_pairs(rows, parts);
+        static const uint32_t pairs[] = {0, 2, 4, 6, 8, 10, 12, 14};
+        real_load_pairs(next, pairs, parts);
     } else {
         for (size_t lane = 0; lane < LANES; lane++)
             for (size_t k = 0; k < s->n && bits >> lane & 1; k++)
