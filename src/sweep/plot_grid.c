@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+// A heat map leaves place for its colour bar.
+enum { MAP_WIDTH = 150, BAR_LEFT = MAP_WIDTH + 12, BAR_WIDTH = 10, BAR_PARTS = 32 };
 enum { WIDTH = 220, HEIGHT = 160, LEFT = 80, TOP = 20, GAP_X = 90, GAP_Y = 60, MAX_POINTS = 5000, MAX_MEANS = 400 };
 
 typedef struct Point {
@@ -245,37 +247,63 @@ static void add_map_labels(Text *out, const Axis *axis, bool across) {
     size_t count = axis->values.count, step = (count + 5) / 6;
     for (size_t i = 0; i < count; i += step) {
         double part = ((double)i + 0.5) / (double)count;
-        add_text(out, axis->values.items[i], across ? part * WIDTH : -26, across ? HEIGHT + 12 : HEIGHT * (1 - part),
-                 0);
+        add_text(out, axis->values.items[i], across ? part * MAP_WIDTH : -26,
+                 across ? HEIGHT + 12 : HEIGHT * (1 - part), 0);
     }
 }
 
-// Adds a heat map of the means of a metric, from blue (smallest) to yellow (largest). Cells without a value stay empty.
-static void add_map(const Sweep *sweep, const size_t *axes, size_t metric, Text *out) {
-    const Axis *across = &sweep->design.axes[axes[0]], *up = &sweep->design.axes[axes[1]];
-    size_t count = across->values.count * up->values.count;
-    double width = (double)WIDTH / (double)across->values.count, height = (double)HEIGHT / (double)up->values.count;
-    MapCell *cells = memory_calloc(count * sizeof *cells);
-    Scale scale = {INFINITY, -INFINITY, false};
-    sum_cells(sweep, axes, metric, cells);
+// Returns the scale of the means. It begins and ends with means, for the numbers at the ends of the colour bar.
+static Scale map_scale(const MapCell *cells, size_t count) {
+    double *means = memory_calloc((count + 1) * sizeof *means);
+    size_t used = 0;
     for (size_t i = 0; i < count; i++)
         if (cells[i].count > 0)
-            extend_scale(&scale, cells[i].sum / (double)cells[i].count);
-    for (size_t i = 0; i < count; i++) {
-        double part = scale_position(&scale, cells[i].sum / (double)cells[i].count, 1);
-        if (cells[i].count > 0)
-            text_add_format(
-                out, "                    !rect point=%.3f;%.3f size=%.3f;%.3f fill=true color=%.3f;%.3f;%.3f\n",
-                (double)(i % across->values.count) * width, HEIGHT - (double)(i / across->values.count + 1) * height,
-                width, height, 0.2 + 0.75 * part, 0.1 + 0.75 * part, 0.45 - 0.3 * part);
+            means[used++] = cells[i].sum / (double)cells[i].count;
+    Scale scale = {INFINITY, -INFINITY, is_logarithmic(means, used)};
+    for (size_t i = 0; i < used; i++)
+        extend_scale(&scale, scale.logarithmic ? log10(means[i]) : means[i]);
+    free(means);
+    return scale;
+}
+
+// Adds a rectangle in the colour of a part of the scale, from blue (0) to yellow (1).
+static void add_coloured(Text *out, double x, double y, double width, double height, double part) {
+    text_add_format(out, "                    !rect point=%.3f;%.3f size=%.3f;%.3f fill=true color=%.3f;%.3f;%.3f\n", x,
+                    y, width, height, 0.2 + 0.75 * part, 0.1 + 0.75 * part, 0.45 - 0.3 * part);
+}
+
+static void add_colour_bar(Text *out, const Scale *scale) {
+    double part = (double)HEIGHT / BAR_PARTS;
+    for (int i = 0; i < BAR_PARTS; i++) // each reaches below the next one, so that no gap is visible
+        add_coloured(out, BAR_LEFT, i * part, BAR_WIDTH, HEIGHT - i * part, 1 - (i + 0.5) / BAR_PARTS);
+    text_add_format(out, "                    !rect point=%d;0 size=%d;%d stroke=true\n", BAR_LEFT, BAR_WIDTH, HEIGHT);
+    for (int top = 0; top < 2; top++) {
+        char label[32];
+        double end = top ? scale->max : scale->min;
+        snprintf(label, sizeof label, "%.4g", scale->logarithmic ? pow(10, end) : end);
+        add_text(out, label, BAR_LEFT + BAR_WIDTH + 32, top ? 5 : HEIGHT - 5, 0);
     }
+}
+
+// Adds a heat map of the means of a metric. Cells without a value stay empty.
+static void add_map(const Sweep *sweep, const size_t *axes, size_t metric, Text *out) {
+    const Axis *across = &sweep->design.axes[axes[0]], *up = &sweep->design.axes[axes[1]];
+    size_t columns = across->values.count, count = columns * up->values.count;
+    double width = (double)MAP_WIDTH / (double)columns, height = (double)HEIGHT / (double)up->values.count;
+    MapCell *cells = memory_calloc(count * sizeof *cells);
+    sum_cells(sweep, axes, metric, cells);
+    Scale scale = map_scale(cells, count);
+    for (size_t i = 0; i < count; i++)
+        if (cells[i].count > 0)
+            add_coloured(out, (double)(i % columns) * width, HEIGHT - (double)(i / columns + 1) * height, width, height,
+                         scale_position(&scale, cells[i].sum / (double)cells[i].count, 1));
     free(cells);
-    text_add_format(out, "                    !rect size=%d;%d stroke=true\n", WIDTH, HEIGHT);
+    text_add_format(out, "                    !rect size=%d;%d stroke=true\n", MAP_WIDTH, HEIGHT);
     add_map_labels(out, across, true);
     add_map_labels(out, up, false);
-    SCOPED_TEXT range = {0};
-    text_add_format(&range, "%s %.4g (blue) to %.4g (yellow)", row_number_name(sweep, metric), scale.min, scale.max);
-    add_text(out, scale.min <= scale.max ? range.bytes : "no values", WIDTH / 2.0, -8, 0);
+    if (scale.min <= scale.max)
+        add_colour_bar(out, &scale);
+    add_text(out, scale.min <= scale.max ? row_number_name(sweep, metric) : "no values", MAP_WIDTH / 2.0, -8, 0);
 }
 
 // Finds the names that vary, and the other columns. Returns the number of columns.
@@ -309,7 +337,7 @@ static void add_column(const Sweep *sweep, const size_t *columns, size_t column,
         add_plot(out, &plot, bars);
         text_free(&plot.bytes);
     }
-    add_text(out, column_name(sweep, columns, column), WIDTH / 2.0, HEIGHT + 28, 0);
+    add_text(out, column_name(sweep, columns, column), (map ? MAP_WIDTH : WIDTH) / 2.0, HEIGHT + 28, 0);
     add_text(out, map ? sweep->design.axes[columns[1]].name : row_number_name(sweep, row), -60, HEIGHT / 2.0, -0.25);
 }
 

@@ -185,11 +185,19 @@ if [ "$2" = draws ]; then
     sweep sum.fl -D A=1..3 --frames 1 --metric x=A --plot plot.svg -o t.csv
     check "one value has no error bar" [ "$(bars | wc -l)" -eq 0 ]
     # cells: prints the colours of the cells of the heat map.
-    cells='s/.*stroke:none.*fill:\(rgb([0-9.%,]*\)).* d="M [7-9][0-9.]* [0-9.]* L [0-9.]* [0-9.]* L [0-9.]* [0-9.]* L [0-9.]* [0-9.]* Z M.*/\1/p'
+    cells='s/.*stroke:none.*fill:\(rgb([0-9.%,]*\)).* d="M \(7[0-9]\|8[0-4]\)[0-9.]* [0-9.]* L [0-9.]* [0-9.]* L [0-9.]* [0-9.]* L [0-9.]* [0-9.]* Z M.*/\1/p'
+    # bar: prints the number of colours of the bar beside it.
+    bar() { sed -n "$(printf '%s\n' "$cells" | sed 's/7\[0-9\]\\|8\[0-4\]/86/')" plot.svg | sort -u | wc -l; }
     sweep sum.fl -D A=1..5 -D 'B=1;3;10;30' --seeds 3 --frames 1 --metric 'x=A*B*SEED if A+B != 5 else null' --plot plot.svg -o t.csv
     check "two parameters have a heat map, without cells that have no value" [ "$(sed -n "$cells" plot.svg | wc -l)" -eq 18 ]
     check "one cell is the largest and one the smallest" \
         [ "$(sed -n "$cells" plot.svg | grep -c 'rgb(94.9\|rgb(95%') $(sed -n "$cells" plot.svg | grep -c 'rgb(20%')" = "1 1" ]
+    check "a bar explains the colours" [ "$(bar)" -eq 32 ]
+    sweep sum.fl -D 'A=1;10;100' -D 'B=1;10' --frames 1 --metric a_metric_with_a_long_name=A*B --plot plot.svg -o t.csv
+    check "colours of numbers that span decades are logarithmic" \
+        [ "$(sed -n "$cells" plot.svg | grep -c 'rgb(45') $(sed -n "$cells" plot.svg | grep -c 'rgb(70')" = "2 2" ]
+    sweep sum.fl -D A=1..2 -D B=1..2 --frames 1 --metric x=null --plot plot.svg -o t.csv
+    check "a map without values has no bar" [ "$(bar)" -eq 0 ]
     check "means over another parameter have no error bars" [ "$(bars | wc -l)" -eq 0 ]
     sweep sum.fl -D A=1..5 -D B=1..3 --sample latin:9 --frames 1 --metric x=A --plot plot.svg -o t.csv
     check "a sample has no heat map" [ "$(sed -n "$cells" plot.svg | wc -l)" -eq 0 ]
