@@ -65,7 +65,7 @@ _ERRORS = {
     lib.PETRI_INVALID: (ScriptError, "the script does not exist, or an argument is invalid"),
     lib.PETRI_LIMIT_EXCEEDED: (LimitError, "limit exceeded"),
     lib.PETRI_OUT_OF_MEMORY: (OutOfMemoryError, "out of memory"),
-    lib.PETRI_UNSUPPORTED: (MissingLibraryError, "this build cannot draw"),
+    lib.PETRI_UNSUPPORTED: (MissingLibraryError, "petri was compiled without the libraries for pictures"),
     lib.PETRI_INTERRUPTED: (InterruptedStep, "interrupted"),
 }
 

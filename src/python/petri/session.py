@@ -290,7 +290,8 @@ class Session:
     def until(self, condition: str, limit: int = 1_000_000) -> bool:
         """Computes at least one frame, up to the first in which an expression is true. Returns False if none of `limit`
         frames was that frame. An invalid expression or an unbound name in it raises ScriptError after the first
-        frame."""
+        frame. In frame 0, the state has no positions yet, and null is less than every number: instead of
+        "$(:sky;:drop)[1] < 0", write "-$(:sky;:drop)[1] > 0"."""
         data = condition.encode()
         result = ffi.new("PetriEvaluation *")
         for _ in range(limit):
