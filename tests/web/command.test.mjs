@@ -268,8 +268,11 @@ test('petri view serves the script below a token, and reloads it', async () => {
         assert.equal(await status(`/${'0'.repeat(32)}/`), 404);
         for (const path of ['../../package.json', '%2e%2e/cli.mjs', 'offline.js', 'a.fl'])
             assert.equal(await status(path), 404, path);
-        for (const path of ['', 'page.js', 'worker.js', 'petri/engine.wasm', 'petri/engine-archives.wasm'])
+        for (const path of ['', 'page.js', 'worker.js', 'petri/engine.wasm', 'petri/engine-archives.wasm', 'petri/engine-scalar.wasm'])
             assert.equal(await status(path), 200, path);
+        const icon = await fetch(new URL('icon.svg', url)); // browsers show no picture of another type
+        assert.equal(icon.headers.get('content-type'), 'image/svg+xml');
+        await icon.text();
         assert.ok((await text('')).includes('<script src="view.js">'));
         assert.ok((await text('view.js')).includes(linkTo('!n a=1\n', 'a.fl')));
         assert.equal(JSON.parse(await text('samples.json')).files['lib/m.fl'], 'let a=1\n');

@@ -47,6 +47,8 @@ async function fits(page, [width, height]) {
     await look('a long message');
     await typed(page, `${SCRIPT}!a b=(\n`);
     await page.waitForFunction(() => document.getElementById('problems').textContent);
+    const problems = await box(page, '#problems');
+    assert.ok(problems.height > 10 && problems.y + problems.height <= height, `${at}: problems are in view while the script is edited`);
     await look('problems');
 
     // A long line wraps, to the right of its first character.

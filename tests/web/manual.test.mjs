@@ -95,6 +95,8 @@ test('the search works with the keyboard, and pages show their examples', ways, 
     await page.keyboard.type('collision');
     await page.waitForSelector('#found a');
     assert.equal(await page.textContent('#found a'), 'Physics: !collision');
+    const [field, results] = [await page.locator('#find').boundingBox(), await page.locator('#found').boundingBox()];
+    assert.ok(Math.abs(results.x - field.x) < 5 && results.y >= field.y + field.height, 'results are below the field');
     await page.keyboard.press('ArrowDown');
     await page.keyboard.press('Enter');
     await page.waitForURL(/physics\.html#collision$/);

@@ -177,6 +177,13 @@ test('completion and help use petri\'s tables', options, () => opened('', {
         await page.keyboard.press('Escape');
         await page.hover('.cm-line:nth-child(3) >> text=!particle');
         await page.waitForFunction(() => /^!particle ./.test(document.querySelector('.cm-help')?.textContent));
+        // There is no help for words in comments and strings.
+        await typed(page, '-- radius\nlet TEXT="radius"\n!physics state=:p\n    !particle radius=1');
+        for (const line of [1, 2]) {
+            await page.hover(`.cm-line:nth-child(${line}) >> text=radius`);
+            await page.waitForTimeout(600); // more than the delay of help
+            assert.equal(await page.locator('.cm-help').count(), 0);
+        }
     },
 }));
 

@@ -136,5 +136,13 @@ test('the tour is accessible, in light and dark, and fits on a phone', ways, asy
             const { violations } = await page.evaluate(() => globalThis.axe.run());
             assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes[0].html]), []);
             assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+            // The picture is as large as its place, and stays in view while the last line is edited.
+            const [frame, picture] = [await page.locator('#frame').boundingBox(), await page.locator('#picture').boundingBox()];
+            const free = Math.min(frame.width - picture.width, frame.height - picture.height);
+            assert.ok(Math.abs(free) < 2, `${free} pixels are free`);
+            await page.click('.cm-line >> nth=-1');
+            await page.keyboard.press('End');
+            const { y, height } = await page.locator('#picture').boundingBox();
+            assert.ok(y >= 0 && y + height <= viewport.height, `the picture is at ${y}`);
         }, { colorScheme, viewport, reducedMotion: 'reduce' });
 });

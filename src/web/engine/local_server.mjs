@@ -5,7 +5,8 @@ import { createServer } from 'node:http';
 import { extname } from 'node:path';
 
 const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css',
-    '.json': 'application/json', '.wasm': 'application/wasm' };
+    '.json': 'application/json', '.wasm': 'application/wasm',
+    '.svg': 'image/svg+xml', '.webmanifest': 'application/manifest+json' };
 // The page runs untrusted scripts, so it must not exchange data with other sites. The stop button needs shared memory, which browsers allow
 // only on cross-origin isolated pages.
 export const ISOLATION = {

@@ -1,7 +1,7 @@
 // editor.mjs: the CodeMirror editor, with syntax highlighting, underlined problems, and completion and help from petri's tables.
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from '@codemirror/autocomplete';
 import { defaultKeymap, history, historyKeymap, indentWithTab } from '@codemirror/commands';
-import { HighlightStyle, StreamLanguage, bracketMatching, indentUnit, syntaxHighlighting } from '@codemirror/language';
+import { HighlightStyle, StreamLanguage, bracketMatching, indentUnit, syntaxHighlighting, syntaxTree } from '@codemirror/language';
 import { lintGutter, setDiagnostics } from '@codemirror/lint';
 import { highlightSelectionMatches, searchKeymap } from '@codemirror/search';
 import { EditorState } from '@codemirror/state';
@@ -108,7 +108,7 @@ export class Editor {
             const from = offset(state, line, column);
             return {
                 from, to: Math.max(offset(state, endLine, endColumn), from), severity: rest.level,
-                message: [rest.text, rest.hint].filter(Boolean).join('. ') + (rest.code ? ` [${rest.code}]` : ''),
+                message: [rest.text, rest.hint].filter(Boolean).join('; ') + (rest.code ? ` [${rest.code}]` : ''),
             };
         });
         this.view.dispatch(setDiagnostics(state, problems.sort((a, b) => a.from - b.from)));
@@ -146,6 +146,8 @@ export class Editor {
     }
 
     explain(view, at) {
+        if (/comment|string/.test(syntaxTree(view.state).resolveInner(at, 1).name))
+            return null;
         const { from, text } = view.state.doc.lineAt(at), words = [...text.matchAll(/!?[\p{L}_][\p{L}\p{N}_]*/gu)];
         const word = words.find(({ index, 0: found }) => from + index <= at && at <= from + index + found.length);
         const rows = word ? owned(this.help()).filter(({ kind, name, help }) =>

@@ -16,7 +16,7 @@ const axis = (id, title) => `<fieldset><legend>${title}</legend><select id="grid
     <label>from <input id="grid-${id}-from" type="number" step="any" required></label>
     <label>to <input id="grid-${id}-to" type="number" step="any" required></label>
     <label>in <select id="grid-${id}-count">${Array.from({ length: MAX }, (_, i) =>
-        `<option${i + 1 === USUAL ? ' selected' : ''}>${i + 1}</option>`).join('')}</select></label></fieldset>`;
+        `<option${i + 1 === USUAL ? ' selected' : ''}>${i + 1}</option>`).join('')}</select> values</label></fieldset>`;
 const TEMPLATE = `<style>${style}</style><header><h2 id="grid-title">Grid</h2>
     <button id="grid-run" type="button">Run</button> <button id="grid-again" type="button">Restart</button>
     <output id="grid-frame"></output> <button id="grid-close" type="button" aria-label="Close">✕</button></header>

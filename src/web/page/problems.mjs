@@ -29,7 +29,7 @@ export class Problems {
         const item = document.createElement('li'), button = document.createElement('button');
         button.className = level;
         const place = line ? `${file === this.name ? '' : `${file}:`}${line}:${column}: ` : '';
-        button.textContent = `${place}${level}: ${text}${hint ? `. ${hint}` : ''}`;
+        button.textContent = `${place}${level}: ${text}${hint ? `; ${hint}` : ''}`;
         button.onclick = () => line && this.editor.goTo(line, column);
         item.append(button);
         return item;

@@ -62,11 +62,12 @@ const html = (page, title, body, sections) => `<!doctype html>
 <a class="skip" href="#text">Skip to content</a>
 <header>
 <a href="index.html"><strong>petri</strong> manual</a>
-<form role="search"><input id="find" type="search" placeholder="Search ( / )" aria-label="Search the manual" autocomplete="off"></form>
+<form role="search"><input id="find" type="search" placeholder="Search ( / )" aria-label="Search the manual" autocomplete="off">
+<div id="found" role="region" aria-label="Search results" aria-live="polite" hidden></div></form>
 <a href="../index.html">Playground</a>
-<button id="theme">Switch theme</button>
+<a href="../tour/index.html">Tour</a>
+<button id="theme" aria-label="Switch theme">◐</button>
 </header>
-<div id="found" role="region" aria-label="Search results" aria-live="polite" hidden></div>
 <div id="columns">
 <nav aria-label="Pages"><details open><summary>Pages</summary>
 ${nav(page)}</details></nav>
@@ -125,7 +126,7 @@ writeFileSync(join(output, 'index.html'), html('index', 'The manual', `<h1>The p
 <p>petri ${escape(site.tables.title)}. It gives bit-identical results on every machine. Your browser computes the dish below and all
 examples on these pages. Change a number or move a slider to see the effect. The
 <a href="../tour/index.html">tour</a> begins with one particle and ends with a film.</p>
-<petri-dish src="dish.fl" controls label="A dish of drops, and a spoon that stirs them">${
+<petri-dish src="dish.fl" controls autoplay label="A dish of drops, and a spoon that stirs them">${
     site.text.image('pictures/dish.png', 'A dish of drops', { file: 'samples/README.md' })}</petri-dish>
 ${cards}`, []));
 writeFileSync(join(output, 'index.js'), `globalThis.PETRI_INDEX = ${JSON.stringify(index)};\n`);

@@ -2,7 +2,7 @@
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { slug } from './pages.mjs';
-import { escape, freeName } from './text.mjs';
+import { escape, freeName, inlineCode } from './text.mjs';
 
 const section = (env, level, wanted, title, text = '') => {
     const id = freeName(wanted, env);
@@ -12,7 +12,7 @@ const section = (env, level, wanted, title, text = '') => {
 const cells = (kind, row) => `<tr>${row.map(cell => `<${kind}>${cell}</${kind}>`).join('')}</tr>\n`;
 const table = (heads, rows) => `<div class="table" tabindex="0" role="group" aria-label="Table"><table>\n${
     cells('th', heads)}${rows.map(row => cells('td', row)).join('')}</table></div>\n`;
-const code = text => text ? `<code>${escape(text)}</code>` : '';
+const code = text => text ? inlineCode(text) : '';
 
 // Converts paragraphs in the format of `petri help` to HTML. Words in quotes become code.
 const paragraphs = text => text.trim().split('\n\n').map(part =>

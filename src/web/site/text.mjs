@@ -6,6 +6,9 @@ import { PAGES, cut, slug } from './pages.mjs';
 
 export const escape = text => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 
+// Returns code within a line. Firefox would break lines after the exclamation mark of a node.
+export const inlineCode = text => `<code${/^!\w+$/.test(text) ? ' class="whole"' : ''}>${escape(text)}</code>`;
+
 // Returns an id that is not used on the page yet.
 export function freeName(id, { names }) {
     let name = id || 'section';
@@ -66,6 +69,7 @@ export class Text {
         // A header cell without text becomes a normal cell.
         rules.th_open = (tokens, i) => tokens[i + 1].content.trim() ? '<th>' : '<td>';
         rules.th_close = (tokens, i) => tokens[i - 1].content.trim() ? '</th>' : '</td>';
+        rules.code_inline = (tokens, i) => inlineCode(tokens[i].content);
         rules.fence = (tokens, i, _, env) => own.site.examples.fence(tokens[i], tokens[i + 1], env);
         rules.code_block = (tokens, i) => own.site.examples.plain(tokens[i].content);
     }

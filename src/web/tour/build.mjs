@@ -4,11 +4,13 @@ import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from '../page/node_modules/esbuild/lib/main.js';
+import { inlineCode } from '../site/text.mjs';
 import { LESSONS } from './lessons.mjs';
 
 const MarkdownIt = createRequire(new URL('../site/build.mjs', import.meta.url))('markdown-it');
 
 const here = dirname(fileURLToPath(import.meta.url)), output = join(process.argv[2], 'tour'), md = new MarkdownIt({ html: false });
+md.renderer.rules.code_inline = (tokens, i) => inlineCode(tokens[i].content);
 const escape = text => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 const fileOf = number => number === 0 ? 'index.html' : `${LESSONS[number].name}.html`;
 const contents = current => LESSONS.map(({ title, name }, i) =>
