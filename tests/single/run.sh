@@ -38,7 +38,11 @@ END
 check "petri.c is made" python3 "$root/src/packaging/single.py" "$build" .
 for compiler in gcc clang; do
     command -v $compiler >/dev/null || continue
-    $compiler -O2 -ffp-contract=off -Wall -Wextra -Werror -c petri.c >out 2>&1
+    # With gcc, the results must be right without the option, because petri.c sets it, also for its kernels.
+    option=-ffp-contract=off
+    [ $compiler = clang ] || option=
+    # shellcheck disable=SC2086 # the option may be missing
+    $compiler -O2 $option -Wall -Wextra -Werror -c petri.c >out 2>&1
     status=$?
     check "$compiler compiles petri.c" status_is 0
     $compiler -Wall -Wextra -Werror -idirafter "$root/lib/include" petri.o host.c -o host -lm -lpthread >out 2>&1
