@@ -275,6 +275,36 @@ test('the preview reports an error, keeps the last version, and goes to the line
     });
 });
 
+test('a click on a particle leads to the lines that make it and that move it', options, async () => {
+    const { fileName: module } = opened('drop.fl', 'func drop(i)\n    !particle id=i radius=40 position=0;0\n');
+    const document = opened('pick.fl',
+        "import drop from 'drop.fl'\n!physics state=:p dimensions=2\n    drop(7)\n    !constant force=0;1\n");
+    await previewed(document, async (page, panel) => {
+        assert.ok(await page.isHidden('#particle'));
+        const { x, y, width, height } = await page.locator('#picture').boundingBox();
+        await page.mouse.click(x + width / 2, y + height / 2);
+        await page.waitForFunction(() => document.getElementById('particle-title').textContent.startsWith(':p;7 in frame '));
+        const before = await page.textContent('#particle-title');
+        await page.waitForFunction(text => document.getElementById('particle-title').textContent !== text, before); // follows the frames
+        assert.match(await page.textContent('#particle'), /made by line 2.*constant.*0;1.*pick\.fl:4.*sum/s);
+        for (const [button, file, line] of [['#particle-forces button', document.fileName, 3], ['#particle-origin button', module, 1]]) {
+            seen.shown.length = 0;
+            await page.click(button);
+            const { selection, document: shown } = await until(() => seen.shown.find(editor => editor.selection));
+            assert.deepEqual([shown.fileName ?? shown.fsPath, selection.start.line], [file, line]);
+        }
+        seen.shown.length = 0;
+        panel.received.fire({ type: 'goTo', file: '../../etc/passwd', line: 1, column: 1 });
+        assert.equal((await until(() => seen.shown[0])).document, document);
+        await seen.commands['petri.preview'](); // the same script
+        assert.ok(await page.isVisible('#particle'));
+        vscode.window.activeTextEditor = { document: opened('other.fl', coloured('1;0;0')) };
+        await seen.commands['petri.preview']();
+        await hasColour(page, '255;0;0');
+        assert.ok(await page.isHidden('#particle'));
+    });
+});
+
 test('the preview of a script with an error starts when the error is corrected', options, async () => {
     const document = opened('broken.fl', '!window size=(1;2\n'), panels = seen.panels.length;
     seen.commands['petri.preview']();

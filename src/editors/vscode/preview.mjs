@@ -4,16 +4,19 @@ import { CONTROLS, Controls } from '../../web/page/controls.mjs';
 import { Dish } from '../../web/page/dish.mjs';
 import { Live } from '../../web/page/live.mjs';
 import { say } from '../../web/page/message.mjs';
+import { Particle } from '../../web/page/particle.mjs';
 import { Problems } from '../../web/page/problems.mjs';
 import { reportTo } from '../../web/page/report.mjs';
 
 const $ = id => document.getElementById(id);
 const editor = acquireVsCodeApi();
 
+const goTo = (line, column, file = '') => editor.postMessage({ type: 'goTo', file, line, column });
+
 // What the modules of the playground share. The editor is that of VS Code, which underlines errors itself.
 const page = {
     name: '', say,
-    editor: { text: '', show() {}, goTo: (line, column) => editor.postMessage({ type: 'goTo', line, column }) },
+    editor: { text: '', show() {}, goTo },
     get file() {
         return page.dish.loaded === null ? page.name : page.dish.name;
     },
@@ -21,6 +24,28 @@ const page = {
 
 // The last message of the extension: { id, name, text, files }. Text and files of messages that arrive during an update are combined.
 let shownId = null, wanted = null, files = {}, updating = false;
+
+// Shows the clicked particle, or hides it.
+function showParticle(seen) {
+    $('particle').hidden = !seen;
+    page.particle.seen = seen;
+}
+
+// Calls the callbacks of the playground. Updates the particle at most five times a second.
+function report() {
+    const known = reportTo(page);
+    let looking = 0;
+    return {
+        ...known,
+        shown(...answer) {
+            known.shown(...answer);
+            looking ||= setTimeout(() => {
+                looking = 0;
+                page.particle.refresh();
+            }, 200);
+        },
+    };
+}
 
 // Shows another script from its start, and takes over a changed script with its state.
 async function update() {
@@ -41,6 +66,7 @@ async function update() {
     shownId = id;
     dish.unload();
     page.problems.show([], name);
+    showParticle(false);
     if (await dish.open(page.editor.text, name) && !matchMedia('(prefers-reduced-motion: reduce)').matches)
         dish.run();
 }
@@ -72,10 +98,11 @@ async function begin() {
     const url = URL.createObjectURL(new Blob([code], { type: 'text/javascript' }));
     globalThis.petriWorker = () => new Worker(url);
     $('below').innerHTML = CONTROLS;
-    page.dish = new Dish($('picture'), reportTo(page), { source });
+    page.dish = new Dish($('picture'), report(), { source });
     page.problems = new Problems($('problems'), page.editor);
     page.live = new Live(page);
     page.controls = new Controls(document, page.dish, ({ always = false } = {}) => always ? page.live.restart() : page.live.ready());
+    page.particle = new Particle(document, page.dish, (file, line, column) => goTo(line, column, file), () => showParticle(true));
     page.dish.listen();
     await page.dish.ready;
     addEventListener('message', receive);

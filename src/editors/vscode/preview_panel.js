@@ -59,6 +59,14 @@ class PreviewPanel {
 <p id="message" role="status"></p>
 <ul id="problems"></ul>
 <div id="below"></div>
+<section id="particle" aria-label="Particle" hidden>
+<output id="particle-title"></output>
+<p id="particle-origin"></p>
+<pre id="particle-state"></pre>
+<table>
+<thead><tr><th scope="col">force</th><th scope="col">from</th><th scope="col">contribution</th><th scope="col">script</th></tr></thead>
+<tbody id="particle-forces"></tbody></table>
+</section>
 </main>
 <script nonce="${nonce}" src="${uri("dist", "preview.js")}"></script>
 </body>
@@ -109,11 +117,18 @@ class PreviewPanel {
             });
     }
 
-    async receive({ type, line, column }) {
+    // Returns the shown script, or the script with this name in its folder.
+    scriptNamed(file) {
+        const folder = path.dirname(this.document.fileName), other = path.resolve(folder, file);
+        const isOther = this.document.uri.scheme === "file" && other !== this.document.fileName && other.startsWith(folder + path.sep);
+        return isOther ? vscode.Uri.file(other) : this.document;
+    }
+
+    async receive({ type, file = "", line, column }) {
         if (type === "ready")
             this.send(this.readFiles());
         if (type === "goTo") {
-            const editor = await vscode.window.showTextDocument(this.document, vscode.ViewColumn.One);
+            const editor = await vscode.window.showTextDocument(this.scriptNamed(file), vscode.ViewColumn.One);
             const at = new vscode.Position(line - 1, column - 1);
             editor.selection = new vscode.Selection(at, at);
             editor.revealRange(new vscode.Range(at, at));
