@@ -15,6 +15,13 @@
 #endif
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
+#elif defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__)
+// At -O2, gcc would not unroll the loops of the kernels. All functions have the same level, because gcc does not inline
+// functions of a lower one.
+#pragma GCC optimize("O3", "fp-contract=off")
+// At -O3, gcc warns of limbs that are copied with others but not used (maths/fixed.c).
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #elif defined(__GNUC__)
 #pragma GCC optimize("fp-contract=off")
 #endif

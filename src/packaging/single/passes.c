@@ -8,6 +8,3 @@
 #else
 #define PETRI_HAS_FMA 0
 #endif
-#if defined(__OPTIMIZE__) && !defined(__OPTIMIZE_SIZE__) && !defined(__clang__)
-#pragma GCC optimize("O3", "fp-contract=off") // at -O2, gcc would not unroll the loops of the kernels
-#endif
