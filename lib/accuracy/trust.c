@@ -87,16 +87,18 @@ static PetriStatus measure_expression(Trust *trust, uint32_t expression, size_t 
         return status;
     if (trust->run == TRUST_STEP)
         memcpy(trust->texts + ((size_t)expression * trust->capacity + row) * VALUE_BYTES, printed.text, VALUE_BYTES);
-    char *rest = printed.text;
-    for (int i = 0; i < ELEMENTS && rest; i++) {
+    double numbers[ELEMENTS];
+    bool finite = true;
+    int count = 0;
+    for (char *rest = printed.text; count < ELEMENTS && rest; count++) {
         char *element = rest, *end = strchr(rest, ';');
         rest = end ? end + 1 : NULL;
         if (end)
             *end = '\0';
-        double x = NAN;
-        if (petri_parse_number(element, &x))
-            series_of(trust, expression, i)[(size_t)trust->run * trust->capacity + row] = x;
+        finite = finite && petri_parse_number(element, &numbers[count]) && isfinite(numbers[count]);
     }
+    for (int i = 0; i < count && finite; i++)
+        series_of(trust, expression, i)[(size_t)trust->run * trust->capacity + row] = numbers[i];
     return PETRI_OK;
 }
 

@@ -101,7 +101,7 @@ typedef enum PetriVerdict {
     PETRI_CHAOTIC,      // the end of the run is after PetriTrust.horizon
     PETRI_INCOMPARABLE, // particles appear or vanish at other times, so that `!random` acts on others
     PETRI_UNSTABLE,     // a force is too strong for the length of the step, or the motion has become meaningless
-    PETRI_NO_NUMBER,    // the value is not a vector of numbers
+    PETRI_NO_NUMBER,    // the value is not a vector of finite numbers
 } PetriVerdict;
 
 // How far the value of an expression after a frame can be trusted. For a vector, the largest errors of its elements

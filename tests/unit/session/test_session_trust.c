@@ -170,6 +170,8 @@ static void test_verdicts_say_what_is_wrong(void **state) {
                   "step too large: for 3 digits, use resolution=1/");
     check_verdict(*state, spring, "'text'", PETRI_NO_NUMBER, "not a number");
     check_verdict(*state, spring, "null", PETRI_NO_NUMBER, "not a number");
+    check_verdict(*state, spring, "frame;1/0", PETRI_NO_NUMBER, "not a number");
+    check_verdict(*state, spring, "'text';frame", PETRI_NO_NUMBER, "not a number");
     check_verdict(*state, dish, "$(:d;4)", PETRI_CHAOTIC, "chaotic: single runs mean nothing after");
     check_verdict(*state, stiff, "$(:s;1)", PETRI_UNSTABLE, "unstable since frame 1 because of the force in line 4");
 }
