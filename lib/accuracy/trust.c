@@ -121,10 +121,11 @@ static void project(Trust *trust, size_t row) {
 }
 
 // Finds the length of the steps of the first system that moves, and whether there are random forces.
-static void inspect_systems(Trust *trust, const uint64_t *steps) {
+static PetriStatus inspect_systems(Trust *trust, const uint64_t *steps) {
     PetriSystem system;
     PetriForce force;
-    for (size_t number = 0; petri_system(trust->session, number, &system, sizeof system); number++) {
+    PetriStatus status = PETRI_OK;
+    for (size_t number = 0; status == PETRI_OK && petri_system(trust->session, number, &system, sizeof system); number++) {
         char expression[VALUE_BYTES];
         PetriEvaluation clock = {.number = 0};
         for (uint32_t i = 0; petri_system_force(trust->session, number, i, &force, sizeof force); i++)
@@ -133,9 +134,10 @@ static void inspect_systems(Trust *trust, const uint64_t *steps) {
             continue;
         int length = snprintf(expression, sizeof expression, "$((%s);:clock)", system.name);
         if (length < (int)sizeof expression)
-            petri_evaluate(trust->session, expression, PETRI_NUL_TERMINATED, &clock, sizeof clock, NULL, NULL);
+            status = petri_evaluate(trust->session, expression, PETRI_NUL_TERMINATED, &clock, sizeof clock, NULL, NULL);
         trust->step = clock.number / (double)*steps;
     }
+    return status;
 }
 
 static PetriStatus take_row(Trust *trust, size_t row) {
@@ -173,10 +175,10 @@ static PetriStatus execute(Trust *trust, TrustRun run) {
         bool ends = frame == trust->last_frame || (trust->stopped && run == TRUST_STEP);
         if (status == PETRI_OK && (ends || (frame % trust->interval == 0 && !trust->stopped)))
             status = take_row(trust, row);
-        if (ends && run == TRUST_STEP) {
+        if (status == PETRI_OK && ends && run == TRUST_STEP) {
             trust->last_frame = frame;
             trust->rows = trust->stopped ? row + 1 : trust->rows;
-            inspect_systems(trust, &steps);
+            status = inspect_systems(trust, &steps);
         }
     }
     return status;

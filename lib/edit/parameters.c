@@ -81,6 +81,6 @@ bool petri_parameter(PetriSession *session, size_t number, PetriParameter *param
     PetriParameter found;
     ParameterRequest request = {number, &found};
     return session && parameter && session->config.program &&
-           session_run(session, find_parameter, &request, "the query") == PETRI_OK &&
+           session_query(session, find_parameter, &request) &&
            host_struct_write(parameter, size, &found, sizeof found);
 }

@@ -5,10 +5,11 @@
 #include <stdio.h>
 
 bool session_rollback(PetriSession *session) {
+    bool outer = session->uninterruptible;
     session->rollback_pending = false; // an aborted rollback sets it again
     session->uninterruptible = true;
     session->rollback_pending = checkpoint_restore(session, &session->undo) != PETRI_OK;
-    session->uninterruptible = false;
+    session->uninterruptible = outer;
     return !session->rollback_pending;
 }
 
@@ -20,6 +21,14 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
 
 PetriStatus session_run(PetriSession *session, SessionCall *call, void *context, const char *what) {
     return session_report_abort(session, session_protect(session, NULL, call, context), what);
+}
+
+bool session_query(PetriSession *session, SessionCall *call, void *context) {
+    bool outer = session->uninterruptible;
+    session->uninterruptible = true;
+    PetriStatus status = session_run(session, call, context, "the query");
+    session->uninterruptible = outer;
+    return status == PETRI_OK;
 }
 
 PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what) {

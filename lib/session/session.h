@@ -141,6 +141,9 @@ void session_arena(PetriSession *session, Arena *arena, const char *name, size_t
 
 // Runs a protected call as session_protect does, but without rolling back first.
 PetriStatus session_attempt(PetriSession *session, Arena *extra, SessionCall *call, void *context);
+// Runs a short call whose public function returns no status: an interrupt waits for the next call. Returns false if the
+// call failed.
+bool session_query(PetriSession *session, SessionCall *call, void *context);
 // Restores the state before an aborted frame. If out of memory, sets rollback_pending, so that the next call tries
 // again, and returns false.
 bool session_rollback(PetriSession *session);

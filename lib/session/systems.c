@@ -23,7 +23,7 @@ static PetriStatus find_in_view(PetriSession *session, void *context) {
 
 static bool run_request(PetriSession *session, SystemRequest request) {
     arena_reset(&session->view_arena);
-    return session_run(session, find_in_view, &request, "the query") == PETRI_OK;
+    return session_query(session, find_in_view, &request);
 }
 
 // Returns the prefix of a system in printed form. Creates it on the first call in a frame.

@@ -361,6 +361,26 @@ static void test_aborted_explanation(void **state) {
     assert_non_null(strstr(player->diagnostics.text, "the explanation exceeded its limit of 80000 work units"));
 }
 
+// Functions that return no status would lose the interrupt.
+static void test_queries_leave_an_interrupt_to_the_next_call(void **state) {
+    Player *player = *state;
+    PetriSystem system;
+    PetriParameter parameter;
+    PetriForce force;
+    uint32_t particle;
+    player_run(player,
+               "let N=N or 3\n!physics state=:a dimensions=2\n    for i in ..N\n        !particle id=i\n    !drag\n", 3);
+    petri_interrupt(player->session);
+    assert_true(petri_system(player->session, 0, &system, sizeof system));
+    assert_true(petri_parameter(player->session, 0, &parameter, sizeof parameter));
+    assert_true(petri_system_force(player->session, 0, 0, &force, sizeof force));
+    assert_int_equal(petri_particle_id(player->session, 0, 1).length, 1);
+    assert_non_null(petri_particle_ids(player->session, 0).data);
+    assert_true(petri_find_particle(player->session, 0, (PetriValue){1, (double[]){2}, NULL}, &particle));
+    assert_int_equal(petri_step(player->session), PETRI_INTERRUPTED);
+    assert_int_equal(petri_step(player->session), PETRI_OK);
+}
+
 TEST_GROUP(session_systems) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_systems_are_listed_until_removed),
@@ -376,6 +396,7 @@ TEST_GROUP(session_systems) {
         PLAYER_TEST(test_explanation_of_a_changed_session),
         PLAYER_TEST(test_nothing_to_explain),
         PLAYER_TEST(test_aborted_explanation),
+        PLAYER_TEST(test_queries_leave_an_interrupt_to_the_next_call),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
