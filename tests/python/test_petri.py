@@ -319,12 +319,29 @@ class Running(unittest.TestCase):
             petri.sweep("!x\n", {"A": [1]}, ["A"])
         with self.assertRaisesRegex(TypeError, r"defines\['A'\] must be a list"):
             petri.sweep("!x\n", {"A": 1}, {"a": "A"})
+        with self.assertRaisesRegex(TypeError, r"functions\['f'\] must be a function, not 3"):
+            petri.Session("!x\n", functions={"f": 3})
+        with self.assertRaisesRegex(ValueError, "neighbours must be .*, not 'some'"):
+            petri.Session("!x\n", options=petri.Options(neighbours="some"))
+        with self.assertRaisesRegex(TypeError, "needs a snapshot of this session, not 3"):
+            session.rewind(3)
         with self.assertRaisesRegex(ValueError, "at least 0, not -1"):
             session.step(-1)
         with self.assertRaisesRegex(TypeError, "at least one expression"):
             session.trust()
         with self.assertRaisesRegex(FileNotFoundError, "No such file.*gone.state"):
             session.restore("gone.state")
+
+    def test_archives_that_cannot_be_opened_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            other = Path(folder) / "other.petri"
+            other.write_text("not an archive")
+            with self.assertRaisesRegex(petri.ArchiveError, f"cannot read '{other}': "):
+                petri.Archive(other)
+            with self.assertRaisesRegex(FileNotFoundError, "gone.petri"):
+                petri.Archive(Path(folder) / "gone.petri")
+            with self.assertRaisesRegex(petri.ArchiveError, f"cannot write '{folder}/no/a.petri': "):
+                petri.Session("!x\n").archive(Path(folder) / "no/a.petri")
 
     def test_names_that_are_missing_are_reported_with_those_that_exist(self):
         session = petri.Session("let A=A or 1\n!physics state=:s dimensions=1\n    !particle id=1\n")

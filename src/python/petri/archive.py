@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import functools
 import os
 from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Union
@@ -63,10 +64,11 @@ def _take(pointer: Any, session: Any = None) -> Any:
     return ffi.gc(pointer, lambda p, session=session: lib.petri_archive_close(ffi.new("PetriArchive **", p)))
 
 
-def _check(pointer: Any) -> None:
+def _check(pointer: Any, intent: str = "") -> None:
+    """Raises ArchiveError if the archive has a problem. `intent` is what the call wanted to do, such as "cannot read 'x': "."""
     problem = lib.petri_archive_problem(pointer)
     if problem:
-        raise ArchiveError(_text(problem))
+        raise ArchiveError(intent + _text(problem))
 
 
 class Recording:
@@ -79,7 +81,7 @@ class Recording:
         options.keyframe_every = keyframe_every
         options.digest_every = digest_every
         self._c = _take(create(session, _file_name(path), options), session)
-        _check(self._c)
+        _check(self._c, f"cannot write {os.fspath(path)!r}: ")
 
     def note(self, text: str) -> None:
         """Adds a note to the archive."""
@@ -103,8 +105,11 @@ class Archive:
     """An archive of a run: `petri.Archive("run.petri").session(100)` is a session in frame 100 of it."""
 
     def __init__(self, path: Union[str, os.PathLike], memory_limit: int = 0):
-        self._c = _take(lib.petri_archive_open(_file_name(path), memory_limit))
-        _check(self._c)
+        name = _file_name(path)
+        if not os.path.exists(path):
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.fspath(path))
+        self._c = _take(lib.petri_archive_open(name, memory_limit))
+        _check(self._c, f"cannot read {os.fspath(path)!r}: ")
 
     @property
     def info(self) -> Dict[str, Any]:

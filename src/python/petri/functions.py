@@ -28,6 +28,8 @@ class Functions:
         self._session._c = self._session.state._session = ffi.NULL if calling else self.pointer
 
     def _add(self, name: str, function: Callable) -> None:
+        if not callable(function):
+            raise TypeError(f"functions[{name!r}] must be a function, not {function!r}")
         defaults = [parameter.default for parameter in inspect.signature(function).parameters.values()
                     if parameter.kind is not parameter.VAR_POSITIONAL]
         handle = ffi.new_handle((self, function, defaults))

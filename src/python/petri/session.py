@@ -207,7 +207,7 @@ class Session:
         try:
             tuning.neighbours = getattr(lib, f"PETRI_NEIGHBOURS_{wanted.neighbours.upper()}")
         except AttributeError:
-            raise ValueError(f"invalid options: {wanted}") from None
+            raise ValueError(f"neighbours must be 'auto', 'never' or 'always', not {wanted.neighbours!r}") from None
         keep = []
         for name in ("read_folders", "write_folders"):
             folders = [os.fsencode(folder) for folder in getattr(wanted, name)]
@@ -392,6 +392,8 @@ class Session:
 
     def rewind(self, snapshot: Snapshot) -> None:
         """Returns to the end of the snapshot's frame. Recomputed frames are bit-identical."""
+        if not isinstance(snapshot, Snapshot):
+            raise TypeError(f"rewind needs a snapshot of this session, not {snapshot!r}")
         if snapshot._session is not self._c:
             raise ValueError("the snapshot belongs to another session")
         self._call(lib.petri_rewind, snapshot._c)
