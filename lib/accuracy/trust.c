@@ -125,7 +125,8 @@ static PetriStatus inspect_systems(Trust *trust, const uint64_t *steps) {
     PetriSystem system;
     PetriForce force;
     PetriStatus status = PETRI_OK;
-    for (size_t number = 0; status == PETRI_OK && petri_system(trust->session, number, &system, sizeof system); number++) {
+    for (size_t number = 0; status == PETRI_OK && petri_system(trust->session, number, &system, sizeof system);
+         number++) {
         char expression[VALUE_BYTES];
         PetriEvaluation clock = {.number = 0};
         for (uint32_t i = 0; petri_system_force(trust->session, number, i, &force, sizeof force); i++)

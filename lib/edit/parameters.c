@@ -80,7 +80,6 @@ static PetriStatus find_parameter(PetriSession *session, void *context) {
 bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter, size_t size) {
     PetriParameter found;
     ParameterRequest request = {number, &found};
-    return session && parameter && session->config.program &&
-           session_query(session, find_parameter, &request) &&
+    return session && parameter && session->config.program && session_query(session, find_parameter, &request) &&
            host_struct_write(parameter, size, &found, sizeof found);
 }

@@ -369,7 +369,8 @@ static void test_queries_leave_an_interrupt_to_the_next_call(void **state) {
     PetriForce force;
     uint32_t particle;
     player_run(player,
-               "let N=N or 3\n!physics state=:a dimensions=2\n    for i in ..N\n        !particle id=i\n    !drag\n", 3);
+               "let N=N or 3\n!physics state=:a dimensions=2\n    for i in ..N\n        !particle id=i\n    !drag\n",
+               3);
     petri_interrupt(player->session);
     assert_true(petri_system(player->session, 0, &system, sizeof system));
     assert_true(petri_parameter(player->session, 0, &parameter, sizeof parameter));
