@@ -166,7 +166,7 @@ test('the grid says what is missing: parameters, a value that has no effect, a s
         const picture = '!window size=200;100\n    !canvas\n        !rect size=(20*N);50 fill=true\n';
         await loaded(page, `let N=7\n${picture}`);
         await page.click('#grid-open');
-        await page.waitForFunction(() => /no parameters with a range/.test(document.getElementById('grid-status').textContent));
+        await page.waitForFunction(() => /no parameters with a range/.test(document.getElementById('grid-status')?.textContent));
         await page.keyboard.press('Escape');
         await loaded(page, `let N=N or 1 -- 0..3\n${picture}`);
         await page.waitForSelector('#parameter-N');

@@ -65,7 +65,8 @@ test('the gallery draws samples, moves the one under the pointer, and opens it',
 }));
 
 test('the gallery shows the pictures of the manual, and computes one that cannot be loaded', options, () => opened('', {
-    expected: /Failed to load resource|willReadFrequently/,
+    settings: { serviceWorkers: 'block' }, // its requests would not be seen
+    expected: /Failed to load resource|willReadFrequently|Service Worker registration blocked/,
     use: async page => {
         const loaded = new Set();
         await page.route('**/manual/pictures/*', route => {

@@ -87,7 +87,7 @@ test('the command names what is missing', ways, () => {
     const { status, stderr } = spawnSync(petri, ['link', script, '--html', file],
         { encoding: 'utf8', env: { ...env, PETRI_STANDALONE: join(scratch, 'absent.html') } });
     assert.equal(status, 1);
-    assert.match(stderr, /standalone\.html, is not installed; run '\.\/dev web' and then '\.\/dev install', or use the npm package/);
+    assert.match(stderr, /standalone\.html, is not installed; copy it from petri-[\d.]+-page\.tar\.xz .* and set PETRI_STANDALONE/);
     assert.equal(existsSync(file), false);
 });
 

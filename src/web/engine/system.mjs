@@ -56,10 +56,11 @@ const sleep = milliseconds => Atomics.wait(sleeper, 0, 0, milliseconds);
 
 // An open file, which several descriptors can share.
 class OpenFile {
-    constructor(real, { path, flags = 0, folder = false, random = false, seekable = false } = {}) {
+    constructor(real, { path, flags = 0, given = false, folder = false, random = false, seekable = false } = {}) {
         this.real = real; // descriptor of Node.js; -1: a folder or /dev/urandom in Windows
         this.path = path;
         this.flags = flags;
+        this.given = given; // the caller closes it
         this.folder = folder;
         this.random = random; // /dev/urandom in Windows
         this.position = seekable ? 0 : null; // null: the system's position, as of pipes
@@ -83,7 +84,7 @@ export class System {
         this.windows = windows;
         this.procfs = procfs;
         this.folder = folder;
-        this.files = new Map(files.map((real, number) => [number, new OpenFile(real, { flags: number ? 1 : 0 })]));
+        this.files = new Map(files.map((real, number) => [number, new OpenFile(real, { flags: number ? 1 : 0, given: true })]));
         this.start = start;
         this.pending = pending;
         this.terminal = terminal;
@@ -215,7 +216,7 @@ export class System {
     close(descriptor) {
         const file = this.find(descriptor);
         this.files.delete(descriptor);
-        if (--file.users === 0 && file.real > 2)
+        if (--file.users === 0 && file.real > 2 && !file.given)
             fs.closeSync(file.real);
     }
 
