@@ -47,10 +47,12 @@ export function runCommand(module, options) {
 }
 
 // Runs another instance for `petri test` or `petri sweep`, without standard input. Without `output`, its output is discarded. Returns its
-// status as waitpid does.
+// status as waitpid does. If it starts instances, too, such as a session that records one, they run in its thread.
 function runJob(module, options, { output, errors, ...job }) {
-    const nothing = fs.openSync(options.windows ? '\\\\.\\nul' : '/dev/null', 'r+');
-    const { status, signal } = runCommand(module, { ...options, ...job, files: [nothing, output ?? nothing, errors ?? nothing] });
+    const nothing = fs.openSync(options.windows ? '\\\\.\\nul' : '/dev/null', 'r+'), ended = [];
+    const start = ({ id, ...inner }) => ended.push({ id, status: runJob(module, options, inner) });
+    const files = [nothing, output ?? nothing, errors ?? nothing];
+    const { status, signal } = runCommand(module, { ...options, ...job, files, start, receive: () => ended.shift() ?? null });
     fs.closeSync(nothing);
     return signal ?? status << 8;
 }
