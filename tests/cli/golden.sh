@@ -172,6 +172,7 @@ cp g/a.fl g/lonely.fl
 cp g/a.fl g/below/d.fl
 printf '# run --frames 1 --print tree\n@0 time=0 beat=0\n!n a=1\n' >g/below/d.golden
 petri test --jobs 3 g
+sed -i "s|accept: $petri |accept: petri |" out # in Node.js, the program has no path
 check "results come in the order of the paths" out_is "ok g/a.fl
 ok g/b.fl
 FAIL g/below/d.fl
@@ -182,7 +183,7 @@ g/below/d.golden:3: error: frame 0: expected !n a=1, got !n a=0
      @0 time=0 beat=0
     -!n a=1
     +!n a=0
-    to accept: $petri test --update g/below/d.golden
+    to accept: petri test --update g/below/d.golden
 ok g/c.fl
 3 passed, 1 failed, 1 script without a test"
 check "one failure makes the suite fail" status_is 1
