@@ -5,6 +5,11 @@ present=$(sed -n 's/#define SPEC_VERSION "\(.*\)"/\1/p' "$root/lib/base/spec.h")
 # explained SENTENCE: the last run found a difference, which this change of the specification causes.
 explained() { status_is 1 && has out "the specification has changed since" && has out "$1"; }
 not_explained() { status_is 1 && has out "to compare the forces"; }
+# check_report REPORT SCRIPT: runs the program that checks a report without this program's code.
+check_report() {
+    "$CHECK_REPORT" "$@" >out 2>err
+    status=$?
+}
 
 if petri run plain.fl --frames 1 --archive plain.petri && status_is 0; then
     for file in "$releases"/*/*.petri; do
@@ -55,43 +60,36 @@ END
     petri run ball.fl --quiet --frames 90 --every 89 --print digest
     check "the digests are those of the run" eval \
         'for digest in $(sed -n "s/^= //p" out); do has report.txt "$digest"; done'
-    "$CHECK_REPORT" report.txt ball.fl >out 2>err
-    status=$?
+    check_report report.txt ball.fl
     check "a program without other code of petri checks the report" eval 'status_is 0 && has out "frame 89: equal"'
     sed 's/^frame 89 ./frame 89 x/' report.txt >forged.txt
-    "$CHECK_REPORT" forged.txt ball.fl >out 2>err
-    status=$?
+    check_report forged.txt ball.fl
     check "it finds a forged digest" eval 'status_is 1 && has out "frame 89: differs"'
     for lines in 1 6 $((body - 1)); do
         head -n "$lines" report.txt >cut.txt
-        "$CHECK_REPORT" cut.txt ball.fl >out 2>err
-        status=$?
+        check_report cut.txt ball.fl
         check "it rejects a report of $lines lines" eval 'status_is 2 && has err "does not end with its checksum"'
     done
     for i in $(seq 70); do echo "let P$i=P$i or 'text'"; done >many.fl
     sed 's/position=0;0.2/position=0;P70/' ball.fl >>many.fl
     petri run many.fl --quiet --frames 9 -D P70=3 -D P1="$(printf '%02000d' 0 | tr 0 y)" --archive many.petri
     petri archive verify many.petri --report many.txt
-    "$CHECK_REPORT" many.txt many.fl >out 2>err
-    status=$?
+    check_report many.txt many.fl
     check "it sets all parameters, also long ones" eval 'status_is 0 && has out "frame 8: equal"'
     sed 's/^parameter P70=3/parameter P70 3/' many.txt >forged.txt
-    "$CHECK_REPORT" forged.txt many.fl >out 2>err
-    status=$?
+    check_report forged.txt many.fl
     check "it reports a parameter without a value" eval 'status_is 2 && has err "cannot set a parameter: P70 3"'
     printf '.archive given.petri\n.step 5\n.save given.state\n.step 3\n.restore given.state\n.step 5\n' >typed
     "$petri" repl ball.fl <typed >out 2>err
     petri archive verify given.petri --report given.txt
-    "$CHECK_REPORT" given.txt ball.fl >out 2>err
-    status=$?
+    check_report given.txt ball.fl
     check "it cannot check a run with a state that was given" eval 'status_is 2 && has err "only its archive has"'
     cp ball.petri kept.petri
     petri archive verify ball.petri --report ball.petri
     check "a report does not replace an archive" eval 'status_is 2 && has err "it is an archive" && cmp ball.petri kept.petri'
     petri archive verify "$releases/0.3/floor.petri" --spec 0.3 --report old.txt
     petri archive unpack "$releases/0.3/floor.petri" floor
-    "$CHECK_REPORT" old.txt floor/floor.fl >out 2>err
-    status=$?
+    check_report old.txt floor/floor.fl
     check "it computes by the rules in the report" eval 'status_is 0 && has out "frame 39: equal"'
     petri archive verify "$releases/0.3/floor.petri" --report bad.txt
     check "a run that differs has no report" eval 'status_is 1 && ! [ -e bad.txt ]'
